@@ -1,0 +1,66 @@
+"""Errors that a user can act on; each knows the documented exit code it ends with."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+
+class ExitCode(IntEnum):
+    """Exit codes of every command."""
+
+    DONE = 0
+    CHECK_FAILED = 1
+    USAGE = 2
+    BAD_INPUT = 3
+    NOT_COMPLETED = 4
+
+
+class ErdctlError(Exception):
+    """Base of all errors with a one-line message for the user."""
+
+    exit_code: ExitCode = ExitCode.NOT_COMPLETED
+
+
+class CheckFailed(ErdctlError):
+    """A check that the user asked for (`--fail-above`, `--fail-on-mismatch`) failed."""
+
+    exit_code = ExitCode.CHECK_FAILED
+
+
+class UsageProblem(ErdctlError):
+    """The command line asks for something that makes no sense."""
+
+    exit_code = ExitCode.USAGE
+
+
+class InputProblem(ErdctlError):
+    """A log or a JSON document cannot be used as it is.
+
+    message : what was found, what was expected, what to do next
+    file, row, column : where; `row` is the 1-based line of a CSV file (header = line 1) or the
+    1-based data row of a binary table
+    """
+
+    exit_code = ExitCode.BAD_INPUT
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        file: str | None = None,
+        row: int | None = None,
+        column: str | None = None,
+    ) -> None:
+        place = [f"row {row}"] if row is not None else []
+        if column is not None:
+            place.append(f"column '{column}'")
+        head = [file] if file else []
+        if place:
+            head.append(", ".join(place))
+        super().__init__(": ".join([*head, message]))
+
+
+class ComputationProblem(ErdctlError):
+    """The computation could not be completed (no convergence, full disk, out of memory)."""
+
+    exit_code = ExitCode.NOT_COMPLETED
