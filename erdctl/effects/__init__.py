@@ -1,0 +1,52 @@
+"""The catalogue of physical effects: one file each, found by its file name.
+
+A file `erdctl/effects/NAME.py` holds a docstring, one pure function and `EFFECT`. Other packages
+add effects through the entry-point group `erdctl.effects` (name = the effect's, value = the object).
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import import_module
+from importlib.util import find_spec
+from pkgutil import iter_modules
+
+from erdctl.effect import Effect
+from erdctl.errors import InputProblem
+
+GROUP = "erdctl.effects"
+
+
+@cache
+def names() -> tuple[str, ...]:
+    """Names of all effects, the package's own first."""
+    from importlib.metadata import entry_points
+
+    own = sorted(m.name for m in iter_modules(__path__))
+    others = sorted(e.name for e in entry_points(group=GROUP))
+    return tuple(dict.fromkeys([*own, *others]))
+
+
+@cache
+def get(name: str) -> Effect:
+    """The effect of that name; only its own file is imported.
+
+    Raises InputProblem, with the names there are, if the catalogue has none of that name.
+    """
+    if name.isidentifier() and find_spec(f"{__name__}.{name}") is not None:
+        found = import_module(f"{__name__}.{name}").EFFECT
+    else:
+        from importlib.metadata import entry_points
+
+        matches = entry_points(group=GROUP, name=name)
+        if not matches:
+            raise InputProblem(f"unknown effect '{name}'; known are {', '.join(names())}")
+        found = next(iter(matches)).load()
+    if not isinstance(found, Effect) or found.name != name:
+        raise InputProblem(f"effect '{name}' does not declare itself under that name")
+    return found
+
+
+def catalogue() -> tuple[Effect, ...]:
+    """Every effect."""
+    return tuple(get(name) for name in names())

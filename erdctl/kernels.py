@@ -1,0 +1,74 @@
+"""Recurrences that several physical models share.
+
+NumPy only: `simulate` and `validate` start thousands of times in batch scripts, and importing
+scipy.signal or a compiler costs several times what these functions take on a whole log.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from erdctl.recording import Array, Index
+
+# exp(LIMIT) stays far from overflow, so a segment may decay by that much before a restart.
+LIMIT = 300.0
+
+
+def first_order(exponent: Array | float, source: Array, initial: Array, starts: Index) -> Array:
+    """Linear first-order recurrence with its own decay at every step.
+
+        y[s] = initial at the first sample s of a record;  y[i+1] = exp(-e[i]) y[i] + source[i]
+
+    exponent : (n,) or one number, e >= 0 [1], the step divided by the time constant
+    source : (n,) [unit of y], the last value of each record is not used
+    initial : (r,) first value of each record;  starts : (r + 1,) offsets of the records
+    Returns (n,).
+
+    With E the running sum of e, y[i] = exp(-E[i]) (y[s] + sum source[j] exp(E[j+1])): a cumulative
+    sum, restarted before exp(E) grows too large. The latest terms dominate each sum, so rounding
+    stays at machine precision.
+
+    Check: e = ln 2, source = 1, y[0] = 0 gives 0, 1, 1.5, 1.75.
+    """
+    out = np.empty_like(source)
+    bounds = starts.tolist()
+    for record, (a, b) in enumerate(zip(bounds[:-1], bounds[1:], strict=True)):
+        out[a] = initial[record]
+        if isinstance(exponent, float):
+            _uniform(exponent, source[a:b], out[a:b])
+        else:
+            _varying(exponent[a:b], source[a:b], out[a:b])
+    return out
+
+
+def _uniform(e: float, source: Array, out: Array) -> None:
+    """Fill out[1:] where every step decays alike: one table of powers serves all segments."""
+    n = len(out)
+    length = max(1, min(n, 4096, int(LIMIT / e) if e > 0 else n))
+    growth = np.exp(e * np.arange(1, length + 1))
+    decay = np.exp(-e * np.arange(1, length + 1))
+    work = np.empty(length)
+    for a in range(0, n - 1, length):
+        m = min(length, n - 1 - a)
+        np.multiply(source[a : a + m], growth[:m], out=work[:m])
+        work[0] += out[a]
+        np.cumsum(work[:m], out=work[:m])
+        np.multiply(work[:m], decay[:m], out=out[a + 1 : a + 1 + m])
+
+
+def _varying(e: Array, source: Array, out: Array) -> None:
+    """Fill out[1:] where steps decay differently (sampling or time constant vary)."""
+    n = len(out)
+    total = np.cumsum(e)
+    a = 0
+    while a < n - 1:
+        base = float(total[a - 1]) if a else 0.0
+        # At least one step, even if that one alone decays by more than LIMIT.
+        b = min(max(int(np.searchsorted(total, base + LIMIT)), a + 1), n - 1)
+        span = np.minimum(np.cumsum(e[a:b]), 2 * LIMIT)
+        growth = np.exp(span)
+        work = source[a:b] * growth
+        work[0] += out[a]
+        np.cumsum(work, out=work)
+        np.divide(work, growth, out=out[a + 1 : b + 1])
+        a = b
