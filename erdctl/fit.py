@@ -8,30 +8,22 @@ the search runs over the few shape parameters only. Nothing here names an effect
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 
+from erdctl.blocks import Block
 from erdctl.effect import Values
 from erdctl.model import Model
+from erdctl.noise import ColouredNoise
 from erdctl.recording import Array
-from erdctl.score import ColouredNoise
 from erdctl.signals import Signals
 
 DIFFERENCE = 1e-6  # relative step of a one-sided difference
 HUBER = 1.345  # tuning constant for 95 % efficiency under normal noise
 SINGULAR = 1e-10  # relative eigenvalue of the scaled normal matrix below which a direction is flat
-
-
-class Block(NamedTuple):
-    """A stretch of data: signals, measured force (n,) [N] and weight of each sample (n,) >= 0."""
-
-    signals: Signals
-    force: Array
-    weight: Array
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -64,7 +56,7 @@ class Fit:
         """(p, p) correlation of the free parameters."""
         scale = np.sqrt(np.diag(self.covariance))
         scale = np.where(scale > 0, scale, 1.0)
-        return self.covariance / np.outer(scale, scale)
+        return np.asarray(self.covariance / np.outer(scale, scale))
 
 
 def fit(
@@ -193,13 +185,11 @@ class _Projected:
 
 @dataclass(frozen=True)
 class _Sums:
-    """What one block contributes: J'WJ, J'Wr, r'Wr, number of samples, and the residual."""
+    """What one block contributes: J'WJ, J'Wr and J'WCWJ."""
 
     normal: Array
     gradient: Array
-    square: float
-    samples: int
-    noise: ColouredNoise
+    meat: Array
 
 
 def assess(
@@ -222,37 +212,33 @@ def assess(
     """
     held = set(fixed)
     free = tuple(n for n in model.quantities if n not in held)
+    with ThreadPoolExecutor(threads) as pool:
 
-    def sums(at: Values) -> list[_Sums]:
-        def one(block: Block) -> _Sums:
-            return _sum_up(model, block, at, free, robust)
+        def residuals(at: Values) -> tuple[list[Block], float, ColouredNoise]:
+            """The blocks with robust weights, their weighted square, and the noise in them."""
+            found = list(pool.map(lambda b: _residual(model, b, at, robust), blocks))
+            noise = ColouredNoise.pooled([n for _, _, n in found])
+            return [b for b, _, _ in found], sum(s for _, s, _ in found), noise
 
-        if len(blocks) == 1:
-            return [one(blocks[0])]
-        with ThreadPoolExecutor(threads) as pool:
-            return list(pool.map(one, blocks))
-
-    parts = sums(values)
-    normal, gradient = sum(p.normal for p in parts), sum(p.gradient for p in parts)
-    inverse, flat = _inverse(np.asarray(normal), free)
-    moved = dict(values)
-    for name, move in zip(free, (inverse @ gradient).tolist(), strict=True):
-        q = model.quantities[name]
-        moved[name] = float(np.clip(values[name] + move, q.low, q.high))
-    square = sum(p.square for p in parts)
-    samples = sum(p.samples for p in parts)
-    noise = ColouredNoise.pooled([p.noise for p in parts])
-    meat = _meat(model, blocks, moved, free, noise, threads)
-    after = sum(_square(model, b, moved) for b in blocks)
-    if after > square or not np.isfinite(after):
-        moved, after = dict(values), square
+        weighted, before, noise = residuals(values)
+        parts = list(pool.map(lambda b: _sum_up(model, b, values, free, noise), weighted))
+        inverse, flat = _inverse(np.sum([p.normal for p in parts], axis=0), free)
+        step = inverse @ np.sum([p.gradient for p in parts], axis=0)
+        moved = dict(values)
+        for name, move in zip(free, step.tolist(), strict=True):
+            q = model.quantities[name]
+            moved[name] = float(np.clip(values[name] + move, q.low, q.high))
+        _, after, noise_after = residuals(moved)
+        if not after <= before:
+            moved, after, noise_after = dict(values), before, noise
+    samples = sum(int(np.count_nonzero(b.weight)) for b in blocks)
     return Fit(
         model=model,
         values=moved,
         free=free,
-        covariance=inverse @ meat @ inverse,
+        covariance=inverse @ np.sum([p.meat for p in parts], axis=0) @ inverse,
         rms=float(np.sqrt(after / max(samples - len(free), 1))),
-        noise=noise,
+        noise=noise_after,
         samples=samples,
         evaluations=evaluations,
         converged=converged,
@@ -278,46 +264,25 @@ def jacobian(model: Model, signals: Signals, values: Values, free: Sequence[str]
     return np.array(rows)
 
 
+def _residual(
+    model: Model, block: Block, values: Values, robust: bool
+) -> tuple[Block, float, ColouredNoise]:
+    residual = block.force - model.force(block.signals, values)
+    if robust:
+        block = block._replace(weight=block.weight * huber_weight(residual, block.weight))
+    square = float(np.dot(block.weight, residual * residual))
+    noise = ColouredNoise.of(residual * np.sqrt(block.weight), block.signals.starts)
+    return block, square, noise
+
+
 def _sum_up(
-    model: Model, block: Block, values: Values, free: Sequence[str], robust: bool
+    model: Model, block: Block, values: Values, free: Sequence[str], noise: ColouredNoise
 ) -> _Sums:
     J = jacobian(model, block.signals, values, free)
     residual = block.force - model.force(block.signals, values)
-    weight = block.weight
-    if robust:
-        weight = weight * huber_weight(residual, weight)
-    weighted = J * weight
-    return _Sums(
-        normal=weighted @ J.T,
-        gradient=weighted @ residual,
-        square=float(np.dot(weight, residual * residual)),
-        samples=int(np.count_nonzero(weight)),
-        noise=ColouredNoise.of(residual * np.sqrt(weight), block.signals.starts),
-    )
-
-
-def _meat(
-    model: Model,
-    blocks: Sequence[Block],
-    values: Values,
-    free: Sequence[str],
-    noise: ColouredNoise,
-    threads: int,
-) -> Array:
-    def one(block: Block) -> Array:
-        J = jacobian(model, block.signals, values, free) * block.weight
-        coloured = noise.colour(J, block.signals.starts)
-        return coloured @ coloured.T
-
-    if len(blocks) == 1:
-        return one(blocks[0])
-    with ThreadPoolExecutor(threads) as pool:
-        return np.asarray(sum(pool.map(one, blocks)))
-
-
-def _square(model: Model, block: Block, values: Values) -> float:
-    residual = block.force - model.force(block.signals, values)
-    return float(np.dot(block.weight, residual * residual))
+    weighted = J * block.weight
+    coloured = noise.colour(weighted, block.signals.starts)
+    return _Sums(normal=weighted @ J.T, gradient=weighted @ residual, meat=coloured @ coloured.T)
 
 
 def _inverse(normal: Array, free: Sequence[str]) -> tuple[Array, tuple[tuple[str, ...], ...]]:
@@ -327,13 +292,6 @@ def _inverse(normal: Array, free: Sequence[str]) -> tuple[Array, tuple[tuple[str
     w, v = np.linalg.eigh(normal / np.outer(scale, scale))
     keep = w > SINGULAR * w[-1]
     inverse = (v[:, keep] / w[keep]) @ v[:, keep].T / np.outer(scale, scale)
-    flat = [
-        tuple(free[i] for i in np.flatnonzero(np.abs(v[:, j]) > 0.1))
-        for j in np.flatnonzero(~keep)
-    ]
+    names = np.array(free)
+    flat = [tuple(names[np.abs(v[:, j]) > 0.1].tolist()) for j in np.flatnonzero(~keep)]
     return inverse, tuple(flat)
-
-
-def with_values(found: Fit, values: Mapping[str, float]) -> Fit:
-    """The same fit with some values replaced."""
-    return replace(found, values={**found.values, **values})

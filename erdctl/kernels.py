@@ -6,6 +6,8 @@ scipy.signal or a compiler costs several times what these functions take on a wh
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from erdctl.recording import Array, Index
@@ -32,7 +34,7 @@ def first_order(exponent: Array | float, source: Array, initial: Array, starts: 
     """
     out = np.empty_like(source)
     bounds = starts.tolist()
-    for record, (a, b) in enumerate(zip(bounds[:-1], bounds[1:], strict=True)):
+    for record, (a, b) in enumerate(pairwise(bounds)):
         out[a] = initial[record]
         if isinstance(exponent, float):
             _uniform(exponent, source[a:b], out[a:b])

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ Index = npt.NDArray[np.intp]
 
 COMPRESSION, RELEASE = 0, 1
 DIRECTIONS = ("compression", "release")
+CHANNELS = ("t", "x", "xdot", "duty", "force", "temperature")
 
 
 @dataclass(frozen=True)
@@ -50,7 +52,7 @@ class Recording:
     sources: tuple[Source, ...] = ()
 
     def __post_init__(self) -> None:
-        for channel in (self.t, self.x, self.xdot, self.duty, self.force, self.temperature):
+        for channel in (getattr(self, name) for name in CHANNELS):
             if channel is not None:
                 if channel.shape != (self.starts[-1],):
                     raise ValueError("every channel must have starts[-1] samples")
@@ -65,7 +67,7 @@ class Recording:
     def slices(self) -> list[slice]:
         """One slice of the samples for every record."""
         bounds = self.starts.tolist()
-        return [slice(a, b) for a, b in zip(bounds[:-1], bounds[1:], strict=True)]
+        return [slice(a, b) for a, b in pairwise(bounds)]
 
     @cached_property
     def step(self) -> Array:
@@ -77,26 +79,25 @@ class Recording:
 
     def select(self, records: Sequence[int]) -> Recording:
         """The given records, in the given order."""
-        slices = self.slices
-        parts = [slices[i] for i in records]
-        return self._gather(parts, [self.names[i] for i in records])
+        chosen = [self.slices[i] for i in records]
+        starts = np.cumsum([0, *(p.stop - p.start for p in chosen)]).astype(np.intp)
+        rows = np.concatenate([np.arange(p.start, p.stop) for p in chosen])
+        return self.take(rows, starts, [self.names[i] for i in records])
 
-    def window(self, part: slice, name: str = "") -> Recording:
-        """The samples of one slice, as a recording of a single record."""
-        return self._gather([part], [name])
+    def window(
+        self, part: slice, starts: Index | None = None, names: Sequence[str] = ("",)
+    ) -> Recording:
+        """The samples of one slice (no copy), as one record unless `starts` divides them."""
+        whole = np.array([0, part.stop - part.start], dtype=np.intp)
+        return self.take(part, whole if starts is None else starts, names)
 
-    def _gather(self, parts: list[slice], names: Sequence[str]) -> Recording:
+    def take(self, rows: slice | Index, starts: Index, names: Sequence[str]) -> Recording:
+        """Chosen samples, divided into records by the offsets `starts`."""
+
         def pick(channel: Array | None) -> Array | None:
-            if channel is None:
-                return None
-            return channel[parts[0]] if len(parts) == 1 else np.concatenate([channel[p] for p in parts])
+            return None if channel is None else channel[rows]
 
-        channels: dict[str, Any] = {
-            name: pick(getattr(self, name))
-            for name in ("t", "x", "xdot", "duty", "force", "temperature")
-        }
-        lengths = [p.stop - p.start for p in parts]
-        starts = np.concatenate([[0], np.cumsum(lengths)]).astype(np.intp)
+        channels: dict[str, Any] = {name: pick(getattr(self, name)) for name in CHANNELS}
         return replace(self, starts=starts, names=tuple(names), **channels)
 
 
@@ -112,13 +113,9 @@ def concatenate(recordings: Sequence[Recording]) -> Recording:
     offsets = np.cumsum([0, *(len(r) for r in recordings)])
     starts = [r.starts[:-1] + o for r, o in zip(recordings, offsets[:-1], strict=True)]
     notes = dict.fromkeys(r.xdot_note for r in recordings)
+    channels: dict[str, Any] = {name: join(name) for name in CHANNELS}
     return Recording(
-        t=join("t"),
-        x=join("x"),
-        xdot=join("xdot"),
-        duty=join("duty"),
-        force=join("force"),
-        temperature=join("temperature"),
+        **channels,
         starts=np.concatenate([*starts, offsets[-1:]]).astype(np.intp),
         names=tuple(name for r in recordings for name in r.names),
         xdot_note="; ".join(notes),

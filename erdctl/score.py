@@ -1,20 +1,20 @@
-"""How well a model reproduces a recording: NRMSE and its splits, and the colour of the residual."""
+"""How well a model reproduces a recording: NRMSE and its splits."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import Enum
+from enum import StrEnum
 
 import numpy as np
+import numpy.typing as npt
 
-from erdctl.recording import DIRECTIONS, Array, Index, Recording
+from erdctl.recording import DIRECTIONS, Array, Recording
 
 MAX_LEVELS = 24  # more distinct duty levels than that are a continuous control, and are binned
 BIN = 0.05
 
 
-class Normalise(str, Enum):
+class Normalise(StrEnum):
     """Denominator of the NRMSE; the paper does not state its own."""
 
     RANGE = "range"
@@ -86,7 +86,7 @@ def validate(
     if force is None:
         raise ValueError("the recording has no measured force")
 
-    def score(chosen: Array | slice) -> Score:
+    def score(chosen: npt.NDArray[np.bool_] | slice) -> Score:
         return nrmse(force[chosen], modelled[chosen], normalise)
 
     levels = duty_levels(recording.duty)
@@ -101,65 +101,3 @@ def validate(
             name: score(part) for name, part in zip(recording.names, recording.slices, strict=True)
         },
     )
-
-
-@dataclass(frozen=True, eq=False)
-class ColouredNoise:
-    """An autoregressive model of a residual: r[i] = sum a[k] r[i-k] + e[i], e white.
-
-    autocovariance : (m + 1,) sums over the samples of r[i] r[i+k], from which it is made
-    """
-
-    autocovariance: Array
-    samples: int
-    coefficients: Array
-    innovation: float
-
-    @classmethod
-    def of(cls, residual: Array, starts: Index, max_order: int = 24) -> ColouredNoise:
-        """Model of a residual (n,) [N] of several records (offsets `starts`)."""
-        sums = np.zeros(max_order + 1)
-        for a, b in zip(starts[:-1], starts[1:], strict=True):
-            r = residual[a:b]
-            for k in range(min(max_order + 1, len(r))):
-                sums[k] += np.dot(r[: len(r) - k], r[k:])
-        return cls._solve(sums, int(starts[-1]))
-
-    @classmethod
-    def pooled(cls, parts: Sequence[ColouredNoise]) -> ColouredNoise:
-        """One model of several residuals."""
-        total = np.sum([p.autocovariance for p in parts], axis=0)
-        return cls._solve(total, sum(p.samples for p in parts))
-
-    @classmethod
-    def _solve(cls, sums: Array, samples: int) -> ColouredNoise:
-        """Levinson-Durbin recursion, the order by Akaike's criterion."""
-        gamma = sums / max(samples, 1)
-        best = (np.empty(0), float(gamma[0]))
-        if gamma[0] <= 0.0:
-            return cls(sums, samples, best[0], 0.0)
-        a, error = np.empty(0), float(gamma[0])
-        best_cost = samples * np.log(error)
-        for order in range(1, len(gamma)):
-            reflection = (gamma[order] - float(np.dot(a, gamma[order - 1 : 0 : -1]))) / error
-            if not abs(reflection) < 1.0:
-                break
-            a = np.concatenate([a - reflection * a[::-1], [reflection]])
-            error *= 1.0 - reflection**2
-            cost = samples * np.log(error) + 2.0 * order
-            if cost < best_cost:
-                best, best_cost = (a, error), cost
-        return cls(sums, samples, *best)
-
-    def colour(self, rows: Array, starts: Index) -> Array:
-        """Rows (p, n) filtered so that their products sum to J' C J for this noise's covariance C."""
-        if self.coefficients.size == 0:
-            return rows * np.sqrt(self.innovation)
-        from scipy.signal import lfilter
-
-        denominator = np.concatenate([[1.0], -self.coefficients])
-        parts = [
-            lfilter([np.sqrt(self.innovation)], denominator, rows[:, a:b], axis=1)
-            for a, b in zip(starts[:-1], starts[1:], strict=True)
-        ]
-        return np.concatenate(parts, axis=1)

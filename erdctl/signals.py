@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -57,7 +58,7 @@ class Signals:
         still = self.xdot == 0
         if not still.any():
             return up
-        for a, b in zip(self.starts[:-1], self.starts[1:], strict=True):
+        for a, b in pairwise(self.starts.tolist()):
             moving = np.flatnonzero(~still[a:b])
             if moving.size == 0:
                 up[a:b] = True
@@ -94,6 +95,31 @@ class Signals:
         # The mean over a record, since each single step carries the rounding of its two times.
         a, b = int(self.starts[0]), int(self.starts[1]) - 1
         return float(self.t[b] - self.t[a]) / (b - a) if b > a else high
+
+    @cached_property
+    def since_duty_step(self) -> Array:
+        """(n,) time since the duty last changed in this record [s]; inf before it first does."""
+        changed = np.empty(len(self), dtype=bool)
+        np.not_equal(self.duty[1:], self.duty[:-1], out=changed[1:])
+        changed[self.starts[:-1]] = False
+        return self._since(changed)
+
+    @cached_property
+    def since_reversal(self) -> Array:
+        """(n,) time since the direction last changed in this record [s]; inf before that."""
+        changed = np.zeros(len(self), dtype=bool)
+        changed[self.turns[0] + 1] = True
+        return self._since(changed)
+
+    def _since(self, event: npt.NDArray[np.bool_]) -> Array:
+        """(n,) time since the last event in the same record [s], inf before the first."""
+        mark = np.where(event, np.arange(len(self)), -1)
+        out = np.full(len(self), np.inf)
+        for a, b in pairwise(self.starts.tolist()):
+            last = np.maximum.accumulate(mark[a:b])
+            seen = last >= 0
+            out[a:b][seen] = self.t[a:b][seen] - self.t[last[seen]]
+        return out
 
     def per_direction(self, compression: float, release: float) -> Array | float:
         """The value that applies at each sample: (n,), or one number if both are equal."""

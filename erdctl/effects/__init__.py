@@ -1,7 +1,7 @@
 """The catalogue of physical effects: one file each, found by its file name.
 
 A file `erdctl/effects/NAME.py` holds a docstring, one pure function and `EFFECT`. Other packages
-add effects through the entry-point group `erdctl.effects` (name = the effect's, value = the object).
+add effects through the entry-point group `erdctl.effects`: the effect's name, and its object.
 """
 
 from __future__ import annotations

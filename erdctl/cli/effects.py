@@ -1,0 +1,68 @@
+"""`erdctl effects`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+
+def command(
+    name: Annotated[
+        str | None, typer.Argument(metavar="[NAME]", help="An effect; without it, the list.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="As JSON on stdout.")] = False,
+) -> None:
+    """Print the catalogue of physical effects: equation, parameters, source.
+
+    \b
+    Examples:
+      erdctl effects
+      erdctl effects coulomb_friction
+    """
+    from erdctl import effects
+    from erdctl.io import documents
+
+    chosen = effects.catalogue() if name is None else (effects.get(name),)
+    if as_json:
+        documents.write([_facts(e) for e in chosen], "-")
+    elif name is None:
+        width = max(len(e.name) for e in chosen)
+        for e in chosen:
+            print(f"{e.name.ljust(width)}  {e.stage.value:9} {e.title}")
+    else:
+        facts = _facts(chosen[0])
+        for key, value in facts.items():
+            if key != "parameters":
+                print(f"{key:10} {value}")
+        for p in facts["parameters"]:
+            print(f"{'parameter':10} {p['symbol']} [{p['unit']}] {p['title']},"
+                  f" {p['low']:g} to {p['high']:g}, off at {p['off']:g}")  # fmt: skip
+
+
+def _facts(effect: object) -> dict[str, list[dict[str, object]]]:
+    from erdctl.effect import Effect
+
+    assert isinstance(effect, Effect)
+    facts: dict[str, object] = {
+        "name": effect.name,
+        "title": effect.title,
+        "stage": effect.stage.value,
+        "equation": effect.equation,
+        "source": effect.source,
+        "validity": effect.validity,
+        "needs": effect.needs,
+        "shows": effect.signature,
+        "parameters": [
+            {
+                "symbol": q.symbol,
+                "unit": q.unit,
+                "title": q.title,
+                "low": q.low,
+                "high": q.high,
+                "off": q.off,
+            }
+            for q in effect.quantities
+        ],
+    }
+    return facts  # type: ignore[return-value]

@@ -1,0 +1,110 @@
+"""`erdctl identify`."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from erdctl.cli.options import Logs, Maps, Out
+
+if TYPE_CHECKING:
+    from erdctl.identify import Identification
+    from erdctl.parameters import Parameters
+
+
+class Method(StrEnum):
+    """Which of the two fits becomes the parameter values."""
+
+    JOINT = "joint"
+    TWO_STEP = "two-step"
+
+
+def command(
+    logs: Logs,
+    output: Out = "-",
+    maps: Maps = [],
+    method: Annotated[
+        Method, typer.Option(help="Fit all parameters together, or as the paper does (Sec. 4).")
+    ] = Method.JOINT,
+    robust: Annotated[bool, typer.Option("--robust", help="Weigh outliers down (Huber).")] = False,
+) -> None:
+    """Identify the paper's ER damper model from bench logs.
+
+    Fits by the paper's procedure and then all parameters together, with standard errors that hold
+    for correlated residuals. A parameter that the logs cannot identify is reported as such.
+
+    \b
+    Examples:
+      erdctl identify bench.parquet -o damper.json
+      erdctl identify a.csv b.csv --map "force=F_fl[N]" --map "x=Defl FL[mm]" -o damper.json
+      erdctl identify bench.csv | erdctl validate - other.csv
+    """
+    from erdctl.identify import identify
+    from erdctl.io.logs import read_logs
+    from erdctl.io.parameters import write_parameters
+    from erdctl.report.text import say
+
+    log = read_logs(logs, maps=maps, need_force=True, want_hash=True, report=say)
+    found = identify(log.recording, robust=robust)
+    parameters = _parameters(found, method, log.recording)
+    write_parameters(parameters, output)
+    _show(found, parameters)
+
+
+def _parameters(found: Identification, method: Method, recording: object) -> Parameters:
+    from dataclasses import replace
+
+    from erdctl.errors import InputProblem
+    from erdctl.io.parameters import provenance
+    from erdctl.parameters import Parameters
+    from erdctl.recording import Recording
+
+    assert isinstance(recording, Recording)
+    estimates = dict(found.joint)
+    if method is Method.TWO_STEP:
+        for name, e in estimates.items():
+            if e.identified and name not in found.two_step:
+                raise InputProblem(
+                    f"the paper's procedure cannot give {name} from these logs (no null-control"
+                    " data?); use --method joint"
+                )
+            if e.identified:
+                estimates[name] = replace(e, value=found.two_step[name], stderr=None)
+    fits = {
+        "joint": {
+            "rms": found.fit.rms,
+            "samples": found.fit.samples,
+            "evaluations": found.fit.evaluations,
+            "converged": found.fit.converged,
+        },
+        "two_step": {"rms": found.two_step_rms, "values": dict(found.two_step)},
+        "method": method.value,
+    }
+    return Parameters(
+        model=found.model,
+        estimates=estimates,
+        provenance=provenance(recording, found.fit.rms),
+        fits=fits,
+        warnings=found.warnings,
+    )
+
+
+def _show(found: Identification, parameters: Parameters) -> None:
+    from erdctl.report.text import number, say, table
+
+    rows = [
+        [
+            name,
+            e.unit,
+            number(e.value, 6),
+            number(e.stderr, 2),
+            number(found.two_step.get(name), 6),
+        ]
+        for name, e in parameters.estimates.items()
+    ]
+    title = f"Identified from {found.fit.samples} samples, residual {found.fit.rms:.4g} N rms"
+    table(title, ["parameter", "unit", "joint fit", "std. error", "paper's steps"], rows)
+    for line in [*parameters.caveats(), *parameters.warnings]:
+        say(line)

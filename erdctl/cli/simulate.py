@@ -1,0 +1,79 @@
+"""`erdctl simulate`."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Annotated
+
+import typer
+
+from erdctl.cli.options import Faults, Maps, Out, Params
+
+
+class Format(StrEnum):
+    """Formats that a table can be written in."""
+
+    CSV = "csv"
+    PARQUET = "parquet"
+    ARROW = "arrow"
+
+
+def command(
+    params: Params,
+    log: Annotated[
+        str | None, typer.Argument(metavar="[LOG]", help="Drive: a bench log; - is stdin.")
+    ] = None,
+    output: Out = "-",
+    drive: Annotated[
+        list[str],
+        typer.Option(
+            metavar="KIND:KEY=VALUE,...",
+            help="A described drive in place of LOG, e.g. sine:freq=1,amp=0.01,duty=0.2; kinds"
+            " sine, sweep, triangle, bumps, hold, noise. May be repeated: one record each.",
+        ),
+    ] = [],
+    fault: Faults = [],
+    maps: Maps = [],
+    format: Annotated[
+        Format | None, typer.Option(help="Format on stdout (CSV unless said).")
+    ] = None,
+) -> None:
+    """Simulate the damper force over a log or a described drive.
+
+    Writes the log's columns and `force_model`. A record starts with F_ER at the steady value of
+    its first sample; the duty is held from each sample to the next; sign(0) = 0.
+
+    \b
+    Examples:
+      erdctl simulate damper.json drive.csv -o out.parquet
+      erdctl simulate damper.json --drive sine:freq=1,amp=0.01,duty=0.2
+      erdctl simulate damper.json drive.csv --fault oil=0.5@15:31 --fault electrical=0.8@31:46
+      erdctl simulate damper.json drive.csv | erdctl validate -
+    """
+    from erdctl.errors import UsageProblem
+    from erdctl.io.parameters import read_parameters
+    from erdctl.io.tables import append_column, write_table
+    from erdctl.report.text import say
+    from erdctl.simulate import remarks, simulate
+
+    if (log is None) == (not drive):
+        raise UsageProblem("simulate needs either a LOG or --drive, e.g. --drive sine:freq=1")
+    if params == "-" and log == "-":
+        raise UsageProblem("PARAMS and LOG cannot both be stdin")
+    parameters = read_parameters(params)
+    if log is not None:
+        from erdctl.io.logs import read_logs
+
+        read = read_logs([log], maps=maps, need_force=False, keep_table=True, report=say)
+        recording, table = read.recording, read.table
+        assert table is not None
+    else:
+        from erdctl.drive import drives
+        from erdctl.io.tables import table_of
+
+        recording = drives(drive)
+        table = table_of(recording)
+    for line in remarks(parameters, recording):
+        say(line)
+    force = simulate(parameters, recording, fault)
+    write_table(append_column(table, "force_model", force), output, format and format.value)

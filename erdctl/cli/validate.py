@@ -1,0 +1,113 @@
+"""`erdctl validate`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from erdctl.cli.options import Maps
+
+if TYPE_CHECKING:
+    from erdctl.score import Score, Validation
+
+SCHEMA = "erdctl.validation/1"
+
+
+def command(
+    arguments: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="[PARAMS] LOG...",
+            help="Parameter file and logs; or one log that already has `force_model`.",
+        ),
+    ],
+    as_json: Annotated[bool, typer.Option("--json", help="Scores as JSON on stdout.")] = False,
+    fail_above: Annotated[
+        float | None,
+        typer.Option(metavar="X", help="Exit 1 if the NRMSE of any PWM level is above X."),
+    ] = None,
+    normalise: Annotated[
+        str, typer.Option(metavar="range|std|mean|rms", help="Denominator of the NRMSE.")
+    ] = "range",
+    maps: Maps = [],
+) -> None:
+    """Compare modelled and measured force: NRMSE per PWM level, direction and record.
+
+    NRMSE per PWM level = RMSE / (max - min of the measured force at that level); the paper does
+    not state its own denominator.
+
+    \b
+    Examples:
+      erdctl validate damper.json other.csv
+      erdctl validate damper.json other.csv --json --fail-above 0.1
+      erdctl simulate damper.json drive.csv | erdctl validate -
+    """
+    from erdctl.errors import CheckFailed, InputProblem, UsageProblem
+    from erdctl.io.logs import read_logs
+    from erdctl.report.text import say
+    from erdctl.score import Normalise, validate
+
+    if normalise not in list(Normalise):
+        raise UsageProblem(f"--normalise takes {', '.join(Normalise)}, not '{normalise}'")
+    if len(arguments) == 1:
+        log = read_logs(arguments, maps=maps, need_force=True, report=say)
+        modelled = log.force_model
+        if modelled is None:
+            raise InputProblem(
+                "the log has no column force_model; give a parameter file before it",
+                file=arguments[0],
+            )
+    else:
+        from erdctl.io.parameters import read_parameters
+        from erdctl.simulate import remarks, simulate
+
+        params, *logs = arguments
+        if params == "-" and "-" in logs:
+            raise UsageProblem("PARAMS and LOG cannot both be stdin")
+        parameters = read_parameters(params)
+        log = read_logs(logs, maps=maps, need_force=True, report=say)
+        for line in remarks(parameters, log.recording):
+            say(line)
+        modelled = simulate(parameters, log.recording)
+    found = validate(log.recording, modelled, Normalise(normalise))
+    if as_json:
+        from erdctl.io import documents
+
+        documents.write(_document(found), "-")
+    else:
+        _show(found)
+    if fail_above is not None:
+        over = [f"{d:g}: {s.nrmse:.4f}" for d, s in found.by_duty.items() if s.nrmse > fail_above]
+        if over:
+            raise CheckFailed(f"NRMSE above {fail_above:g} at PWM level {', '.join(over)}")
+
+
+def _document(found: Validation) -> dict[str, Any]:
+    def score(s: Score) -> dict[str, float]:
+        return {"nrmse": s.nrmse, "rms": s.rms, "samples": s.samples}
+
+    return {
+        "schema": SCHEMA,
+        "normalise": found.normalise.value,
+        **score(found.overall),
+        "nrmse_by_duty": [{"duty": d, **score(s)} for d, s in found.by_duty.items()],
+        "nrmse_by_direction": [{"direction": d, **score(s)} for d, s in found.by_direction.items()],
+        "nrmse_by_record": [{"record": r, **score(s)} for r, s in found.by_record.items()],
+    }
+
+
+def _show(found: Validation) -> None:
+    from erdctl.report.text import table
+
+    def row(label: str, s: Score) -> list[str]:
+        return [label, str(s.samples), f"{s.rms:.4g}", f"{s.nrmse:.4f}"]
+
+    header = ["", "samples", "RMSE [N]", "NRMSE"]
+    by = f"NRMSE over the {found.normalise.value} of the measured force"
+    rows = [row(f"{100 * d:g} %", s) for d, s in found.by_duty.items()]
+    rows.append(row("all", found.overall))
+    table(f"{by}, per PWM level", header, rows)
+    table(f"{by}, per direction", header, [row(d, s) for d, s in found.by_direction.items()])
+    if len(found.by_record) > 1:
+        table(f"{by}, per record", header, [row(r, s) for r, s in found.by_record.items()])

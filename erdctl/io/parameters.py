@@ -1,0 +1,187 @@
+"""The parameter file, `"schema": "erdctl.parameters/1"`."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import msgspec
+
+from erdctl import __version__, effects
+from erdctl.errors import InputProblem
+from erdctl.io import documents
+from erdctl.model import Model
+from erdctl.parameters import Estimate, Parameters
+from erdctl.paper import QUANTITIES
+from erdctl.quantity import Quantity
+from erdctl.recording import DIRECTIONS, Recording
+
+SCHEMA = "erdctl.parameters/1"
+
+
+class Value(msgspec.Struct, omit_defaults=True):
+    """One parameter: value, SI unit, standard error.
+
+    A parameter that the data do not identify has value null, the `reason`, and in `assumed` what a
+    simulation uses in its place.
+    """
+
+    value: float | None
+    unit: str | None = None
+    stderr: float | None = None
+    identified: bool = True
+    assumed: float | None = None
+    reason: str | None = None
+
+
+class Direction(msgspec.Struct):
+    """The paper's parameters for one direction of motion."""
+
+    k_nom: Value | float
+    c_vis: Value | float
+    T_d: Value | float
+    sigma: Value | float
+    beta: Value | float
+
+
+class ExtraEffect(msgspec.Struct):
+    """An effect beyond the paper's model, with its parameters by symbol."""
+
+    effect: str
+    parameters: dict[str, Value | float]
+
+
+class ParameterFile(msgspec.Struct, kw_only=True):
+    """Parameters of a damper."""
+
+    schema: str
+    compression: Direction
+    release: Direction
+    effects: list[ExtraEffect] = []
+    provenance: dict[str, Any] = {}
+    fits: dict[str, Any] = {}
+    warnings: list[str] = []
+
+
+def read_parameters(path: str) -> Parameters:
+    """Parameters from a file, or from stdin for `-`."""
+    return parse_parameters(documents.read_bytes(path), "stdin" if path == "-" else path)
+
+
+def parse_parameters(data: bytes, name: str) -> Parameters:
+    """Parameters from the bytes of a document; `name` is for messages."""
+    document = documents.decode(data, ParameterFile, name=name, schema=SCHEMA)
+    estimates = {}
+    for direction in DIRECTIONS:
+        given = getattr(document, direction)
+        for symbol, quantity in QUANTITIES.items():
+            full = f"{direction}.{symbol}"
+            estimates[full] = _estimate(getattr(given, symbol), quantity, full, name)
+    chosen = []
+    for i, extra in enumerate(document.effects):
+        effect = effects.get(extra.effect)
+        if effect in chosen:
+            raise InputProblem(f"effects[{i}]: '{effect.name}' is listed twice", file=name)
+        chosen.append(effect)
+        known = {q.symbol: q for q in effect.quantities}
+        if set(extra.parameters) != set(known):
+            raise InputProblem(
+                f"effects[{i}] ({effect.name}): expected the parameters"
+                f" {', '.join(known)}, found {', '.join(extra.parameters) or 'none'}",
+                file=name,
+            )
+        for symbol, quantity in known.items():
+            full = effect.key(symbol)
+            estimates[full] = _estimate(extra.parameters[symbol], quantity, full, name)
+    return Parameters(
+        model=Model(tuple(chosen)),
+        estimates=estimates,
+        provenance=document.provenance,
+        fits=document.fits,
+        warnings=tuple(document.warnings),
+    )
+
+
+def _estimate(given: Value | float, quantity: Quantity, full: str, name: str) -> Estimate:
+    if not isinstance(given, Value):
+        given = Value(value=given)
+    factor = 1.0
+    if given.unit is not None and given.unit != quantity.unit:
+        from erdctl.io.units import factor_between
+
+        factor = factor_between(given.unit, quantity.unit, f"{name}: {full}")
+    numbers = (given.value, given.stderr, given.assumed)
+    value, stderr, assumed = (None if v is None else v * factor for v in numbers)
+    for number in (value, assumed):
+        if number is not None and not math.isfinite(number):
+            raise InputProblem(f"{full} is not a finite number", file=name)
+    used = assumed if value is None else value
+    if used is not None and not quantity.low <= used <= quantity.high:
+        raise InputProblem(
+            f"{full} = {used:g} {quantity.unit} is outside {quantity.low:g}..{quantity.high:g}",
+            file=name,
+        )
+    return Estimate(
+        value=value, unit=quantity.unit, stderr=stderr, assumed=assumed, reason=given.reason
+    )
+
+
+def to_document(parameters: Parameters) -> ParameterFile:
+    """The parameter file of given parameters."""
+
+    def value(full: str) -> Value | float:
+        e = parameters.estimates[full]
+        return Value(
+            value=e.value,
+            unit=e.unit,
+            stderr=e.stderr,
+            identified=e.identified,
+            assumed=e.assumed,
+            reason=e.reason,
+        )
+
+    directions = {
+        d: Direction(**{symbol: value(f"{d}.{symbol}") for symbol in QUANTITIES})
+        for d in DIRECTIONS
+    }
+    extra = [
+        ExtraEffect(e.name, {q.symbol: value(e.key(q.symbol)) for q in e.quantities})
+        for e in parameters.model.effects
+    ]
+    return ParameterFile(
+        schema=SCHEMA,
+        effects=extra,
+        provenance=dict(parameters.provenance),
+        fits=dict(parameters.fits),
+        warnings=list(parameters.warnings),
+        **directions,
+    )
+
+
+def write_parameters(parameters: Parameters, path: str) -> None:
+    """Write the parameter file to a path, or to stdout for `-`."""
+    documents.write(to_document(parameters), path)
+
+
+def provenance(recording: Recording, noise_rms: float) -> dict[str, Any]:
+    """Where an estimate comes from: version, logs, what they covered, noise. No date, so that
+    the same logs give the same file."""
+
+    def ends(channel: str) -> list[float]:
+        values = getattr(recording, channel)
+        return [float(values.min()), float(values.max())]
+
+    return {
+        "erdctl": __version__,
+        "logs": [{"name": s.name, "sha256": s.sha256, "rows": s.rows} for s in recording.sources],
+        "records": len(recording.names),
+        "samples": len(recording),
+        "ranges": {name: ends(name) for name in ("x", "xdot", "duty")},
+        "xdot": recording.xdot_note,
+        "noise_rms": noise_rms,
+    }
+
+
+def json_schema() -> dict[str, Any]:
+    """The published JSON Schema of the parameter file."""
+    return msgspec.json.schema(ParameterFile)

@@ -1,0 +1,1 @@
+"""What people look at; knows result objects only."""

@@ -1,0 +1,43 @@
+"""Simulation of identified parameters over a recording, healthy or with faults."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from erdctl.parameters import Parameters
+from erdctl.recording import Array, Recording
+from erdctl.signals import Signals
+
+UNITS = {"x": "m", "xdot": "m/s", "duty": ""}
+BEYOND = 0.05  # of a range: how far a drive may leave it before that is worth a remark
+
+
+def simulate(parameters: Parameters, recording: Recording, faults: Sequence[str] = ()) -> Array:
+    """(n,) modelled force [N]; `faults` as on the command line (Eqs. 20-23)."""
+    signals = Signals.of(recording)
+    prepared = parameters.model.prepare(signals, parameters.values)
+    if not faults:
+        return prepared.force(parameters.values)
+    from erdctl.faults import factors, parse_fault
+
+    found = factors([parse_fault(f) for f in faults], signals.t, signals.xdot, signals.starts)
+    groups = {"gas": found.gas, "viscous": found.viscous, "yield": found.yield_}
+    return prepared.force(parameters.values, groups)
+
+
+def remarks(parameters: Parameters, recording: Recording) -> list[str]:
+    """What a user should know before trusting a simulation: unknown parameters, extrapolation."""
+    out = [f"{c}; simulated with the assumed value" for c in parameters.caveats()]
+    for name, ends in dict(parameters.provenance.get("ranges", {})).items():
+        if name not in UNITS:
+            continue
+        low, high = (float(e) for e in ends)
+        values = getattr(recording, name)
+        margin = BEYOND * (high - low)
+        seen_low, seen_high = float(values.min()), float(values.max())
+        if seen_low < low - margin or seen_high > high + margin:
+            out.append(
+                f"{name} spans {seen_low:.3g}..{seen_high:.3g} {UNITS[name]}, but the parameters"
+                f" were identified on {low:.3g}..{high:.3g}"
+            )
+    return out
