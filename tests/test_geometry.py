@@ -94,7 +94,7 @@ def test_the_static_force_is_the_paper_model_with_the_preload() -> None:
 
 def test_the_dimensions_close() -> None:
     """Every function on quantities with units: only the physical form gives N, N/m and N s/m."""
-    u = pint.UnitRegistry()
+    u: Any = pint.UnitRegistry()
     units = {
         "A_p": "m^2", "A_s": "m^2", "L_d": "m", "d": "m", "R_d": "m", "d_e": "m", "P_0": "Pa",
         "V_0": "m^3", "gamma": "", "mu": "Pa*s", "c": "", "alpha": "Pa*(m/V)^0.5", "beta": "",
