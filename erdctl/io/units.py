@@ -1,0 +1,273 @@
+"""Unit conversion, and `--map "x=Defl FL[mm]"`: a log's own names and units to the contract's."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from fractions import Fraction
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from erdctl.errors import InputProblem, UsageProblem
+from erdctl.recording import Array
+
+if TYPE_CHECKING:
+    import pint
+
+# Contract columns and their units; "" is a plain number.
+UNITS = {
+    "t": "s",
+    "x": "m",
+    "xdot": "m/s",
+    "duty": "",
+    "force": "N",
+    "temperature": "degC",
+    "force_model": "N",
+}
+RECORD = "record"
+TARGETS = (*UNITS, RECORD)
+
+_EXAMPLES = {
+    "s": "s, ms, min",
+    "m": "m, mm, um, in",
+    "m/s": "m/s, mm/s, in/s",
+    "": "1, percent, %",
+    "N": "N, kN, lbf, kgf",
+    "degC": "degC, degF, K",
+}
+_KINDS = {
+    "a length": "m",
+    "a time": "s",
+    "a speed": "m/s",
+    "an acceleration": "m/s^2",
+    "a force": "N",
+    "a mass": "kg",
+    "a pressure": "Pa",
+    "a voltage": "V",
+    "a current": "A",
+    "a charge": "C",
+    "a temperature": "K",
+    "a frequency": "Hz",
+    "an energy": "J",
+    "a power": "W",
+    "a stiffness": "N/m",
+    "a damping coefficient": "N*s/m",
+    "a plain number": "",
+}
+# Signs for "no unit", and the letters that mean a temperature wherever one is expected.
+_PLAIN = {"-", "1", ""}
+_TEMPERATURES = {"C": "degC", "F": "degF", "°C": "degC", "°F": "degF"}
+
+# pint tokenizes units as Python and raises whatever its tokenizer does; only what looks like a
+# unit gets there.
+_NAME = r"(?:[^\W\d_]+(?:_[^\W\d_]+)*|%|°[CF]|1)"
+_POWER = r"(?:\s*(?:\^|\*\*)\s*-?\d|⁻?[¹²³])?"
+_BETWEEN = r"(?:\s*[*/·⋅]\s*|\s+)"
+_PLAIN_FACTOR = rf"{_NAME}{_POWER}"
+_FACTOR = rf"(?:{_PLAIN_FACTOR}|\({_PLAIN_FACTOR}(?:{_BETWEEN}{_PLAIN_FACTOR})*\){_POWER})"
+_UNIT = re.compile(rf"{_FACTOR}(?:{_BETWEEN}{_FACTOR})*")
+_BRACKETS = re.compile(r"(?P<name>.*\S)\s*\[(?P<unit>[^\[\]]*)\]\s*", re.DOTALL)
+
+
+@dataclass(frozen=True)
+class Conversion:
+    """values * factor + offset, exact until it meets the values."""
+
+    factor: Fraction = Fraction(1)
+    offset: Fraction = Fraction(0)
+
+    def __call__(self, values: Array) -> Array:
+        """Converted values; the same array if there is nothing to convert.
+
+        Check: 12.3 mm is exactly 0.0123 m (12.3 * 0.001 is not); 212 degF is 100 degC.
+        """
+        out = values
+        if self.factor.numerator == -1 or self.factor.numerator == 1:
+            divisor = self.factor.denominator * self.factor.numerator
+            if divisor != 1:
+                out = values / float(divisor)
+        else:
+            out = values * float(self.factor)
+        return out + float(self.offset) if self.offset else out
+
+
+@dataclass(frozen=True)
+class Mapping:
+    """One `--map`: which of the log's columns a contract column is, and in what unit."""
+
+    target: str
+    source: str
+    spec: str
+
+    def find(self, columns: Sequence[str], file: str) -> tuple[str, Conversion]:
+        """The log's column, and how its values become SI.
+
+        The log's name may carry its unit: `x=Defl FL[mm]` finds `Defl FL`, `Defl FL[mm]` and
+        `Defl FL [mm]`; `x=Defl FL` finds them too. A minus before the name changes the sign.
+        Raises InputProblem if there is no such column, UsageProblem for a wrong unit.
+        """
+        found = _find(self.source, columns)
+        if found is None and self.source.startswith("-"):
+            found = _find(self.source[1:].strip(), columns)
+            if found is not None and self.target != RECORD:
+                return found[0], self._conversion(found[1], Fraction(-1))
+        if found is None:
+            raise self._missing(columns, file)
+        return found[0], self._conversion(found[1], Fraction(1))
+
+    def _conversion(self, unit: str | None, sign: Fraction) -> Conversion:
+        if self.target == RECORD:
+            return Conversion()
+        plain = Conversion() if unit is None else conversion(unit, self.target, self.spec)
+        return Conversion(plain.factor * sign, plain.offset * sign)
+
+    def _missing(self, columns: Sequence[str], file: str) -> InputProblem:
+        name = _split(self.source)[0].lstrip("-")
+        by_lower = {c.lower(): c for c in columns}
+        close = [by_lower[c] for c in get_close_matches(name.lower(), by_lower, 3, 0.6)]
+        hint = f"; close to it: {', '.join(close)}" if close else ""
+        return InputProblem(
+            f"--map \"{self.spec}\": the log has no column '{name}'{hint}; it has"
+            f" {listed(columns)}",
+            file=file,
+        )
+
+
+def parse_maps(specs: Sequence[str]) -> tuple[Mapping, ...]:
+    """The `--map` options, checked as far as possible without a log.
+
+    Raises UsageProblem for unknown or repeated columns and for wrong units.
+    """
+    out: list[Mapping] = []
+    for spec in specs:
+        target, equals, source = (part.strip() for part in spec.partition("="))
+        if not (target and equals and source):
+            raise UsageProblem(
+                f'--map "{spec}": write COLUMN=NAME[UNIT], e.g. --map "force=F_fl[N]"'
+            )
+        if target not in TARGETS:
+            close = get_close_matches(target, TARGETS, 1, 0.4)
+            hint = f"did you mean '{close[0]}'? " if close else ""
+            raise UsageProblem(
+                f"--map \"{spec}\": unknown column '{target}'; {hint}Columns are"
+                f" {', '.join(TARGETS)}"
+            )
+        for other in out:
+            if other.target == target:
+                raise UsageProblem(f"--map: '{target}' is mapped twice, keep one of the two")
+            if other.source == source:
+                raise UsageProblem(
+                    f"--map: '{source}' is mapped to both '{other.target}' and '{target}'"
+                )
+        mapping = Mapping(target, source, spec)
+        unit = _split(source)[1]
+        if unit is not None and target != RECORD:
+            conversion(unit, target, spec)
+        out.append(mapping)
+    return tuple(out)
+
+
+def conversion(unit: str, target: str, spec: str) -> Conversion:
+    """From a unit as the user wrote it to the SI unit of a contract column.
+
+    Raises UsageProblem if it is no unit, or a unit of something else.
+    """
+    wanted = UNITS[target]
+    try:
+        return _between(unit, wanted)
+    except _WrongUnit as error:
+        raise UsageProblem(
+            f"--map \"{spec}\": '{target}' mapped with {error}; expected something like"
+            f" {_EXAMPLES[wanted]}"
+        ) from None
+
+
+def factor_between(given: str, wanted: str, label: str) -> float:
+    """Factor from one unit to another, for units without an offset.
+
+    label : what carries the unit, for the message.  Check: "mm" to "m" is 0.001.
+    Raises InputProblem if `given` is no unit or of another dimension.
+    """
+    try:
+        found = _between(given, wanted)
+    except _WrongUnit as error:
+        raise InputProblem(
+            f"{label} is given in {error}; expected {wanted or 'a plain number'}"
+        ) from None
+    return float(found.factor)
+
+
+def listed(columns: Sequence[str], most: int = 20) -> str:
+    """Column names for a message."""
+    more = f" and {len(columns) - most} more" if len(columns) > most else ""
+    return ", ".join(columns[:most]) + more
+
+
+class _WrongUnit(Exception):
+    """Says what is wrong, to be completed by what was expected."""
+
+
+@cache
+def _between(given: str, wanted: str) -> Conversion:
+    given = given.strip()
+    if wanted == "degC":
+        given = _TEMPERATURES.get(given, given)
+    given = "" if given in _PLAIN else given
+    if given == wanted:
+        return Conversion()
+    import pint
+
+    if given and not _UNIT.fullmatch(given):
+        raise _WrongUnit(f"'{given}', which is not a unit")
+    registry = _registry()
+    try:
+        unit, target = registry.parse_units(given), registry.parse_units(wanted)
+        zero, one = (_quantity(v, unit).to(target).magnitude for v in (0, 1))
+    except pint.DimensionalityError:
+        raise _WrongUnit(f"unit '{given}', which is {_kind(unit)}") from None
+    except (pint.PintError, ValueError, TypeError, KeyError) as error:
+        # TypeError: a logarithmic unit, which exact fractions cannot follow; KeyError: pint's
+        # own slip on units that cancel, such as m^0 m
+        raise _WrongUnit(f"'{given}', which is not a unit") from error
+    return Conversion(Fraction(one) - Fraction(zero), Fraction(zero))
+
+
+@cache
+def _registry() -> pint.UnitRegistry[Any]:
+    import pint
+
+    return pint.UnitRegistry(non_int_type=Fraction)
+
+
+def _quantity(value: int, unit: pint.Unit) -> Any:
+    return _registry().Quantity(Fraction(value), unit)
+
+
+def _kind(unit: pint.Unit) -> str:
+    registry = _registry()
+    for kind, example in _KINDS.items():
+        if registry.parse_units(example).dimensionality == unit.dimensionality:
+            return kind
+    return "something else"
+
+
+def _split(name: str) -> tuple[str, str | None]:
+    found = _BRACKETS.fullmatch(name)
+    return (found["name"], found["unit"]) if found else (name, None)
+
+
+def _find(source: str, columns: Sequence[str]) -> tuple[str, str | None] | None:
+    name, unit = _split(source)
+    if source in columns:
+        return source, unit
+    if name in columns:
+        return name, unit
+    # `Defl FL [mm]` for `Defl FL[mm]`; and `Defl FL [mm]` for `Defl FL` unless ambiguous
+    split = {c: _split(c) for c in columns}
+    for column, parts in split.items():
+        if parts == (name, unit):
+            return column, unit
+    same = [c for c, parts in split.items() if parts[0] == name and unit is None]
+    return (same[0], split[same[0]][1]) if len(same) == 1 else None
