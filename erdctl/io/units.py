@@ -60,8 +60,10 @@ _KINDS = {
 _PLAIN = {"-", "1", ""}
 _TEMPERATURES = {"C": "degC", "F": "degF", "°C": "degC", "°F": "degF"}
 
-# pint tokenizes units as Python and raises whatever its tokenizer does; only what looks like a
-# unit gets there.
+# pint tokenizes units as Python and raises whatever its tokenizer does, so only what looks like
+# a unit gets there. Even then it slips on some: TypeError for logarithmic units (exact fractions
+# cannot follow them), KeyError for units that cancel, AssertionError for prefixes alone.
+_SLIPS = (ValueError, TypeError, KeyError, AssertionError, ArithmeticError)
 _NAME = r"(?:[^\W\d_]+(?:_[^\W\d_]+)*|%|°[CF]|1)"
 _POWER = r"(?:\s*(?:\^|\*\*)\s*-?\d|⁻?[¹²³])?"
 _BETWEEN = r"(?:\s*[*/·⋅]\s*|\s+)"
@@ -227,9 +229,7 @@ def _between(given: str, wanted: str) -> Conversion:
         zero, one = (_quantity(v, unit).to(target).magnitude for v in (0, 1))
     except pint.DimensionalityError:
         raise _WrongUnit(f"unit '{given}', which is {_kind(unit)}") from None
-    except (pint.PintError, ValueError, TypeError, KeyError) as error:
-        # TypeError: a logarithmic unit, which exact fractions cannot follow; KeyError: pint's
-        # own slip on units that cancel, such as m^0 m
+    except (pint.PintError, *_SLIPS) as error:
         raise _WrongUnit(f"'{given}', which is not a unit") from error
     return Conversion(Fraction(one) - Fraction(zero), Fraction(zero))
 
