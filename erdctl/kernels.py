@@ -46,6 +46,7 @@ def first_order(exponent: Array | float, source: Array, initial: Array, starts: 
 def _uniform(e: float, source: Array, out: Array) -> None:
     """Fill out[1:] where every step decays alike: one table of powers serves all segments."""
     n = len(out)
+    e = min(e, 2 * LIMIT)  # what decays by more than that in one step is gone either way
     length = max(1, min(n, 4096, int(LIMIT / e) if e > 0 else n))
     growth = np.exp(e * np.arange(1, length + 1))
     decay = np.exp(-e * np.arange(1, length + 1))

@@ -82,12 +82,14 @@ class Model:
             s = effect.apply(s, effect.local(values))  # type: ignore[assignment]
         for effect in self._in(Slot.CONTROL):
             s = s.with_duty(_array(effect.apply(s, effect.local(values))))
+        sign = self._replace(Slot.SIGN, s, values, np.sign(s.xdot))
         return Prepared(
             signals=s,
+            sign=sign,
             gas=self._replace(Slot.GAS, s, values, s.x),
             viscous=self._replace(Slot.VISCOUS, s, values, s.xdot),
             fields=self._fields(s, values),
-            lag=self._lag(s, values),
+            lag=self._lag(s, sign, values),
             scale=self._scale(s, values),
             terms=[
                 (e.key(q.symbol), row)
@@ -117,9 +119,8 @@ class Model:
         same = values["compression.beta"] == values["release.beta"]
         return compression, compression if same else law(RELEASE)
 
-    def _lag(self, s: Signals, values: Values) -> Lag:
+    def _lag(self, s: Signals, sign: Array, values: Values) -> Lag:
         T = [values[f"{d}.T_d"] for d in DIRECTIONS]
-        sign = self._replace(Slot.SIGN, s, values, np.sign(s.xdot))
 
         def lag(compression: Array, release: Array) -> Array:
             return paper.yield_force(s, compression, release, T[COMPRESSION], T[RELEASE])
@@ -145,6 +146,7 @@ class Prepared:
     signals: Signals
     gas: Array
     viscous: Array
+    sign: Array
     fields: tuple[Array, Array]
     lag: Lag
     scale: Mapping[str, Array]

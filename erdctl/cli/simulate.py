@@ -2,20 +2,11 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from typing import Annotated
 
 import typer
 
-from erdctl.cli.options import Faults, Maps, Out, Params
-
-
-class Format(StrEnum):
-    """Formats that a table can be written in."""
-
-    CSV = "csv"
-    PARQUET = "parquet"
-    ARROW = "arrow"
+from erdctl.cli.options import Faults, Format, Maps, Out, Params
 
 
 def command(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import asdict
 from typing import Any
 
 import msgspec
@@ -11,8 +12,8 @@ from erdctl import __version__, effects
 from erdctl.errors import InputProblem
 from erdctl.io import documents
 from erdctl.model import Model
-from erdctl.parameters import Estimate, Parameters
 from erdctl.paper import QUANTITIES
+from erdctl.parameters import Estimate, Parameters
 from erdctl.quantity import Quantity
 from erdctl.recording import DIRECTIONS, Recording
 
@@ -173,7 +174,7 @@ def provenance(recording: Recording, noise_rms: float) -> dict[str, Any]:
 
     return {
         "erdctl": __version__,
-        "logs": [{"name": s.name, "sha256": s.sha256, "rows": s.rows} for s in recording.sources],
+        "logs": [asdict(source) for source in recording.sources],
         "records": len(recording.names),
         "samples": len(recording),
         "ranges": {name: ends(name) for name in ("x", "xdot", "duty")},

@@ -1,0 +1,184 @@
+"""`erdctl mimic`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from erdctl.cli.options import Faults, Format, Maps, Out, Params
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from erdctl.io.pwm import Sequence
+    from erdctl.mimic import Plan
+    from erdctl.recording import Recording
+
+
+def command(
+    params: Params,
+    log: Annotated[
+        str,
+        typer.Argument(metavar="LOG", help="Motion and healthy duty: a bench log; - is stdin."),
+    ],
+    fault: Faults = [],
+    output: Out = "-",
+    manifest: Annotated[
+        str | None,
+        typer.Option(metavar="FILE", help="Manifest (JSON); by default beside the output."),
+    ] = None,
+    duty: Annotated[
+        float | None, typer.Option(metavar="V", help="Healthy duty, in place of the log's.")
+    ] = None,
+    duty_max: Annotated[
+        float, typer.Option(metavar="V", help="Highest duty; 0.45 is the highest the paper tested.")
+    ] = 0.45,
+    resolution: Annotated[
+        float, typer.Option(metavar="V", help="Smallest step of the duty; 0 for none.")
+    ] = 0.0,
+    slew: Annotated[
+        float | None, typer.Option(metavar="V/S", help="Fastest change of the duty per second.")
+    ] = None,
+    update_rate: Annotated[
+        float | None, typer.Option(metavar="HZ", help="How often the duty can change.")
+    ] = None,
+    carrier: Annotated[float, typer.Option(metavar="HZ", help="PWM carrier.")] = 25_000.0,
+    full_scale: Annotated[float, typer.Option(metavar="V", help="Voltage at duty 1.")] = 5_000.0,
+    max_temperature: Annotated[
+        float, typer.Option(metavar="C", help="Refuse a log that gets hotter (Sec. 5.4).")
+    ] = 60.0,
+    force: Annotated[
+        bool, typer.Option("--force", help="Write even if the log got too hot.")
+    ] = False,
+    uncompensated: Annotated[
+        bool, typer.Option("--uncompensated", help="The paper's static inverse, Eqs. 27, 31, 35.")
+    ] = False,
+    maps: Maps = [],
+    format: Annotated[
+        Format | None, typer.Option(help="Format on stdout (CSV unless said).")
+    ] = None,
+) -> None:
+    """Mimic faults on a healthy damper: the PWM sequence to push to the amplifiers (Sec. 6).
+
+    Writes the log's motion with `duty` replaced, the four channels duty_fl to duty_rr, and the
+    force to expect: CSV, Parquet, Arrow, or MAT for Simulink, by suffix. The default compensates
+    the lag T_d and never leaves the amplifier's limits.
+
+    \b
+    Examples:
+      erdctl mimic damper.json drive.csv --fault oil=0.5@15:31 --fault electrical=0.8@31:46 \\
+        --fault deformation=0.7@46 -o pwm.csv
+      erdctl mimic damper.json drive.csv --fault oil=0.5 --update-rate 200 -o pwm.mat
+      erdctl mimic damper.json drive.csv --fault oil=0.5 | erdctl simulate damper.json -
+    """
+    import math
+    from dataclasses import replace
+    from hashlib import sha256
+
+    from erdctl.amplifier import Amplifier
+    from erdctl.errors import UsageProblem
+    from erdctl.faults import Channel, on_channel, parse_fault
+    from erdctl.io import documents, pwm
+    from erdctl.io.logs import read_logs
+    from erdctl.io.parameters import parse_parameters
+    from erdctl.io.tables import write_table
+    from erdctl.mimic import follow, mimic
+    from erdctl.report.text import say
+    from erdctl.signals import Signals
+    from erdctl.simulate import remarks
+
+    if not fault:
+        raise UsageProblem("mimic needs at least one --fault, e.g. --fault oil=0.5@15:31")
+    if params == "-" and log == "-":
+        raise UsageProblem("PARAMS and LOG cannot both be stdin")
+    if duty is not None and not 0.0 <= duty <= 1.0:
+        raise UsageProblem(f"--duty is a fraction from 0 to 1, not {duty:g}")
+    amplifier = Amplifier(
+        carrier=carrier, full_scale=full_scale, duty_max=duty_max, resolution=resolution,
+        slew=math.inf if slew is None else slew, update_rate=update_rate,
+    )  # fmt: skip
+    faults = [parse_fault(f) for f in fault]
+    data = documents.read_bytes(params)
+    parameters = parse_parameters(data, "stdin" if params == "-" else params)
+    read = read_logs(
+        [log], maps=maps, need_force=False, keep_table=True, want_hash=True, report=say
+    )
+    recording = read.recording
+    _check_temperature(recording, max_temperature, force)
+    if duty is not None:
+        recording = replace(recording, duty=recording.duty * 0.0 + duty)
+    for line in remarks(parameters, recording):
+        say(line)
+    by_channel = {c.value: on_channel(faults, c) for c in Channel}
+    plans = {
+        c: mimic(parameters, recording, chosen, amplifier)
+        for c, chosen in by_channel.items() if chosen
+    }  # fmt: skip
+    healthy = follow(recording.duty, Signals.of(recording), amplifier)
+    duties = dict.fromkeys(by_channel, healthy)
+    duties |= {c: p.duty_paper if uncompensated else p.duty for c, p in plans.items()}
+    sequence = pwm.Sequence(recording, duties, plans, uncompensated)
+    if output.endswith(".mat"):
+        pwm.write_mat(sequence, output)
+    else:
+        write_table(_table(read.table, sequence), output, format and format.value)
+    if manifest is None and output != "-":
+        manifest = f"{output}.manifest.json"
+    if manifest is not None:
+        document = pwm.manifest(
+            sequence, amplifier=amplifier, parameters_sha256=sha256(data).hexdigest(),
+            faults=[str(f) for f in faults],
+        )  # fmt: skip
+        documents.write(document, manifest)
+    _show(plans)
+
+
+def _check_temperature(recording: Recording, limit: float, forced: bool) -> None:
+    from erdctl.errors import InputProblem
+    from erdctl.report.text import say
+
+    if recording.temperature is None:
+        return
+    hottest = float(recording.temperature.max())
+    if hottest <= limit:
+        return
+    words = f"the damper reached {hottest:.1f} degC in this log, above the limit of {limit:g} degC"
+    if not forced:
+        raise InputProblem(f"{words}; nothing was written (--force overrides, Sec. 5.4)")
+    say(words, "warning")
+
+
+def _table(log: Any, sequence: Sequence) -> Any:
+    """The log's table under the new duty; its measured force was that of the healthy one."""
+    from erdctl.io.tables import append_column
+
+    renamed = ["force_healthy" if name == "force" else name for name in log.column_names]
+    table = log.rename_columns(renamed)
+    new = sequence.columns()
+    table = table.drop_columns([name for name in new if name in renamed])
+    for name, values in new.items():
+        table = append_column(table, name, values)
+    return table
+
+
+def _show(plans: Mapping[str, Plan]) -> None:
+    from erdctl.report.text import say, table
+
+    header = ["fault", "damper", "NRMSE", "paper's inverse", "out of reach", "missing rms", "max"]
+    rows = [
+        [
+            str(r.fault), channel, f"{r.compensated:.4f}", f"{r.paper:.4f}",
+            f"{100 * r.out_of_reach:.1f} %", f"{r.missing_rms:.2f} N", f"{r.missing_max:.2f} N",
+        ]
+        for channel, plan in plans.items()
+        for r in plan.reaches
+    ]  # fmt: skip
+    table("Expected force against the ideal faulty force, while each fault acts", header, rows)
+    for channel, plan in plans.items():
+        if plan.limited:
+            say(
+                f"{channel}: {100 * plan.limited:.1f} % of the samples ask for more than the"
+                " highest duty; --duty-max raises it",
+                "warning",
+            )

@@ -1,0 +1,74 @@
+"""Composition: unit columns against the force, and effects in their slots."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from bench import TRUTH, campaign
+
+from erdctl.effect import Effect, Slot, Stage
+from erdctl.model import Model
+from erdctl.quantity import Quantity
+from erdctl.recording import Array
+from erdctl.signals import Signals
+
+
+def effect(slot: Slot, apply: object, name: str = "probe", linear: bool = False) -> Effect:
+    p = Quantity(symbol="p", unit="1", title="p", low=-10, high=10, start=1.0, linear=linear)
+    return Effect(
+        name=name, stage=Stage.FLUID, slot=slot, title="", equation="", source="", validity="",
+        needs="", signature="", quantities=(p,), apply=apply,  # type: ignore[arg-type]
+    )  # fmt: skip
+
+
+SLOTS = {
+    Slot.MOTION: lambda s, p: s.with_motion((1 + p["p"]) * s.x, (1 + p["p"]) * s.xdot),
+    Slot.CONTROL: lambda s, p: s.duty * (1 + p["p"]),
+    Slot.FIELD: lambda field, s, p: field * (1 + p["p"]),
+    Slot.LAG: lambda lag, s, sign, p: lambda c, r: lag(c, r) * sign * (1 + p["p"]),
+    Slot.SIGN: lambda s, p: np.sign(s.xdot) * (1 + p["p"]),
+    Slot.VISCOUS: lambda s, p: s.xdot * (1 + p["p"]),
+    Slot.GAS: lambda s, p: s.x * (1 + p["p"]),
+    Slot.TERM: lambda s, p: s.x[None],
+    Slot.SCALE: lambda s, p: {"yield": np.full(len(s), 1 + p["p"])},
+    Slot.CHANNEL: lambda column, s, p: column * (1 + p["p"]),
+}
+
+
+@pytest.fixture
+def s() -> Signals:
+    return Signals.of(campaign())
+
+
+@pytest.mark.parametrize("slot", list(Slot))
+def test_every_slot_is_exact_when_off_and_acts_when_on(slot: Slot, s: Signals) -> None:
+    model = Model((effect(slot, SLOTS[slot], linear=slot is Slot.TERM),))
+    plain = Model().force(s, TRUTH)
+    assert np.array_equal(model.force(s, TRUTH | {"probe.p": 0.0}), plain)
+    assert not np.allclose(model.force(s, TRUTH | {"probe.p": 0.5}), plain)
+
+
+@pytest.mark.parametrize("slot", list(Slot))
+def test_columns_times_amplitudes_is_the_force(slot: Slot, s: Signals) -> None:
+    model = Model((effect(slot, SLOTS[slot], linear=slot is Slot.TERM),))
+    values = TRUTH | {"probe.p": 0.7}
+    amplitudes = np.array([values[n] for n in model.linear])
+    assert amplitudes @ model.columns(s, values) == pytest.approx(model.force(s, values), abs=1e-9)
+
+
+def test_parts_add_up(s: Signals) -> None:
+    parts = Model().parts(s, TRUTH)
+    assert set(parts) == {"gas", "viscous", "yield"}
+    total: Array = parts["gas"] + parts["viscous"] + parts["yield"]
+    assert total == pytest.approx(Model().force(s, TRUTH), abs=1e-12)
+
+
+def test_two_laws_for_one_place_are_refused(s: Signals) -> None:
+    laws = tuple(effect(Slot.SIGN, SLOTS[Slot.SIGN], name) for name in ("a", "b"))
+    with pytest.raises(ValueError, match="only one effect"):
+        Model(laws).force(s, TRUTH | {"a.p": 0.0, "b.p": 0.0})
+
+
+def test_amplitudes_belong_to_terms() -> None:
+    with pytest.raises(ValueError, match="TERM"):
+        effect(Slot.SIGN, SLOTS[Slot.SIGN], linear=True)
