@@ -11,9 +11,10 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from erdctl.drive import KINDS, Drive, Noise, Sine, Sweep, drives, parse_drive, record
+from erdctl.drive import Drive, drives, parse_drive, record
 from erdctl.errors import UsageProblem
 from erdctl.recording import Array
+from erdctl.waveforms import KINDS, Noise, Sine, Sweep
 
 
 @st.composite
