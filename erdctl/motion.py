@@ -13,7 +13,7 @@ from erdctl.recording import Array, Index
 
 WINDOW = 0.020  # s: passes what a damper test moves at (below 20 Hz), averages sensor noise
 FEWEST = 5  # samples of a window; three would let the noise through unfiltered
-JITTER = 0.01  # of the step; below it the times count as evenly spaced
+JITTER = 1e-3  # of the step, and so of xdot: below it the times count as evenly spaced
 GAP = 10.0  # steps; across a longer pause there is no local polynomial
 
 
@@ -75,7 +75,7 @@ def bandwidth(width: int, step: float) -> float:
 
     with k from 1 to (width - 1) / 2.  width : odd number of samples;  step : [s]
     Check: for a long window u = theta k_max solves 3 (sin u - u cos u) / u^3 = 1/sqrt(2), which
-    is u = 1.8136: 28.9 Hz for 20 ms.
+    is u = 1.8148: 28.9 Hz for 20 ms.
     """
     k = np.arange(1, width // 2 + 1)
     theta = np.linspace(0.0, math.pi, 2049)[1:] * min(1.0, 1.0 / k[-1] * 2.0)
