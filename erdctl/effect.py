@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from typing import Any
 
 from erdctl.quantity import Quantity
+from erdctl.recording import Array
 
 Values = Mapping[str, float]
 
@@ -29,16 +31,19 @@ class Slot(Enum):
 
     s is a `Signals`, p maps the effect's symbols to values, (n,) arrays are samples:
 
-    MOTION    (s, p) -> Signals                       motion of the piston from that of the rod
-    CONTROL   (s, p) -> (n,) duty                     what reaches the electrodes
-    FIELD     (field, s, p) -> (n,)                   normalised yield force, from v^beta
-    LAG       (lag, s, sign, p) -> (u_c, u_r) -> (n,) signed yield force from its steady values
-    SIGN      (s, p) -> (n,) in -1..1                 in place of sign(xdot)
-    VISCOUS   (s, p) -> (n,) [m/s]                    in place of xdot
-    GAS       (s, p) -> (n,) [m]                      in place of x
-    TERM      (s, p) -> (k, n)                        added forces, linear in k amplitudes
-    SCALE     (s, p) -> {group: (n,)}                 multipliers of gas, viscous, yield
-    CHANNEL   (column, s, p) -> (n,)                  what the force channel makes of the force
+    MOTION    (s, p) -> Signals           motion of the piston from that of the rod
+    CONTROL   (s, p) -> (n,) duty         what reaches the electrodes
+    FIELD     (field, s, p) -> (n,)       normalised yield force, from v^beta
+    LAG       (s, p) -> (n,)              factor of T_d
+    SIGN      (s, p) -> (n,) in -1..1     in place of sign(xdot)
+    YIELD     (force, s, p) -> (n,)       what becomes of the signed yield force
+    VISCOUS   (s, p) -> (n,) [m/s]        in place of xdot
+    GAS       (s, p) -> (n,) [m]          in place of x
+    SCALE     (s, p) -> {group: (n,)}     multipliers of the groups gas, viscous, yield
+    TERM      nothing but added forces, see `Effect.columns`
+    FEEDBACK  (force, s, p) -> {group: (n,)}  multipliers that depend on the force itself
+    SERIES    (p) -> float [m/N]          compliance in series with the groups of `Effect.carries`
+    CHANNEL   (column, s, p) -> (n,)      what the force channel makes of the force
     """
 
     MOTION = "motion"
@@ -46,22 +51,54 @@ class Slot(Enum):
     FIELD = "field"
     LAG = "lag"
     SIGN = "sign"
+    YIELD = "yield"
     VISCOUS = "viscous"
     GAS = "gas"
-    TERM = "term"
     SCALE = "scale"
+    TERM = "term"
+    FEEDBACK = "feedback"
+    SERIES = "series"
     CHANNEL = "channel"
+
+
+class Requirement(Enum):
+    """What a log must contain for an effect to be seen; unmet means "cannot be tested"."""
+
+    REVERSALS = "reversals of the motion"
+    FIELD = "samples with a duty above zero"
+    LEVELS = "at least three duty levels above zero"
+    STEPS = "steps of the duty within a record"
+    SPEEDS = "a range of speeds"
+    STROKE = "a range of deflections"
+    FREQUENCIES = "motions of clearly different frequency or amplitude"
+    TIME = "records of at least several seconds"
+
+
+class Variable(Enum):
+    """A variable over which a misfit can gather; the contract's names."""
+
+    XDOT = "xdot"
+    X = "x"
+    DUTY = "duty"
+    TIME = "t"
+    SINCE_REVERSAL = "since_reversal"
+    SINCE_DUTY_STEP = "since_duty_step"
+    ENERGY = "dissipated_energy"
 
 
 @dataclass(frozen=True, kw_only=True)
 class Effect:
-    """One physical effect: facts for people and programs, and one pure function.
+    """One physical effect: facts for people and programs, and pure functions.
 
     name : as in the contract;  stage, slot : where it belongs and where it enters the model
-    quantities : its parameters; those marked linear are amplitudes of a TERM, in its order
-    apply : the pure function, see `Slot`
+    quantities : its parameters; those marked linear are amplitudes of `columns`, in its order
+    apply : the pure function of its slot, see `Slot`; None for a TERM
+    columns : (s, p) -> (k, n) forces for unit amplitudes that the effect adds, in any slot
+    of_speed : apply or columns depend on xdot alone, sample by sample
+    carries : groups behind a SERIES compliance, or None for the whole force
     equation, source, validity : text for people
-    needs : what a log must contain for the effect to be seen;  signature : where it shows
+    requires : what a log must contain;  shows : where the misfit gathers when it is left out
+    equivalents : effects that force data can hardly tell from this one, whatever the log
     order : effects of one slot act in this order
     """
 
@@ -72,16 +109,27 @@ class Effect:
     equation: str
     source: str
     validity: str
-    needs: str
-    signature: str
+    requires: tuple[Requirement, ...]
+    shows: Variable
     quantities: tuple[Quantity, ...]
-    apply: Callable[..., object] = field(repr=False)
+    apply: Callable[..., object] | None = field(default=None, repr=False)
+    columns: Callable[[Any, Values], Array] | None = field(default=None, repr=False)
+    of_speed: bool = False
+    carries: tuple[str, ...] | None = None
+    equivalents: tuple[str, ...] = ()
     order: int = 0
 
     def __post_init__(self) -> None:
-        amplitudes = [q for q in self.quantities if q.linear]
-        if bool(amplitudes) != (self.slot is Slot.TERM):
-            raise ValueError(f"{self.name}: a TERM has amplitudes, every other slot has none")
+        if bool(self.amplitudes) != (self.columns is not None):
+            raise ValueError(f"{self.name}: linear parameters and columns go together")
+        if (self.apply is None) != (self.slot is Slot.TERM):
+            raise ValueError(f"{self.name}: every slot but TERM needs a function")
+
+    def act(self, *arguments: Any) -> Any:
+        """The function of the effect's slot."""
+        if self.apply is None:
+            raise ValueError(f"{self.name} only adds forces")
+        return self.apply(*arguments)
 
     @property
     def amplitudes(self) -> tuple[Quantity, ...]:
@@ -93,10 +141,16 @@ class Effect:
         return f"{self.name}.{symbol}"
 
     def local(self, values: Values) -> dict[str, float]:
-        """This effect's own values out of those of a whole model."""
-        return {q.symbol: values[self.key(q.symbol)] for q in self.quantities}
+        """This effect's own values out of those of a whole model; amplitudes may be missing."""
+        keys = {q.symbol: self.key(q.symbol) for q in self.quantities}
+        return {symbol: values[key] for symbol, key in keys.items() if key in values}
 
     @property
     def off(self) -> dict[str, float]:
         """Values with which the effect is exactly absent, as in those of a whole model."""
         return {self.key(q.symbol): q.off for q in self.quantities}
+
+
+def in_slot(effects: Iterable[Effect], slot: Slot) -> list[Effect]:
+    """The effects of one slot in the order in which they act."""
+    return sorted((e for e in effects if e.slot is slot), key=lambda e: e.order)

@@ -25,10 +25,11 @@ import numpy.typing as npt
 from erdctl.amplifier import Amplifier
 from erdctl.effect import Slot
 from erdctl.faults import Fault, FaultFactors, effectiveness, factors
-from erdctl.model import Model, Prepared
+from erdctl.model import Model
 from erdctl.paper import field_law
 from erdctl.parameters import Parameters
 from erdctl.recording import DIRECTIONS, Array, Recording
+from erdctl.response import Prepared
 from erdctl.score import nrmse
 from erdctl.signals import Signals
 
@@ -147,14 +148,14 @@ class YieldLaw:
     def of(cls, model: Model, values: Mapping[str, float], direction: str) -> YieldLaw:
         """The law of a model in one direction."""
         sigma, beta = values[f"{direction}.sigma"], values[f"{direction}.beta"]
-        effects = sorted((e for e in model.effects if e.slot is Slot.FIELD), key=lambda e: e.order)
+        effects = model.of(Slot.FIELD)
         if not effects:
             return cls(sigma, beta, None)
         zero = np.zeros_like(GRID)
         grid = Signals(GRID, zero, zero, GRID, zero, np.array([0, len(GRID)]))
         field = field_law(GRID, beta)
         for effect in effects:
-            field = np.asarray(effect.apply(field, grid, effect.local(values)))
+            field = effect.act(field, grid, effect.local(values))
         # A law may level off: the lowest duty that gives a force is the one to use.
         return cls(sigma, beta, np.maximum.accumulate(field))
 

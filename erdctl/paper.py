@@ -13,6 +13,8 @@ Automotive Suspensions: Healthy and Faulty Cases).
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from erdctl.kernels import first_order
@@ -48,6 +50,11 @@ QUANTITIES: dict[str, Quantity] = {
 }  # fmt: skip
 
 
+def pair(values: Mapping[str, float], symbol: str) -> tuple[float, float]:
+    """A parameter for compression and for release, out of those of a whole model."""
+    return values[f"compression.{symbol}"], values[f"release.{symbol}"]
+
+
 def field_law(duty: Array, beta: float) -> Array:
     """Normalised yield force of a steady field, Eq. 11 without sigma.
 
@@ -70,14 +77,21 @@ def field_law(duty: Array, beta: float) -> Array:
 
 
 def yield_force(
-    signals: Signals, compression: Array, release: Array, T_c: float, T_r: float
+    signals: Signals,
+    compression: Array,
+    release: Array,
+    T_c: float,
+    T_r: float,
+    *,
+    stretch: Array | None = None,
 ) -> Array:
     """The state F_ER of Eq. 12, solved exactly for a control held from sample to sample.
 
         T_d dF/dt + F = u,   u = compression or release, whichever way the piston moves
 
     compression, release : (n,) steady value u for either direction [N];  T_c, T_r : time constants
-    for either direction [s], 0 for none.  Returns (n,) F_ER [N].
+    for either direction [s], 0 for none;  stretch : (n,) factor of both, sample by sample
+    Returns (n,) F_ER [N].
 
     A step in which the piston turns is solved in two parts, before and after the turn, so the
     error of a sampled solution is of second order in the step. Each record starts at the steady
@@ -93,18 +107,22 @@ def yield_force(
     step = signals.common_step
     exponent: Array | float
     floor = 1e-12  # s; with one time constant 0 that direction follows within any real step
-    if step is not None and T_c == T_r:
+    if step is not None and T_c == T_r and stretch is None:
         exponent = step / T_c
         source = target * -np.expm1(-exponent)
     else:
         step_all = signals.step if step is None else np.where(signals.step > 0, step, 0.0)
         exponent = step_all / signals.per_direction(max(T_c, floor), max(T_r, floor))
+        if stretch is not None:
+            exponent = exponent / stretch
         source = target * -np.expm1(-exponent)
     if turn.size:
         forward = up[turn]
         T_before = np.maximum(np.where(forward, T_c, T_r), floor)
         T_after = np.maximum(np.where(forward, T_r, T_c), floor)
         dt = signals.step[turn]
+        if stretch is not None:
+            dt = dt / stretch[turn]
         e_before, e_after = before * dt / T_before, (1.0 - before) * dt / T_after
         u_before = np.where(forward, compression[turn], release[turn])
         u_after = np.where(forward, release[turn], compression[turn])

@@ -8,7 +8,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 FIXTURES = ROOT / "fixtures"
-SHARED = ROOT.parent / "shared" / "data"  # real recordings, beside the project where they are at hand
+SHARED = ROOT.parent / "shared" / "data"  # real recordings, where they are at hand
 
 sys.path.insert(0, str(FIXTURES))  # the oracle is a script's module, not part of the package
 # One linear algebra thread for each test process: the processes are the parallelism.

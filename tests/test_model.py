@@ -2,35 +2,43 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 import pytest
 from bench import TRUTH, campaign
 
-from erdctl.effect import Effect, Slot, Stage
+from erdctl.effect import Effect, Slot, Stage, Variable
 from erdctl.model import Model
 from erdctl.quantity import Quantity
 from erdctl.recording import Array
 from erdctl.signals import Signals
 
 
-def effect(slot: Slot, apply: object, name: str = "probe", linear: bool = False) -> Effect:
+def effect(slot: Slot, apply: Any, name: str = "probe") -> Effect:
+    linear = slot is Slot.TERM
     p = Quantity(symbol="p", unit="1", title="p", low=-10, high=10, start=1.0, linear=linear)
     return Effect(
         name=name, stage=Stage.FLUID, slot=slot, title="", equation="", source="", validity="",
-        needs="", signature="", quantities=(p,), apply=apply,  # type: ignore[arg-type]
+        requires=(), shows=Variable.X, quantities=(p,),
+        apply=None if linear else apply, columns=apply if linear else None,
     )  # fmt: skip
 
 
-SLOTS = {
+SLOTS: dict[Slot, Any] = {
     Slot.MOTION: lambda s, p: s.with_motion((1 + p["p"]) * s.x, (1 + p["p"]) * s.xdot),
     Slot.CONTROL: lambda s, p: s.duty * (1 + p["p"]),
     Slot.FIELD: lambda field, s, p: field * (1 + p["p"]),
-    Slot.LAG: lambda lag, s, sign, p: lambda c, r: lag(c, r) * sign * (1 + p["p"]),
+    Slot.LAG: lambda s, p: np.full(len(s), 1 + p["p"]),
     Slot.SIGN: lambda s, p: np.sign(s.xdot) * (1 + p["p"]),
+    Slot.YIELD: lambda force, s, p: force * (1 + p["p"]),
     Slot.VISCOUS: lambda s, p: s.xdot * (1 + p["p"]),
     Slot.GAS: lambda s, p: s.x * (1 + p["p"]),
     Slot.TERM: lambda s, p: s.x[None],
     Slot.SCALE: lambda s, p: {"yield": np.full(len(s), 1 + p["p"])},
+    Slot.FEEDBACK: lambda force, s, p: {"yield": 1 - p["p"] * np.tanh(force**2 / 1e3)},
+    Slot.SERIES: lambda p: p["p"] * 1e-4,
     Slot.CHANNEL: lambda column, s, p: column * (1 + p["p"]),
 }
 
@@ -42,15 +50,15 @@ def s() -> Signals:
 
 @pytest.mark.parametrize("slot", list(Slot))
 def test_every_slot_is_exact_when_off_and_acts_when_on(slot: Slot, s: Signals) -> None:
-    model = Model((effect(slot, SLOTS[slot], linear=slot is Slot.TERM),))
+    model = Model((effect(slot, SLOTS[slot]),))
     plain = Model().force(s, TRUTH)
     assert np.array_equal(model.force(s, TRUTH | {"probe.p": 0.0}), plain)
     assert not np.allclose(model.force(s, TRUTH | {"probe.p": 0.5}), plain)
 
 
-@pytest.mark.parametrize("slot", list(Slot))
+@pytest.mark.parametrize("slot", [s for s in Slot if s not in (Slot.SERIES, Slot.FEEDBACK)])
 def test_columns_times_amplitudes_is_the_force(slot: Slot, s: Signals) -> None:
-    model = Model((effect(slot, SLOTS[slot], linear=slot is Slot.TERM),))
+    model = Model((effect(slot, SLOTS[slot]),))
     values = TRUTH | {"probe.p": 0.7}
     amplitudes = np.array([values[n] for n in model.linear])
     assert amplitudes @ model.columns(s, values) == pytest.approx(model.force(s, values), abs=1e-9)
@@ -69,6 +77,12 @@ def test_two_laws_for_one_place_are_refused(s: Signals) -> None:
         Model(laws).force(s, TRUTH | {"a.p": 0.0, "b.p": 0.0})
 
 
-def test_amplitudes_belong_to_terms() -> None:
-    with pytest.raises(ValueError, match="TERM"):
-        effect(Slot.SIGN, SLOTS[Slot.SIGN], linear=True)
+@pytest.mark.parametrize("slot", [Slot.SERIES, Slot.FEEDBACK])
+def test_feedback_has_no_columns(slot: Slot, s: Signals) -> None:
+    with pytest.raises(ValueError, match="not linear"):
+        Model((effect(slot, SLOTS[slot]),)).columns(s, TRUTH | {"probe.p": 0.1})
+
+
+def test_amplitudes_and_columns_go_together() -> None:
+    with pytest.raises(ValueError, match="go together"):
+        replace(effect(Slot.TERM, SLOTS[Slot.TERM]), columns=None)

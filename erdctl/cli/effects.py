@@ -51,8 +51,9 @@ def _facts(effect: object) -> dict[str, list[dict[str, object]]]:
         "equation": effect.equation,
         "source": effect.source,
         "validity": effect.validity,
-        "needs": effect.needs,
-        "shows": effect.signature,
+        "needs": "; ".join(r.value for r in effect.requires),
+        "shows": effect.shows.value,
+        "equivalent": ", ".join(effect.equivalents),
         "parameters": [
             {
                 "symbol": q.symbol,

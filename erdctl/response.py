@@ -1,0 +1,200 @@
+"""The response of a composed model on given signals: forces by group, or unit columns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from erdctl import paper
+from erdctl.effect import Effect, Slot, Values, in_slot
+from erdctl.paper import pair
+from erdctl.recording import COMPRESSION, RELEASE, Array
+from erdctl.signals import Signals
+
+ROUNDS = 4  # of a feedback between force and its factors, which is slow and weak
+Factors = Mapping[str, Array]
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """A model on given signals and shape parameters; only the amplitudes are open.
+
+    gas, viscous, sign : (n,) shapes in place of x, xdot and sign(xdot)
+    fields : (n,) normalised steady yield force for either direction
+    stretch : (n,) factor of T_d, or None;  scale : (n,) factors of groups
+    """
+
+    effects: tuple[Effect, ...]
+    signals: Signals
+    gas: Array
+    viscous: Array
+    sign: Array
+    fields: tuple[Array, Array]
+    stretch: Array | None
+    scale: Factors
+    values: Values
+
+    def force(self, values: Values, factors: Factors | None = None) -> Array:
+        """(n,) force; `factors` multiply groups sample by sample (faults, Eqs. 20-23)."""
+        parts = self.parts(values, factors)
+        total = parts["gas"] + parts["viscous"] + parts["yield"]
+        return total + parts["other"] if "other" in parts else total
+
+    def parts(self, values: Values, factors: Factors | None = None) -> dict[str, Array]:
+        """(n,) force of each group and, if there are any terms, of all `other` forces."""
+        factors = multiplied(self.scale, factors or {})
+        out = self._parts(values, factors)
+        for effect in in_slot(self.effects, Slot.FEEDBACK):
+            for _ in range(ROUNDS):
+                total = np.sum(list(out.values()), axis=0)
+                back: Factors = effect.act(total, self.signals, effect.local(values))
+                out = self._parts(values, multiplied(factors, back))
+            factors = multiplied(factors, back)
+        return {name: self._recorded(part) for name, part in out.items()}
+
+    def _parts(self, values: Values, factors: Factors) -> dict[str, Array]:
+        springs = [(e, float(e.act(e.local(values)))) for e in in_slot(self.effects, Slot.SERIES)]
+        springs = [(e, compliance) for e, compliance in springs if compliance > 0.0]
+        if len(springs) > 1:
+            raise ValueError("only one compliance can be in series")
+        if springs:
+            return self._behind_spring(values, factors, *springs[0])
+        sigma = pair(values, "sigma")
+        u_c = self.fields[COMPRESSION] * sigma[COMPRESSION]
+        shared = sigma[0] == sigma[1] and self.fields[0] is self.fields[1]
+        u_r = u_c if shared else self.fields[RELEASE] * sigma[RELEASE]
+        per = self.signals.per_direction
+        out = {
+            "gas": self.gas * per(*pair(values, "k_nom")),
+            "viscous": self.viscous * per(*pair(values, "c_vis")),
+            "yield": self._signed_yield(u_c, u_r),
+        }
+        for group, factor in factors.items():
+            out[group] = out[group] * factor
+        rows = self.terms()
+        if rows:
+            out["other"] = np.sum([values[name] * row for name, row in rows], axis=0)
+        return out
+
+    def columns(self) -> Array:
+        """(k, n) unit responses in the order of `Model.linear`."""
+        up = self.signals.compressing
+        zero = np.zeros(len(self.signals))
+        rows = []
+        for group, shape in (("gas", self.gas), ("viscous", self.viscous)):
+            factor = self.scale.get(group)
+            shape = shape if factor is None else shape * factor
+            rows += [np.where(up, shape, 0.0), np.where(up, 0.0, shape)]
+        factor = self.scale.get("yield")
+        for fields in ((self.fields[COMPRESSION], zero), (zero, self.fields[RELEASE])):
+            response = self._signed_yield(*fields)
+            rows.append(response if factor is None else response * factor)
+        rows += [row for _, row in self.terms()]
+        return np.array([self._recorded(row) for row in rows])
+
+    def yield_state(self, compression: Array, release: Array) -> Array:
+        """(n,) F_ER of Eq. 12 for given steady values in either direction."""
+        T_c, T_r = pair(self.values, "T_d")
+        return paper.yield_force(self.signals, compression, release, T_c, T_r, stretch=self.stretch)
+
+    def terms(self) -> Sequence[tuple[str, Array]]:
+        """Name and (n,) unit response of every amplitude that an effect adds."""
+        return [
+            (e.key(q.symbol), row)
+            for e in self.effects
+            if e.columns is not None
+            for q, row in zip(
+                e.amplitudes, e.columns(self.signals, e.local(self.values)), strict=True
+            )
+        ]
+
+    def _signed_yield(self, compression: Array, release: Array) -> Array:
+        force = self.yield_state(compression, release) * self.sign
+        for effect in in_slot(self.effects, Slot.YIELD):
+            force = effect.act(force, self.signals, effect.local(self.values))
+        return force
+
+    def _recorded(self, column: Array) -> Array:
+        for effect in in_slot(self.effects, Slot.CHANNEL):
+            column = effect.act(column, self.signals, effect.local(self.values))
+        return column
+
+    def _behind_spring(
+        self, values: Values, factors: Factors, spring: Effect, compliance: float
+    ) -> dict[str, Array]:
+        """Forces by group with a compliance [m/N] in series with the groups that it carries.
+
+        Forces that do not depend on speed alone act on the recorded motion, outside the spring.
+        """
+        from erdctl.series import march, speed_grid
+
+        s, inner = self.signals, spring.carries is None
+        grid = speed_grid(float(np.abs(s.xdot).max()))
+        viscous, sign, friction = self._laws(values, grid)
+        if not inner:
+            friction = np.zeros_like(friction)
+        ones = np.ones(len(s))
+        gain = {g: factors.get(g, ones) for g in ("gas", "viscous", "yield")}
+        u_c, u_r = (f * s_ for f, s_ in zip(self.fields, pair(values, "sigma"), strict=True))
+        k = pair(values, "k_nom") if inner else (0.0, 0.0)
+        T = [max(T_d, 1e-9) for T_d in pair(values, "T_d")]
+        stretch = ones if self.stretch is None else self.stretch
+        viscous = np.array(pair(values, "c_vis"))[:, None] * viscous
+        force, v = march(
+            s.x, s.xdot, s.step, stretch, s.starts, s.compressing, u_c, u_r,
+            gain["gas"], gain["viscous"], gain["yield"], grid, viscous, sign, friction,
+            k[0], k[1], T[0], T[1], compliance,
+        )  # fmt: skip
+
+        def along(law: Array) -> Array:
+            speed = np.abs(v)
+            there = np.where(v > 0, np.interp(speed, grid, law[0]), np.interp(speed, grid, law[1]))
+            return np.where(v == 0, 0.0, there)
+
+        out = {"viscous": along(viscous) * gain["viscous"], "other": along(friction)}
+        if inner:
+            gas = (s.x - compliance * force) * s.with_motion(s.x, v).per_direction(*k)
+            out["gas"] = gas * gain["gas"]
+            # The yield force is what the rest leaves: at rest, whatever holds the piston.
+            out["yield"] = force - out["gas"] - out["viscous"] - out["other"]
+        else:
+            out["gas"] = self.gas * s.per_direction(*pair(values, "k_nom")) * gain["gas"]
+            out["yield"] = force - out["viscous"]
+        inside = {e.key(q.symbol) for e in self.effects if e.of_speed for q in e.amplitudes}
+        for name, row in self.terms():
+            if not (inner and name in inside):
+                out["other"] = out["other"] + values[name] * row
+        return out
+
+    def _laws(self, values: Values, grid: Array) -> tuple[Array, Array, Array]:
+        """Viscous shape, sign law and friction on a grid of speeds, (2, m) each: up and down."""
+        zero = np.zeros(2 * len(grid))
+        speeds = np.concatenate([grid, -grid])
+        s = Signals(zero, zero, speeds, zero, zero, np.array([0, len(speeds)]))
+
+        def law(slot: Slot, plain: Array) -> Array:
+            for e in in_slot(self.effects, slot):
+                if not e.of_speed:
+                    raise ValueError(f"{e.name} cannot act behind a spring: no law of speed alone")
+                plain = e.act(s, e.local(values))
+            return plain.reshape(2, -1)
+
+        friction = np.zeros(len(speeds))
+        for e in self.effects:
+            if e.columns is not None and e.of_speed:
+                rows = e.columns(s, e.local(values))
+                for q, row in zip(e.amplitudes, rows, strict=True):
+                    friction += values[e.key(q.symbol)] * row
+        if in_slot(self.effects, Slot.YIELD):
+            raise ValueError("a yield force with memory cannot act behind a spring")
+        return law(Slot.VISCOUS, speeds), law(Slot.SIGN, np.sign(speeds)), friction.reshape(2, -1)
+
+
+def multiplied(a: Factors, b: Factors) -> dict[str, Array]:
+    """Two sets of group factors as one."""
+    out = dict(a)
+    for group, factor in b.items():
+        out[group] = out[group] * factor if group in out else factor
+    return out

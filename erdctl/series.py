@@ -1,0 +1,106 @@
+"""A spring in series with the damper, or with its fluid: the force feeds back on the motion.
+
+    v = xdot - s dF/dt,   x_p = x - s F,   F = gas(x_p) + viscous(v) + F_ER sign(v) + friction(v)
+
+Implicit Euler on F: each sample solves one equation that is monotone in v, with a stick branch
+(v = 0, the spring alone moves) where the yield force holds. It is stable for every compliance
+s > 0 and goes over into the model without a spring as s goes to 0. It is simulated free-running:
+correcting with the measured force would feed its noise back.
+
+Source: return mapping of elasto-viscoplasticity, Simo and Hughes, Computational Inelasticity
+(1998), Ch. 1; series compliance of dampers: Maxwell element.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+from numba import njit
+
+from erdctl.recording import Array, Index
+
+NODES = 192  # of the speed grid: laws between nodes are straight lines
+
+
+def speed_grid(fastest: float) -> Array:
+    """(NODES,) speeds [m/s] on which laws are tabulated, well beyond the fastest recorded one."""
+    return np.geomspace(1e-7, 4.0 * max(fastest, 1e-3), NODES)
+
+
+@njit(cache=True)
+def march(
+    x: Array, xdot: Array, step: Array, stretch: Array, starts: Index,
+    compressing: npt.NDArray[np.bool_],
+    u_c: Array, u_r: Array, g_gas: Array, g_visc: Array, g_yield: Array,
+    grid: Array, viscous: Array, sign: Array, friction: Array,
+    k_c: float, k_r: float, T_c: float, T_r: float, s: float,
+) -> tuple[Array, Array]:  # fmt: skip
+    """Force of the spring (n,) [N] and speed behind it (n,) [m/s].
+
+    u_c, u_r : (n,) steady yield force in either direction;  g_ : (n,) factors of the groups
+    viscous, sign, friction : (2, m) laws on `grid`, for compression and release
+    k_c, k_r : gas stiffness behind the spring;  s : compliance [m/N] > 0
+    """
+    n, m = len(x), len(grid)
+    force, speed = np.empty(n), np.empty(n)
+    for r in range(len(starts) - 1):
+        up = compressing[starts[r]]
+        y = u_c[starts[r]] if up else u_r[starts[r]]
+        F = 0.0
+        for i in range(starts[r], starts[r + 1]):
+            if i == starts[r]:
+                # No step lies before it: the record begins with the spring's force steady.
+                b0 = 0 if up else 1
+                j = min(max(np.searchsorted(grid, abs(xdot[i])), 1), m - 1)
+                w = min(max((abs(xdot[i]) - grid[j - 1]) / (grid[j] - grid[j - 1]), 0.0), 1.0)
+                law = viscous[b0] * g_visc[i] + y * g_yield[i] * sign[b0] + friction[b0]
+                moving = law[j - 1] * (1.0 - w) + law[j] * w if xdot[i] != 0.0 else 0.0
+                k = (k_c if up else k_r) * g_gas[i]
+                F = (k * x[i] + moving) / (1.0 + k * s)
+                force[i], speed[i] = F, xdot[i]
+                continue
+            dt = step[i - 1]
+            T = (T_c if up else T_r) * stretch[i - 1]
+            u = u_c[i - 1] if up else u_r[i - 1]
+            y = u + (y - u) * np.exp(-dt / T)
+            Y = y * g_yield[i]
+            q = dt / s
+            E = F + xdot[i] * q
+            v, hit = 0.0, 0
+            for branch in range(2):
+                k = (k_c if branch == 0 else k_r) * g_gas[i]
+                way = 1.0 if branch == 0 else -1.0
+                # H(v) = gas + viscous + yield + friction - F, F = E - q v; increasing in v.
+                rest = k * (x[i] - s * E) - E
+                slope = q * (1.0 + k * s)
+                at0 = rest + Y * sign[branch, 0] + friction[branch, 0]
+                if at0 * way >= 0.0:
+                    continue
+                hit = 1
+                low, high = 0, m - 1
+                while high - low > 1:
+                    mid = (low + high) // 2
+                    h = (
+                        rest + slope * way * grid[mid] + viscous[branch, mid] * g_visc[i]
+                        + Y * sign[branch, mid] + friction[branch, mid]
+                    )  # fmt: skip
+                    if h * way < 0.0:
+                        low = mid
+                    else:
+                        high = mid
+                a = (
+                    rest + slope * way * grid[low] + viscous[branch, low] * g_visc[i]
+                    + Y * sign[branch, low] + friction[branch, low]
+                )  # fmt: skip
+                b = (
+                    rest + slope * way * grid[high] + viscous[branch, high] * g_visc[i]
+                    + Y * sign[branch, high] + friction[branch, high]
+                )  # fmt: skip
+                part = -a / (b - a) if b != a else 0.0
+                v = way * (grid[low] + part * (grid[high] - grid[low]))
+                break
+            if hit:
+                up = v > 0.0
+            F = E - q * v
+            force[i], speed[i] = F, v
+    return force, speed
