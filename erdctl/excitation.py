@@ -12,7 +12,7 @@ from erdctl.blocks import SETTLE
 from erdctl.recording import DIRECTIONS, Array, Recording
 from erdctl.signals import Signals
 
-ENOUGH = 50  # samples of a kind below which there is no telling anything
+ENOUGH = 10  # samples of a kind below which there is no telling anything
 SAME_LEVEL = 1.05  # duties within this ratio are one level with a noisy record of it
 SAME_DUTY = 0.02  # a duty that moves less than this within a record is constant
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from erdctl.blocks import Block, pieces, sample
+from erdctl.errors import InputProblem
 from erdctl.excitation import Need, unmet
 from erdctl.fit import Fit, assess, fit
 from erdctl.model import Model, off_values
@@ -45,6 +46,9 @@ def identify(
     model = model or Model()
     needs = unmet(recording)
     reasons = {name: need.reason for name, need in needs.items()}
+    if set(needs) >= set(Model().quantities):
+        first = next(iter(reasons.values()))
+        raise InputProblem(f"the logs identify no parameter at all; for one, {first}")
     search = sample(recording, SEARCH)
     held = _held(needs)
     steps = two_step(search, held)

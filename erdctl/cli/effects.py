@@ -21,9 +21,13 @@ def command(
       erdctl effects coulomb_friction
     """
     from erdctl import effects
+    from erdctl.errors import InputProblem, UsageProblem
     from erdctl.io import documents
 
-    chosen = effects.catalogue() if name is None else (effects.get(name),)
+    try:
+        chosen = effects.catalogue() if name is None else (effects.get(name),)
+    except InputProblem as problem:
+        raise UsageProblem(str(problem)) from None
     if as_json:
         documents.write([_facts(e) for e in chosen], "-")
     elif name is None:
