@@ -80,9 +80,9 @@ def _create(temporary: str, path: str, target: str) -> None:
         if not isinstance(error, FileNotFoundError):
             hint = f"{_reason(error)}; choose another place"
         raise UsageProblem(f"cannot write to '{path}': {hint}") from None
-    with suppress(OSError):  # a new file has no mode to take over
-        os.fchmod(descriptor, stat.S_IMODE(os.stat(target).st_mode))
     os.close(descriptor)
+    with suppress(OSError):  # a new file has no mode to take over
+        os.chmod(temporary, stat.S_IMODE(os.stat(target).st_mode))
 
 
 @contextmanager

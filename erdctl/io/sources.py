@@ -1,0 +1,216 @@
+"""Tables that come in: CSV, Parquet and Arrow IPC, from files and streams, with their hash."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import stat
+import sys
+from collections.abc import Callable, Collection, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any, BinaryIO, TypeVar
+
+import pyarrow as pa
+
+from erdctl.errors import ComputationProblem, InputProblem, UsageProblem
+from erdctl.io import csv_in
+from erdctl.io.csv_in import Data
+from erdctl.io.formats import ARROW_END, ARROW_FILE, Format, by_content
+
+T = TypeVar("T")
+
+STDIN = "-"
+_CHUNK = 1 << 24
+
+
+@dataclass(frozen=True)
+class TableSource:
+    """A table that can be read.
+
+    path : as given;  name : for messages;  data : the path of a file, or the bytes of a stream
+    schema : None for CSV, which has no types
+    """
+
+    path: str
+    name: str
+    format: Format
+    data: Data
+    columns: tuple[str, ...]
+    schema: pa.Schema | None = None
+
+    def row_of(self, sample: int, samples: int) -> int:
+        """Row of a sample (counted from 0) as InputProblem states rows; samples : how many."""
+        if self.format is Format.CSV:
+            return csv_in.row_of(self.data, self.name, sample, samples)
+        return sample + 1
+
+    @property
+    def size(self) -> int:
+        """Number of bytes."""
+        return os.path.getsize(self.data) if isinstance(self.data, str) else len(self.data)
+
+
+def open_source(path: str) -> TableSource:
+    """Look at a file, or take all of standard input for `-`; samples are not read yet.
+
+    Raises UsageProblem if it cannot be opened, InputProblem if it is no table.
+    """
+    name = "stdin" if path == STDIN else path
+    data = _data(path)
+    if isinstance(data, str):
+        with open(data, "rb") as file:
+            head = file.read(64)
+    else:
+        head = bytes(data[:64])
+    found = by_content(head, path, name)
+    schema = None
+    if found is Format.CSV:
+        columns = csv_in.column_names(data, name)
+    else:
+        schema = _guarded(name, found, lambda: _schema(data, found))
+        columns = list(schema.names)
+    for i, column in enumerate(columns):
+        if column in columns[:i]:
+            raise InputProblem(
+                f"columns {columns.index(column) + 1} and {i + 1} are both called '{column}';"
+                " rename one",
+                file=name,
+            )
+    return TableSource(path, name, found, data, tuple(columns), schema)
+
+
+def read_source(
+    source: TableSource,
+    columns: Sequence[str] | None = None,
+    *,
+    numbers: Collection[str] = (),
+    labels: Collection[str] = (),
+    want_hash: bool = False,
+) -> tuple[pa.Table, str]:
+    """The columns (all: None), and the SHA-256 of all bytes in hex ("" unless wanted).
+
+    numbers : columns that are float64 if the table is CSV, which knows no types; its other
+        columns stay text (see `csv_out`)
+    labels : columns of few different texts, which come dictionary-encoded out of Parquet
+    Raises InputProblem if the content is damaged, ComputationProblem if memory does not suffice.
+    """
+    names = source.columns if columns is None else tuple(columns)
+
+    def read() -> pa.Table:
+        if source.format is Format.CSV:
+            return csv_in.read(source.data, source.name, source.columns, names, numbers)
+        if source.format is Format.PARQUET:
+            return _read_parquet(source.data, names, labels)
+        return _read_arrow(source, names)
+
+    try:
+        with ThreadPoolExecutor(1) as pool:
+            # Beside the parsing, hashing is nearly hidden.
+            digest = pool.submit(_sha256, source.data) if want_hash else None
+            table = _guarded(source.name, source.format, read)
+            return table, digest.result() if digest else ""
+    except MemoryError:
+        raise ComputationProblem(f"out of memory while reading {source.name}; split it") from None
+
+
+def read_table(
+    path: str, columns: Sequence[str] | None = None, *, numbers: Collection[str] = ()
+) -> pa.Table:
+    """A table whose columns are known beforehand; see `open_source` and `read_source`."""
+    return read_source(open_source(path), columns, numbers=numbers)[0]
+
+
+def _data(path: str) -> Data:
+    if path == STDIN:
+        if sys.stdin.isatty():
+            raise UsageProblem(
+                "'-' is standard input, which is the terminal here; pipe a log into it"
+            )
+        return _all_of(sys.stdin.buffer)
+    try:
+        mode = os.stat(path).st_mode
+        if stat.S_ISDIR(mode):
+            raise UsageProblem(f"'{path}' is a directory; name the files in it")
+        with open(path, "rb") as file:
+            # A pipe (`<(zcat log.csv.gz)`) can be read only once.
+            return path if stat.S_ISREG(mode) else _all_of(file)
+    except FileNotFoundError:
+        raise UsageProblem(f"'{path}' does not exist") from None
+    except OSError as error:
+        raise UsageProblem(
+            f"cannot read '{path}': {(error.strerror or str(error)).lower()}"
+        ) from None
+
+
+def _all_of(stream: BinaryIO) -> bytearray:
+    out = bytearray()
+    while chunk := stream.read(_CHUNK):
+        out += chunk
+    return out
+
+
+def _sha256(data: Data) -> str:
+    if not isinstance(data, str):
+        return hashlib.sha256(data).hexdigest()
+    with open(data, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def _guarded(name: str, format: Format, read: Callable[[], T]) -> T:
+    try:
+        return read()
+    except MemoryError:
+        raise
+    except (pa.ArrowException, OSError, UnicodeDecodeError) as error:
+        reason = str(error).splitlines()[0][:200]
+        raise InputProblem(
+            f"damaged or cut off {format.value} ({reason}); write or copy it again", file=name
+        ) from None
+
+
+def _native(data: Data) -> Any:
+    # Not a memory map: if the file were cut while it is in use, the program would crash.
+    return pa.OSFile(data) if isinstance(data, str) else pa.BufferReader(pa.py_buffer(data))
+
+
+def _schema(data: Data, format: Format) -> pa.Schema:
+    if format is Format.PARQUET:
+        import pyarrow.parquet as pq
+
+        return pq.ParquetFile(_native(data)).schema_arrow
+    with _native(data) as file:
+        return _arrow_reader(file).schema
+
+
+def _read_parquet(data: Data, names: Sequence[str], labels: Collection[str]) -> pa.Table:
+    import pyarrow.parquet as pq
+
+    # As dictionary indices: text in one piece takes longer to read than five columns of numbers.
+    with pq.ParquetFile(
+        _native(data), read_dictionary=list(labels), page_checksum_verification=True
+    ) as file:
+        return file.read(columns=list(names)).select(list(names))
+
+
+def _arrow_reader(file: Any, columns: Sequence[int] | None = None) -> Any:
+    options = pa.ipc.IpcReadOptions(included_fields=None if columns is None else list(columns))
+    head = file.read(len(ARROW_FILE))
+    file.seek(0)
+    opened = pa.ipc.open_file if head == ARROW_FILE else pa.ipc.open_stream
+    return opened(file, options=options)
+
+
+def _read_arrow(source: TableSource, names: Sequence[str]) -> pa.Table:
+    with _native(source.data) as file:
+        reader = _arrow_reader(file, [source.columns.index(n) for n in names])
+        table = reader.read_all().select(list(names))
+        table.validate()
+        if isinstance(reader, pa.RecordBatchStreamReader):
+            file.seek(file.tell() - len(ARROW_END))
+            if file.read(len(ARROW_END)) != ARROW_END:
+                raise InputProblem(
+                    "the Arrow stream stops without its end mark: its writer was cut off",
+                    file=source.name,
+                )
+    return table

@@ -1,0 +1,89 @@
+"""Tables that go out: CSV, Parquet and Arrow IPC, to files and to standard output."""
+
+from __future__ import annotations
+
+import os
+from typing import BinaryIO
+
+import numpy as np
+import pyarrow as pa
+
+from erdctl.errors import UsageProblem
+from erdctl.io import csv_out
+from erdctl.io.atomic import STDOUT, output
+from erdctl.io.formats import SUFFIXES, Format, by_suffix
+from erdctl.recording import CHANNELS, Array, Recording
+
+BATCH = 1 << 20  # rows of an Arrow batch: what a reader of a stream must hold at least
+
+
+def output_format(path: str, format: str | None = None) -> Format:
+    """Format to write: what is asked for, else by suffix, else (stdout, devices) CSV.
+
+    Raises UsageProblem for an unknown format or suffix.
+    """
+    if format is not None:
+        known = [f.value for f in Format]
+        if format not in known:
+            raise UsageProblem(f"unknown format '{format}'; formats are {', '.join(known)}")
+        return Format(format)
+    found = by_suffix(path)
+    if found is not None:
+        return found
+    if path == STDOUT or (os.path.exists(path) and not os.path.isfile(path)):
+        return Format.CSV
+    raise UsageProblem(f"'{path}': unknown suffix; known are {', '.join(SUFFIXES)}")
+
+
+def write_table(table: pa.Table, path: str, format: str | None = None) -> None:
+    """Write a table to a file, whole or not at all, or to standard output for `-`.
+
+    Numbers in CSV read back exactly. `.feather` is an Arrow file, all other Arrow a stream.
+    Raises UsageProblem, ComputationProblem (disk full), BrokenPipeError (the reader has gone).
+    """
+    kind = output_format(path, format)
+    if kind is not Format.CSV:
+        table = csv_out.typed(table)
+    with output(path) as stream:
+        if kind is Format.CSV:
+            for chunk in csv_out.chunks(table):
+                stream.write(chunk)
+        elif kind is Format.PARQUET:
+            _write_parquet(table, stream)
+        else:
+            new = pa.ipc.new_file if path.lower().endswith(".feather") else pa.ipc.new_stream
+            with new(stream, table.schema) as writer:
+                writer.write_table(table, max_chunksize=BATCH)
+
+
+def append_column(table: pa.Table, name: str, values: Array) -> pa.Table:
+    """The table with a column at its end, in place of one that has this name already."""
+    if name in table.column_names:
+        table = table.drop_columns([name])
+    return table.append_column(name, pa.array(values))
+
+
+def table_of(recording: Recording) -> pa.Table:
+    """A recording as a log: the channels that it has, then `record`."""
+    channels = {name: getattr(recording, name) for name in CHANNELS}
+    columns = {name: pa.array(c) for name, c in channels.items() if c is not None}
+    lengths = np.diff(recording.starts)
+    which = pa.array(np.repeat(np.arange(len(lengths)), lengths))
+    columns["record"] = pa.array(recording.names, pa.string()).take(which)
+    return pa.table(columns)
+
+
+def _write_parquet(table: pa.Table, stream: BinaryIO) -> None:
+    import pyarrow.parquet as pq
+
+    # Dictionaries do not shorten measured floats, and trying takes a third of the time.
+    # Statistics pay only where a reader selects by them.
+    few = [f.name for f in table.schema if f.name == "duty" or not pa.types.is_floating(f.type)]
+    selected = [name for name in ("t", "record") if name in table.column_names]
+    pq.write_table(
+        table,
+        stream,
+        use_dictionary=few or False,
+        write_statistics=selected or False,
+        compression="snappy",
+    )
