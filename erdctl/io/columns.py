@@ -1,0 +1,104 @@
+"""Arrow columns as what a Recording is made of: float64 arrays and records."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyarrow as pa
+
+from erdctl.io.checks import Place
+from erdctl.recording import Array, Index
+
+
+def to_numbers(column: pa.ChunkedArray, name: str, place: Place) -> Array:
+    """(n,) float64 of a column of integers, floats or decimals; no copy where none is needed.
+
+    Raises InputProblem at the first empty cell, and for columns that hold something else.
+    """
+    if pa.types.is_dictionary(column.type):
+        column = column.cast(column.type.value_type)
+    if column.null_count:
+        import pyarrow.compute as pc
+
+        at = pc.index(pc.is_null(column), True).as_py()
+        raise place.problem(
+            "empty, expected a number; remove the rows without a value, or fill them in", at, name
+        )
+    kind = column.type
+    if not (pa.types.is_floating(kind) or pa.types.is_integer(kind) or pa.types.is_decimal(kind)):
+        raise place.problem(*_not_numbers(column), name)
+    if kind != pa.float64():
+        # Unsafe only for integers beyond 2^53, which no check lets pass.
+        column = column.cast(pa.float64(), safe=False)
+    chunks = [chunk.to_numpy(zero_copy_only=True) for chunk in column.chunks]
+    return chunks[0] if len(chunks) == 1 else np.concatenate([np.empty(0), *chunks])
+
+
+def to_records(column: pa.ChunkedArray, name: str, place: Place) -> tuple[Index, tuple[str, ...]]:
+    """Offsets of the runs of equal values, and each as text.
+
+    Raises InputProblem for empty cells, and at a record that comes back after another.
+    """
+    import pyarrow.compute as pc
+
+    if column.null_count:
+        at = pc.index(pc.is_null(column), True).as_py()
+        raise place.problem("empty, expected the name of a record", at, name)
+    whole = column.combine_chunks()
+    if isinstance(whole, pa.ChunkedArray):  # too long for one array
+        raise place.problem("too long for one log; split it", None, name)
+    keys = whole.indices if pa.types.is_dictionary(whole.type) else whole
+    try:
+        firsts = np.flatnonzero(pc.not_equal(keys.slice(1), keys.slice(0, len(keys) - 1))) + 1
+        starts = np.concatenate([[0], firsts])
+        names = tuple(_text(whole.take(pa.array(starts))).to_pylist())
+    except (pa.ArrowNotImplementedError, pa.ArrowInvalid):
+        raise place.problem(f"holds {column.type}, expected text", None, name) from None
+    seen: set[str] = set()
+    for record, start in zip(names, starts.tolist(), strict=True):
+        if record in seen:
+            raise place.problem(
+                f"record '{record}' comes back after another record; sort the rows by record",
+                start,
+                name,
+            )
+        seen.add(record)
+    if "" in seen:
+        raise place.problem(
+            "empty, expected the name of a record", int(starts[names.index("")]), name
+        )
+    return np.append(starts, len(whole)).astype(np.intp), names
+
+
+def _text(values: pa.Array) -> pa.Array:
+    if pa.types.is_dictionary(values.type):
+        values = values.dictionary_decode()
+    return values.cast(pa.string())
+
+
+def _not_numbers(column: pa.ChunkedArray) -> tuple[str, int | None]:
+    """What a column of no numbers holds, and where it shows first."""
+    if pa.types.is_temporal(column.type):
+        return "holds dates or durations, expected a number; subtract the first and divide", None
+    try:
+        text = column.cast(pa.string())
+    except (pa.ArrowNotImplementedError, pa.ArrowInvalid):
+        return f"holds {column.type}, expected a number", None
+    low, high = 0, len(text)
+    # Halving finds the first cell that is no number with casts of twice the column at most.
+    while high - low > 1:
+        middle = (low + high) // 2
+        if _castable(text.slice(low, middle - low)):
+            low = middle
+        else:
+            high = middle
+    if _castable(text.slice(low, 1)):
+        return f"holds numbers as {column.type}; store them as float64", None
+    return f"found '{text[low].as_py()[:40]}', expected a number", low
+
+
+def _castable(text: pa.ChunkedArray) -> bool:
+    try:
+        text.cast(pa.float64())
+    except pa.ArrowInvalid:
+        return False
+    return True

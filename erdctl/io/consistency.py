@@ -1,0 +1,112 @@
+"""Do x, xdot and t belong together? Finds a wrong unit or sign of one of them, or says nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from erdctl.io.checks import Place
+from erdctl.recording import Array, Index
+
+# Whatever independent noise does, at this correlation it changes the slope by less than 10 %.
+CERTAIN = 0.95
+LOW, HIGH = 0.2, 5.0
+SPANS = (1, 8, 64)  # samples that a displacement is taken over: longer ones drown quantisation
+FEWEST = 24  # displacements
+_BLOCK, _BLOCKS, _RECORDS = 4096, 8, 64  # 2 million samples at most, 40 ms
+
+# dx/dt over xdot when one of them is in another unit.
+_UNITS = {
+    1e3: 'x seems to be in millimetres: --map "x={x}[mm]"',
+    1e2: 'x seems to be in centimetres: --map "x={x}[cm]"',
+    39.37: 'x seems to be in inches: --map "x={x}[in]"',
+    60.0: 't seems to be in minutes: --map "t={t}[min]"',
+    1e-2: 'xdot seems to be in cm/s: --map "xdot={xdot}[cm/s]"',
+    0.0254: 'xdot seems to be in inches per second: --map "xdot={xdot}[in/s]"',
+    1e-3: 'xdot seems to be in mm/s: --map "xdot={xdot}[mm/s]"',
+}
+_MILLISECONDS = 't seems to be in milliseconds: --map "t={t}[ms]"'
+
+
+def check_consistency(
+    t: Array,
+    x: Array,
+    xdot: Array,
+    starts: Index,
+    place: Place,
+    *,
+    sources: dict[str, str],
+) -> None:
+    """Raise InputProblem if x clearly moves at another rate, or another way, than xdot says.
+
+        slope = sum d v / sum v^2,   d_i = x_{i+k} - x_i,   v_i = integral of xdot over the same k
+
+    both about their means, over at most 64 records and 32768 samples of each. A verdict needs a
+    correlation above 0.95: noise, quantisation, drift, filters or a standstill give none.
+
+    sources : the log's own names of t, x and xdot
+    """
+    for record in _chosen(len(starts) - 1, _RECORDS):
+        first, end = int(starts[record]), int(starts[record + 1])
+        parts = [slice(a, b) for a, b in _blocks(first, end)]
+        slope, correlation = _slope(t, x, xdot, parts)
+        if LOW <= slope <= HIGH:
+            continue
+        step = float(t[end - 1] - t[first]) / (end - first - 1)
+        raise place.problem(
+            f"dx/dt is {slope:.3g} times xdot (correlation {correlation:.2f}); "
+            + _advice(slope, step, sources),
+            first,
+            sources["xdot"],
+        )
+
+
+def _advice(slope: float, step: float, sources: dict[str, str]) -> str:
+    if slope < 0.0:
+        return (
+            "x and xdot must both be positive in compression: change the sign of one, e.g."
+            ' --map "xdot=-{xdot}"'.format(**sources)
+        )
+    for ratio, text in _UNITS.items():
+        if 0.85 < slope / ratio < 1.15:
+            # Nobody samples a damper once a second.
+            late = ratio == 1e-3 and step > 0.05
+            return (_MILLISECONDS if late else text).format(**sources)
+    return 'one of t, x and xdot is in another unit; map it, e.g. --map "x={x}[mm]"'.format(
+        **sources
+    )
+
+
+def _slope(t: Array, x: Array, xdot: Array, parts: Sequence[slice]) -> tuple[float, float]:
+    """Slope and correlation at the shortest span that makes them certain; else correlation 0."""
+    travelled = [_integral(t[p], xdot[p]) for p in parts]
+    for span in SPANS:
+        d = np.concatenate([np.diff(x[p][::span]) for p in parts])
+        v = np.concatenate([np.diff(y[::span]) for y in travelled])
+        if d.size < FEWEST:
+            break
+        d, v = d - d.mean(), v - v.mean()
+        # Not d @ v: waking the threads of BLAS takes longer than these sums.
+        dd, vv, dv = (float(np.sum(a * b)) for a, b in ((d, d), (v, v), (d, v)))
+        if dv**2 >= CERTAIN**2 * dd * vv > 0.0:
+            return dv / vv, dv / (dd * vv) ** 0.5
+    return 1.0, 0.0
+
+
+def _integral(t: Array, xdot: Array) -> Array:
+    out = np.zeros_like(t)
+    np.cumsum(0.5 * (xdot[1:] + xdot[:-1]) * np.diff(t), out=out[1:])
+    return out
+
+
+def _blocks(first: int, end: int) -> Iterator[tuple[int, int]]:
+    if end - first <= _BLOCK * _BLOCKS:
+        yield first, end
+        return
+    for begin in np.linspace(first, end - _BLOCK, _BLOCKS).astype(int).tolist():
+        yield begin, begin + _BLOCK
+
+
+def _chosen(count: int, most: int) -> list[int]:
+    return sorted(set(np.linspace(0, count - 1, min(count, most)).astype(int).tolist()))

@@ -1,0 +1,286 @@
+"""Bench logs: files and streams as one validated Recording."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+
+import numpy as np
+import pyarrow as pa
+
+from erdctl.errors import InputProblem, UsageProblem
+from erdctl.io.checks import Place, check_time, check_values, remark_on_time
+from erdctl.io.columns import to_numbers, to_records
+from erdctl.io.consistency import check_consistency
+from erdctl.io.memory import check_fits
+from erdctl.io.sources import STDIN, TableSource, open_source, read_source
+from erdctl.io.units import RECORD, TARGETS, Conversion, Mapping, listed, parse_maps
+from erdctl.motion import derive_xdot
+from erdctl.recording import Array, Index, Recording, Source, concatenate
+
+Report = Callable[[str], None]
+# Which column of the log a contract column is, and how its values become SI.
+Plan = dict[str, tuple[str, Conversion]]
+
+FORCES = ("force", "force_model")
+
+
+@dataclass(frozen=True, eq=False)
+class Log:
+    """One or more logs as they were read.
+
+    table : all columns of the log, in its order and row by row as in the recording; mapped
+        columns bear the contract's name and are SI (only if asked for)
+    force_model : (n,) [N] if the log has it (only where force is needed)
+    """
+
+    recording: Recording
+    table: pa.Table | None = None
+    force_model: Array | None = None
+
+
+def read_logs(
+    paths: Sequence[str],
+    *,
+    maps: Sequence[str] = (),
+    need_force: bool,
+    keep_table: bool = False,
+    want_hash: bool = False,
+    report: Report,
+) -> Log:
+    """Read and validate bench logs (CSV, Parquet, Arrow; "-" is standard input).
+
+    maps : `--map` options, for all logs alike;  need_force : else force is read only if mapped
+    keep_table : keep all columns, for a single log;  want_hash : SHA-256 of each log
+    report : takes a line for everything that was assumed or derived
+
+    Records keep their names; of several logs they become "stem:record". A log without a column
+    `record` is one record called like the file.
+    Raises UsageProblem (no such file, wrong map), InputProblem with file, row and column.
+    """
+    if not paths:
+        raise UsageProblem("no log given")
+    if keep_table and len(paths) > 1:
+        raise ValueError("keep_table is for a single log")
+    mappings = parse_maps(maps)
+    _refuse_repeated(paths)
+    logs = [
+        _read(
+            path,
+            mappings,
+            need_force=need_force,
+            keep_table=keep_table,
+            want_hash=want_hash,
+            report=report,
+        )
+        for path in paths
+    ]
+    if len(logs) == 1:
+        return logs[0]
+    recordings = [
+        replace(log.recording, names=_qualified(log.recording.names, label))
+        for log, label in zip(logs, _labels(paths), strict=True)
+    ]
+    if len({r.temperature is None for r in recordings}) > 1:
+        report("not all logs have a column temperature; it is left out")
+    models = [log.force_model for log in logs if log.force_model is not None]
+    return Log(
+        concatenate(recordings),
+        force_model=np.concatenate(models) if len(models) == len(logs) else None,
+    )
+
+
+def _read(
+    path: str,
+    mappings: Sequence[Mapping],
+    *,
+    need_force: bool,
+    keep_table: bool,
+    want_hash: bool,
+    report: Report,
+) -> Log:
+    source = open_source(path)
+
+    def say(line: str) -> None:
+        report(f"{source.name}: {line}")
+
+    plan = _plan(source, mappings, need_force=need_force, say=say)
+    wanted = source.columns if keep_table else tuple(column for column, _ in plan.values())
+    check_fits(source, len(wanted))
+    table, digest = read_source(
+        source,
+        wanted,
+        numbers=[column for target, (column, _) in plan.items() if target != RECORD],
+        labels=[plan[RECORD][0]] if RECORD in plan else [],
+        want_hash=want_hash,
+    )
+    rows = table.num_rows
+    if not rows:
+        raise InputProblem("a header but no samples", file=source.name)
+    place = Place(source.name, lambda sample: source.row_of(sample, rows))
+    table = _in_contract_names(table, plan, say)
+    starts, names = _records(table, plan, place)
+    narrow = table.schema.field("t").type == pa.float32()
+    channels: dict[str, Array] = {}
+    for target in [t for t in plan if t != RECORD]:
+        column, convert = plan[target]
+        values = convert(to_numbers(table.column(target), column, place))
+        check_values(target, values, place, source=column)
+        # Column by column, so that at most one of them is in memory twice.
+        if keep_table:
+            table = _with_channel(table, target, values, converted=convert != Conversion())
+        else:
+            table = table.drop_columns(target)
+        channels[target] = values
+    recording = _recording(channels, starts, names, place, plan, narrow=narrow, say=say)
+    recording = replace(
+        recording,
+        names=names or (_stem(path),),
+        sources=(Source(path, digest, rows),),
+    )
+    return Log(
+        recording,
+        table=_with_own_label(table, source, plan) if keep_table else None,
+        force_model=channels.get("force_model"),
+    )
+
+
+def _plan(
+    source: TableSource, mappings: Sequence[Mapping], *, need_force: bool, say: Report
+) -> Plan:
+    plan = {m.target: m.find(source.columns, source.name) for m in mappings}
+    taken = {column for column, _ in plan.values()}
+    for target in TARGETS:
+        if target in plan or (target in FORCES and not need_force):
+            continue
+        if target in source.columns:
+            padded = [target]
+        else:
+            padded = [c for c in source.columns if c.strip() == target]
+            if padded:
+                say(f"column '{padded[0]}' is taken as '{target}'")
+        if padded and padded[0] not in taken:
+            plan[target] = (padded[0], Conversion())
+    needed = ["t", "x", "force"] if need_force else ["t", "x"]
+    missing = [target for target in needed if target not in plan]
+    if missing:
+        raise _missing(missing, [c for c in source.columns if c not in taken], source)
+    return plan
+
+
+def _missing(missing: Sequence[str], free: Sequence[str], source: TableSource) -> InputProblem:
+    by_lower = {c.lower(): c for c in free}
+    close = get_close_matches(missing[0], by_lower, 1, 0.3)
+    example = by_lower[close[0]] if close else "NAME[UNIT]"
+    names = " and ".join(f"'{m}'" for m in missing)
+    return InputProblem(
+        f"no column {names}; the log has {listed(source.columns)}; say which it is, e.g."
+        f' --map "{missing[0]}={example}"',
+        file=source.name,
+        column=missing[0],
+    )
+
+
+def _records(table: pa.Table, plan: Plan, place: Place) -> tuple[Index, tuple[str, ...]]:
+    """Offsets and names of the records; no names if the log does not tell records apart."""
+    if RECORD not in plan:
+        return np.array([0, table.num_rows], dtype=np.intp), ()
+    return to_records(table.column(RECORD), plan[RECORD][0], place)
+
+
+def _recording(
+    channels: dict[str, Array],
+    starts: Index,
+    names: tuple[str, ...],
+    place: Place,
+    plan: Plan,
+    *,
+    narrow: bool,
+    say: Report,
+) -> Recording:
+    t, x = channels["t"], channels["x"]
+    check_time(t, starts, names or None, place, source=plan["t"][0], narrow=narrow)
+    remark = remark_on_time(t, starts)
+    if remark:
+        say(remark)
+    note = "measured"
+    if "xdot" in channels:
+        xdot = channels["xdot"]
+        own = {n: plan[n][0] for n in ("t", "x", "xdot")}
+        check_consistency(t, x, xdot, starts, place, sources=own)
+    else:
+        xdot, note = derive_xdot(t, x, starts, file=place.file, row_of=place.row_of)
+        say(f"no column xdot; {note}")
+    if "duty" not in channels:
+        say("no column duty; taken as 0 (no control)")
+    return Recording(
+        t=t,
+        x=x,
+        xdot=xdot,
+        duty=channels["duty"] if "duty" in channels else np.zeros_like(t),
+        force=channels.get("force"),
+        temperature=channels.get("temperature"),
+        starts=starts,
+        names=names or ("",),
+        xdot_note=note,
+    )
+
+
+def _in_contract_names(table: pa.Table, plan: Plan, say: Report) -> pa.Table:
+    """The log's table with mapped columns renamed; a column that had such a name steps aside."""
+    targets = {column: target for target, (column, _) in plan.items()}
+    names = []
+    for name in table.column_names:
+        new = targets.get(name, name)
+        if new in plan and name not in targets:
+            new = f"{name} (original)"
+            say(f"the log's own column '{name}' is kept as '{new}'")
+        names.append(new)
+    if names == table.column_names:
+        return table
+    # pandas' notes on columns and index no longer fit.
+    others = {k: v for k, v in (table.schema.metadata or {}).items() if k != b"pandas"}
+    return table.rename_columns(names).replace_schema_metadata(others)
+
+
+def _with_channel(table: pa.Table, target: str, values: Array, *, converted: bool) -> pa.Table:
+    """The table with a channel's values, shared; a column that needed no change stays as it was."""
+    index = table.column_names.index(target)
+    field, column = table.schema.field(index), table.column(index)
+    if not converted and (column.num_chunks == 1 or field.type != pa.float64()):
+        return table
+    return table.set_column(index, field.with_type(pa.float64()), pa.array(values))
+
+
+def _with_own_label(table: pa.Table, source: TableSource, plan: Plan) -> pa.Table:
+    """The table with `record` in the type that the log has it in."""
+    if RECORD not in plan or source.schema is None:
+        return table
+    index = table.column_names.index(RECORD)
+    field = source.schema.field(plan[RECORD][0]).with_name(RECORD)
+    return table.set_column(index, field, table.column(index).cast(field.type))
+
+
+def _refuse_repeated(paths: Sequence[str]) -> None:
+    seen: set[str] = set()
+    for path in paths:
+        real = path if path == STDIN else os.path.realpath(path)
+        if real in seen:
+            raise UsageProblem(f"'{path}' is given twice; its samples would count twice")
+        seen.add(real)
+
+
+def _stem(path: str) -> str:
+    return "stdin" if path == STDIN else os.path.splitext(os.path.basename(path))[0]
+
+
+def _labels(paths: Sequence[str]) -> list[str]:
+    stems = [_stem(p) for p in paths]
+    # Logs of the same name in several directories are told apart by their paths.
+    return [s if stems.count(s) == 1 else p for s, p in zip(stems, paths, strict=True)]
+
+
+def _qualified(names: Sequence[str], label: str) -> tuple[str, ...]:
+    return tuple(n if n == label else f"{label}:{n}" for n in names)
