@@ -41,7 +41,8 @@ class Slot(Enum):
     GAS       (s, p) -> (n,) [m]          in place of x
     SCALE     (s, p) -> {group: (n,)}     multipliers of the groups gas, viscous, yield
     TERM      nothing but added forces, see `Effect.columns`
-    FEEDBACK  (force, s, p) -> {group: (n,)}  multipliers that depend on the force itself
+    FEEDBACK  (parts, s, p) -> {group: (n,)}  multipliers that depend on the forces themselves:
+              parts are those that act without it, by group and `other`, for it to march through
     SERIES    (p) -> float [m/N]          compliance in series with the groups of `Effect.carries`
     CHANNEL   (column, s, p) -> (n,)      what the force channel makes of the force
     """

@@ -99,7 +99,7 @@ class Model:
             signals=s,
             gas=self._replaced(Slot.GAS, s, values, s.x),
             viscous=self._replaced(Slot.VISCOUS, s, values, s.xdot),
-            sign=self._replaced(Slot.SIGN, s, values, np.sign(s.xdot)),
+            sign=self._replaced(Slot.SIGN, s, values, s.sign),
             fields=self._fields(s, values),
             stretch=stretch,
             scale=scale,

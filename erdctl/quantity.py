@@ -22,7 +22,7 @@ class Quantity:
     low, high : physical bounds (inclusive)
     start : where a fit begins
     off : finite value at which the physics that it belongs to is exactly absent
-    scale : LINEAR or LOG; LOG needs low > 0 or an off value of 0 that the fit never visits
+    scale : LINEAR or LOG; LOG needs low > 0; an off value of 0 then lies outside the bounds
     linear : the force is linear in it, so a fit solves for it instead of searching
     """
 
@@ -39,3 +39,9 @@ class Quantity:
     def __post_init__(self) -> None:
         if not self.low <= self.start <= self.high:
             raise ValueError(f"{self.symbol}: start {self.start} outside {self.low}..{self.high}")
+        if self.scale is Scale.LOG and self.low <= 0:
+            raise ValueError(f"{self.symbol}: a logarithmic scale needs a low bound above 0")
+
+    def admits(self, value: float) -> bool:
+        """Whether a model may have this value: within the bounds, or off."""
+        return self.low <= value <= self.high or value == self.off

@@ -13,7 +13,6 @@ from erdctl.paper import pair
 from erdctl.recording import COMPRESSION, RELEASE, Array
 from erdctl.signals import Signals
 
-ROUNDS = 4  # of a feedback between force and its factors, which is slow and weak
 Factors = Mapping[str, Array]
 
 
@@ -47,11 +46,9 @@ class Prepared:
         factors = multiplied(self.scale, factors or {})
         out = self._parts(values, factors)
         for effect in in_slot(self.effects, Slot.FEEDBACK):
-            for _ in range(ROUNDS):
-                total = np.sum(list(out.values()), axis=0)
-                back: Factors = effect.act(total, self.signals, effect.local(values))
-                out = self._parts(values, multiplied(factors, back))
+            back: Factors = effect.act(out, self.signals, effect.local(values))
             factors = multiplied(factors, back)
+            out = self._parts(values, factors)
         return {name: self._recorded(part) for name, part in out.items()}
 
     def _parts(self, values: Values, factors: Factors) -> dict[str, Array]:
@@ -80,13 +77,12 @@ class Prepared:
 
     def columns(self) -> Array:
         """(k, n) unit responses in the order of `Model.linear`."""
-        up = self.signals.compressing
         zero = np.zeros(len(self.signals))
-        rows = []
+        rows: list[Array] = []
         for group, shape in (("gas", self.gas), ("viscous", self.viscous)):
             factor = self.scale.get(group)
             shape = shape if factor is None else shape * factor
-            rows += [np.where(up, shape, 0.0), np.where(up, 0.0, shape)]
+            rows += self.signals.split(shape)
         factor = self.scale.get("yield")
         for fields in ((self.fields[COMPRESSION], zero), (zero, self.fields[RELEASE])):
             response = self._signed_yield(*fields)
@@ -126,7 +122,8 @@ class Prepared:
     ) -> dict[str, Array]:
         """Forces by group with a compliance [m/N] in series with the groups that it carries.
 
-        Forces that do not depend on speed alone act on the recorded motion, outside the spring.
+        Forces that do not depend on speed alone act on the recorded motion, outside the spring. A
+        gas law in place of x is moved by the spring as x is: their slopes differ by little there.
         """
         from erdctl.series import march, speed_grid
 
@@ -143,7 +140,7 @@ class Prepared:
         stretch = ones if self.stretch is None else self.stretch
         viscous = np.array(pair(values, "c_vis"))[:, None] * viscous
         force, v = march(
-            s.x, s.xdot, s.step, stretch, s.starts, s.compressing, u_c, u_r,
+            self.gas, s.xdot, s.step, stretch, s.starts, s.compressing, u_c, u_r,
             gain["gas"], gain["viscous"], gain["yield"], grid, viscous, sign, friction,
             k[0], k[1], T[0], T[1], compliance,
         )  # fmt: skip
@@ -155,7 +152,7 @@ class Prepared:
 
         out = {"viscous": along(viscous) * gain["viscous"], "other": along(friction)}
         if inner:
-            gas = (s.x - compliance * force) * s.with_motion(s.x, v).per_direction(*k)
+            gas = (self.gas - compliance * force) * s.with_motion(s.x, v).per_direction(*k)
             out["gas"] = gas * gain["gas"]
             # The yield force is what the rest leaves: at rest, whatever holds the piston.
             out["yield"] = force - out["gas"] - out["viscous"] - out["other"]

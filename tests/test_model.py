@@ -37,7 +37,7 @@ SLOTS: dict[Slot, Any] = {
     Slot.GAS: lambda s, p: s.x * (1 + p["p"]),
     Slot.TERM: lambda s, p: s.x[None],
     Slot.SCALE: lambda s, p: {"yield": np.full(len(s), 1 + p["p"])},
-    Slot.FEEDBACK: lambda force, s, p: {"yield": 1 - p["p"] * np.tanh(force**2 / 1e3)},
+    Slot.FEEDBACK: lambda parts, s, p: {"yield": 1 - p["p"] * np.tanh(parts["yield"] ** 2 / 1e3)},
     Slot.SERIES: lambda p: p["p"] * 1e-4,
     Slot.CHANNEL: lambda column, s, p: column * (1 + p["p"]),
 }

@@ -117,7 +117,7 @@ def _estimate(given: Value | float, quantity: Quantity, full: str, name: str) ->
         if number is not None and not math.isfinite(number):
             raise InputProblem(f"{full} is not a finite number", file=name)
     used = assumed if value is None else value
-    if used is not None and not quantity.low <= used <= quantity.high:
+    if used is not None and not quantity.admits(used):
         raise InputProblem(
             f"{full} = {used:g} {quantity.unit} is outside {quantity.low:g}..{quantity.high:g}",
             file=name,
