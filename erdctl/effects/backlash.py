@@ -1,0 +1,50 @@
+"""Piston behind a joint with free play.
+
+    q_i = rod - piston, held within -g/2..g/2;  x_p = x - q
+    xdot_p = xdot where the joint presses on a flank, 0 in the play
+
+x, x_p : (n,) stroke of the rod and of the piston [m];  g : free play [m], g >= 0, off at 0
+A record begins on the flank of its first motion. Where contact closes between two samples, the
+motion of the nearer one sets in in part, so that the force is continuous in g.
+Valid for a joint without damping of its own, with a clamp much stiffer than the damper.
+The play is followed along the integral of xdot: noise in x does not open the joint.
+Check: x = 0, 1, 2, 1, 0 mm from the lower flank, g = 2 mm gives x_p - x_p0 = 0, 1, 2, 2, 2 mm.
+Source: M. Nordin, P.-O. Gutman, Controlling mechanical systems with backlash: a survey,
+Automatica 38 (2002) 1633-1649; the play operator of Krasnosel'skii and Pokrovskii (1989).
+"""
+
+from __future__ import annotations
+
+from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.quantity import Quantity, Scale
+from erdctl.signals import Signals
+
+
+def backlash(s: Signals, p: Values) -> Signals:
+    """Motion of the piston from that of the rod."""
+    if p["g"] == 0.0:
+        return s
+    from erdctl.recurrences import play
+
+    lost, engaged = play(s.xdot, s.step, s.starts, s.compressing, p["g"])
+    return s.with_motion(s.x - lost, s.xdot * engaged, engaged)
+
+
+EFFECT = Effect(
+    name="backlash",
+    stage=Stage.MOTION,
+    slot=Slot.MOTION,
+    title="lost motion between the measured rod and the piston",
+    equation="x_p = x - q, |q| <= g/2, dq/dt = xdot in the play and 0 on its flanks",
+    source="Nordin and Gutman, Automatica 38 (2002) 1633-1649",
+    validity="a joint stiffer than the damper and without damping of its own",
+    requires=(Requirement.REVERSALS,),
+    shows=Variable.SINCE_REVERSAL,
+    quantities=(
+        Quantity(
+            symbol="g", unit="m", title="free play, from flank to flank",
+            low=1e-7, high=0.05, start=1e-4, scale=Scale.LOG,
+        ),
+    ),
+    apply=backlash,
+)  # fmt: skip

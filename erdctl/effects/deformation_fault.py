@@ -1,0 +1,57 @@
+"""Deformed duct: viscous and yield force shrink, the gas force stays.
+
+    F = k_nom x + f [c_vis xdot + F_ER sign(xdot)]   for t >= t_0
+
+f : effectiveness that is left [1], 0..1, off at 1
+t_0 : onset [s], in the time of each record as logged
+From t_0 on the factor acts; it sets in over four samples about t_0, so that the force is
+continuous in t_0. Which forces it takes is what `erdctl.faults` says, for mimic and simulate too.
+Valid for a fault that sets in at once and stays; a record that ends before t_0 is healthy.
+Check: f = 0.5, t_0 = 15 s: 10 N of gas, 6 N of viscous and 4 N of yield force, 20 N at 14 s, are
+15 N at 16 s.
+Source: the ER damper paper, Eq. 23.
+"""
+
+from __future__ import annotations
+
+from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.faults import Fault, FaultKind, factors
+from erdctl.quantity import Quantity
+from erdctl.recording import Array
+from erdctl.signals import Signals
+
+EDGE = 4.0  # samples
+
+
+def deformation_fault(s: Signals, p: Values) -> dict[str, Array]:
+    """Factors of the groups, (n,) each [1]."""
+    if p["f"] == 1.0:
+        return {}
+    ramp = EDGE * s.typical_step
+    fault = Fault(kind=FaultKind.DEFORMATION, factor=p["f"], start=p["t_0"] - 0.5 * ramp, ramp=ramp)
+    found = factors([fault], s.t, s.xdot, s.starts)
+    return {"gas": found.gas, "viscous": found.viscous, "yield": found.yield_}
+
+
+EFFECT = Effect(
+    name="deformation_fault",
+    stage=Stage.FAULT,
+    slot=Slot.SCALE,
+    title="a deformed duct takes a part of the viscous and the yield force",
+    equation="F = gas + f [viscous + yield] for t >= t_0",
+    source="the ER damper paper, Eq. 23",
+    validity="a fault that sets in at once and stays",
+    requires=(Requirement.TIME,),
+    shows=Variable.TIME,
+    quantities=(
+        Quantity(
+            symbol="f", unit="1", title="effectiveness that is left",
+            low=0.0, high=1.0, start=0.7, off=1.0,
+        ),
+        Quantity(
+            symbol="t_0", unit="s", title="onset, in the time of each record",
+            low=-1e6, high=1e6, start=10.0, off=10.0,
+        ),
+    ),
+    apply=deformation_fault,
+)  # fmt: skip

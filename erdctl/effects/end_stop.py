@@ -1,0 +1,54 @@
+"""Stiff contact beyond a stroke limit, one spring for each end.
+
+    F = k_c max(x - x_stop, 0) - k_r max(-x - x_stop, 0)
+
+x : (n,) stroke [m], 0 half-way between the stops;  x_stop : free stroke to either side [m], > 0
+k_c, k_r : stiffness of the stop in compression and in release [N/m], >= 0, off at 0
+Valid for an elastic stop met at a speed that its damping does not matter for.
+Check: x_stop = 20 mm, k_c = 1000 N/m, k_r = 2000 N/m, x = 19, 21, -22 mm gives 0, 1, -4 N.
+Source: J. C. Dixon, The Shock Absorber Handbook, 2nd ed. (2007), bump stops; the one-sided spring
+without the damping of K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.quantity import Quantity, Scale
+from erdctl.recording import Array
+from erdctl.signals import Signals
+
+
+def end_stop(s: Signals, p: Values) -> Array:
+    """(2, n) forces of stops of 1 N/m [m]."""
+    stop = p["x_stop"]
+    return np.array([np.maximum(s.x - stop, 0.0), -np.maximum(-s.x - stop, 0.0)])
+
+
+EFFECT = Effect(
+    name="end_stop",
+    stage=Stage.MOTION,
+    slot=Slot.TERM,
+    title="stiff contact beyond a stroke limit",
+    equation="F = k_c max(x - x_stop, 0) - k_r max(-x - x_stop, 0)",
+    source="Dixon, The Shock Absorber Handbook (2007); Hunt and Crossley (1975)",
+    validity="elastic stops, x = 0 half-way between them",
+    requires=(Requirement.STROKE,),
+    shows=Variable.X,
+    quantities=(
+        Quantity(
+            symbol="k_c", unit="N/m", title="stiffness of the stop in compression",
+            low=0.0, high=1e12, start=1e4, linear=True,
+        ),
+        Quantity(
+            symbol="k_r", unit="N/m", title="stiffness of the stop in release",
+            low=0.0, high=1e12, start=1e4, linear=True,
+        ),
+        Quantity(
+            symbol="x_stop", unit="m", title="free stroke to either side",
+            low=1e-4, high=1.0, start=0.02, off=0.02, scale=Scale.LOG,
+        ),
+    ),
+    columns=end_stop,
+)  # fmt: skip

@@ -1,0 +1,48 @@
+"""Yield stress that levels off at high duty.
+
+    F_ER -> sigma tanh(a v^beta) / a
+
+v : (n,) duty cycle [1];  a : saturation [1], a >= 0, off at 0;  1/a is the level, in units of
+sigma, that the yield force approaches
+Valid for a yield stress that grows monotonically; beta takes up most of a weak saturation.
+Check: a = 2, v^beta = 0.5 gives tanh(1) / 2 = 0.3808 of sigma; 1 gives tanh(2) / 2 = 0.4820.
+Source: H. J. Choi et al., A yield stress scaling function for electrorheological fluids, Appl.
+Phys. Lett. 78 (2001) 3806-3808 (tanh between the low and the high field's law).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.quantity import Quantity
+from erdctl.recording import Array
+from erdctl.signals import Signals
+
+
+def field_saturation(field: Array, s: Signals, p: Values) -> Array:
+    """(n,) normalised steady yield force [1]."""
+    if p["a"] == 0.0:
+        return field
+    level: Array = np.tanh(p["a"] * field) / p["a"]
+    return level
+
+
+EFFECT = Effect(
+    name="field_saturation",
+    stage=Stage.FIELD,
+    slot=Slot.FIELD,
+    title="yield stress levels off at high duty",
+    equation="F_ER -> sigma tanh(a v^beta) / a",
+    source="Choi et al., Appl. Phys. Lett. 78 (2001) 3806-3808",
+    validity="a yield stress that grows with the duty; three levels or more to tell it from beta",
+    requires=(Requirement.FIELD, Requirement.LEVELS),
+    shows=Variable.DUTY,
+    quantities=(
+        Quantity(
+            symbol="a", unit="1", title="saturation, sigma over the highest yield force",
+            low=0.0, high=100.0, start=1.0,
+        ),
+    ),
+    apply=field_saturation,
+)  # fmt: skip

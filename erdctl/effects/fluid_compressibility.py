@@ -1,0 +1,45 @@
+"""Fluid force through the stiffness of the compressed fluid (Maxwell element).
+
+    F_f = c_vis v + F_ER sign(v),   v = xdot - s_f dF_f/dt
+
+F_f : (n,) viscous and yield force [N];  v : (n,) speed of the flow in the duct [m/s]
+s_f : compliance of fluid, hoses and trapped air [m/N], s_f >= 0, off at 0;  1/s_f is A_p^2 K / V
+Valid for pressures at which the bulk modulus is constant. Simulated free-running, with the force
+that the model itself makes (`erdctl.series`); the gas force acts beside it.
+Check: c_vis = 100 N s/m, no field, s_f = 1e-4 m/N: xdot rises from 0 to 0.1 m/s, F_f follows with
+the time constant c_vis s_f = 10 ms: 10 (1 - exp(-1)) = 6.3212 N after 10 ms.
+Source: D. J. Peel, R. Stanway, W. A. Bullough, Dynamic modelling of an ER vibration damper for
+vehicle suspension applications, Smart Mater. Struct. 5 (1996) 591-606; J. C. Maxwell (1867).
+"""
+
+from __future__ import annotations
+
+from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.quantity import Quantity, Scale
+
+
+def fluid_compressibility(p: Values) -> float:
+    """Compliance in series with the fluid [m/N]."""
+    return p["s_f"]
+
+
+EFFECT = Effect(
+    name="fluid_compressibility",
+    stage=Stage.FLUID,
+    slot=Slot.SERIES,
+    title="fluid force through a series stiffness (Maxwell)",
+    equation="F_f = c_vis v + F_ER sign(v), v = xdot - s_f dF_f/dt",
+    source="Peel, Stanway and Bullough, Smart Mater. Struct. 5 (1996) 591-606",
+    validity="a constant bulk modulus",
+    requires=(Requirement.REVERSALS,),
+    shows=Variable.SINCE_REVERSAL,
+    quantities=(
+        Quantity(
+            symbol="s_f", unit="m/N", title="compliance of the fluid",
+            low=1e-12, high=1.0, start=1e-5, scale=Scale.LOG,
+        ),
+    ),
+    apply=fluid_compressibility,
+    carries=("viscous", "yield"),
+    equivalents=("mount_compliance",),
+)  # fmt: skip

@@ -1,0 +1,45 @@
+"""Inertia of the fluid column and of the moving parts.
+
+    F = m d2x/dt2
+
+d2x/dt2 : (n,) acceleration [m/s^2], the slope of xdot within 10 ms each way (`Signals.xddot`)
+m : mass [kg], m >= 0, off at 0; that of the fluid in a duct counts with the square of the ratio
+of piston to duct area
+Valid below about 20 Hz, where the window passes the acceleration (98 % at 7 Hz). At one frequency
+m cannot be told from k_nom, as then d2x/dt2 = -omega^2 x.
+Check: m = 2 kg, xdot = 0.5 t m/s gives 1 N.
+Source: D. J. Peel, R. Stanway, W. A. Bullough, Dynamic modelling of an ER vibration damper for
+vehicle suspension applications, Smart Mater. Struct. 5 (1996) 591-606.
+"""
+
+from __future__ import annotations
+
+from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.quantity import Quantity
+from erdctl.recording import Array
+from erdctl.signals import Signals
+
+
+def fluid_inertia(s: Signals, p: Values) -> Array:
+    """(1, n) force of 1 kg [m/s^2]."""
+    return s.xddot[None]
+
+
+EFFECT = Effect(
+    name="fluid_inertia",
+    stage=Stage.FLUID,
+    slot=Slot.TERM,
+    title="inertia of the fluid column and of the moving parts",
+    equation="F = m d2x/dt2",
+    source="Peel, Stanway and Bullough, Smart Mater. Struct. 5 (1996) 591-606",
+    validity="motion below about 20 Hz",
+    requires=(Requirement.FREQUENCIES,),
+    shows=Variable.SINCE_REVERSAL,
+    quantities=(
+        Quantity(
+            symbol="m", unit="kg", title="effective mass",
+            low=0.0, high=1e9, start=0.1, linear=True,
+        ),
+    ),
+    columns=fluid_inertia,
+)  # fmt: skip

@@ -1,0 +1,45 @@
+"""Constant force of the gas at mid-stroke, which Eq. 14 leaves out.
+
+    F = F_0 = P_0 A_s
+
+F_0 : [N], off at 0;  P_0 : filling pressure [Pa];  A_s : area of the rod [m^2]
+Valid at any stroke. Of either sign, since on force data alone it is the same as a force_offset, a
+zero error of the force channel; below 0 it must be that.
+Check: P_0 = 500 kPa, A_s = 50 mm^2 = 5e-5 m^2 gives 25 N at every stroke.
+Source: the ER damper paper, Eq. 3 at x = 0, in Eq. 4.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.quantity import Quantity
+from erdctl.recording import Array
+from erdctl.signals import Signals
+
+
+def gas_preload(s: Signals, p: Values) -> Array:
+    """(1, n) force for F_0 = 1 N [1]."""
+    return np.ones((1, len(s)))
+
+
+EFFECT = Effect(
+    name="gas_preload",
+    stage=Stage.GAS,
+    slot=Slot.TERM,
+    title="constant static gas force",
+    equation="F = F_0",
+    source="the ER damper paper, Eqs. 3 and 4",
+    validity="on force data alone it cannot be told from force_offset, a zero error of the channel",
+    requires=(Requirement.STROKE,),
+    shows=Variable.X,
+    quantities=(
+        Quantity(
+            symbol="F_0", unit="N", title="static force",
+            low=-1e9, high=1e9, start=1.0, linear=True,
+        ),
+    ),
+    columns=gas_preload,
+    equivalents=("force_offset",),
+)  # fmt: skip

@@ -1,0 +1,44 @@
+"""Turbulent loss in ducts and orifices.
+
+    F = c_2 xdot |xdot|
+
+xdot : (n,) piston speed [m/s];  c_2 : [N s^2/m^2], c_2 >= 0, off at 0
+Valid for flow well above the laminar one, and for losses at the ends of a duct.
+Check: c_2 = 200 N s^2/m^2, xdot = 0.1, -0.3 m/s gives 2, -18 N.
+Source: J. C. Dixon, The Shock Absorber Handbook, 2nd ed. (2007), orifice flow.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.quantity import Quantity
+from erdctl.recording import Array
+from erdctl.signals import Signals
+
+
+def quadratic_damping(s: Signals, p: Values) -> Array:
+    """(1, n) force for c_2 = 1 N s^2/m^2 [m^2/s^2]."""
+    return np.array([s.xdot * np.abs(s.xdot)])
+
+
+EFFECT = Effect(
+    name="quadratic_damping",
+    stage=Stage.FLUID,
+    slot=Slot.TERM,
+    title="turbulent loss",
+    equation="F = c_2 xdot |xdot|",
+    source="Dixon, The Shock Absorber Handbook (2007)",
+    validity="turbulent flow, or losses at the ends of a duct",
+    requires=(Requirement.SPEEDS,),
+    shows=Variable.XDOT,
+    quantities=(
+        Quantity(
+            symbol="c_2", unit="N s^2/m^2", title="loss coefficient",
+            low=0.0, high=1e12, start=100.0, linear=True,
+        ),
+    ),
+    columns=quadratic_damping,
+    of_speed=True,
+)  # fmt: skip

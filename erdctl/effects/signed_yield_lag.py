@@ -1,0 +1,61 @@
+"""First-order lag of the signed yield force: it rebuilds after every reversal.
+
+    T_s dF_y/dt + F_y = F_ER sign(xdot)
+
+F_ER : (n,) yield force of Eq. 12 [N];  F_y : (n,) what acts [N];  T_s : [s] >= 0, off at 0
+Solved exactly for an input that is a straight line between samples, or, in a step in which the
+piston turns, jumps where it does. A record begins with F_y steady.
+Valid where chains break and form anew at a reversal. Where this is the lag that the damper has,
+T_d of Eq. 12, which acts on the unsigned force, goes to 0.
+Check: F_ER = 10 N, T_s = 20 ms: 20 ms after a reversal F_y = 10 - 20 exp(-1) = 2.6424 N.
+Source: D. R. Gamota, F. E. Filisko, Dynamic mechanical studies of electrorheological materials:
+moderate frequencies, J. Rheol. 35 (1991) 399-425 (elastic stress that rebuilds after a reversal).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.kernels import first_order
+from erdctl.quantity import Quantity, Scale
+from erdctl.recording import Array
+from erdctl.signals import Signals
+
+
+def signed_yield_lag(force: Array, s: Signals, p: Values) -> Array:
+    """(n,) yield force after the lag, in the unit of the signed yield force."""
+    T_s = p["T_s"]
+    if T_s == 0.0:
+        return force
+    decay = s.step / T_s if s.common_step is None else s.common_step / T_s
+    e = np.maximum(decay, 1e-300)  # the step at the end of a record is 0, and not used
+    gone = -np.expm1(-e)
+    new = 1.0 - gone / e
+    of_old, of_new = np.broadcast_to(gone - new, force.shape), np.broadcast_to(new, force.shape)
+    source = np.zeros_like(force)
+    source[:-1] = of_old[:-1] * force[:-1] + of_new[:-1] * force[1:]
+    i, part = s.turns
+    before, after = part * s.step[i] / T_s, (1.0 - part) * s.step[i] / T_s
+    source[i] = -np.expm1(-before) * np.exp(-after) * force[i] - np.expm1(-after) * force[i + 1]
+    return first_order(decay, source, force[s.starts[:-1]], s.starts)
+
+
+EFFECT = Effect(
+    name="signed_yield_lag",
+    stage=Stage.FLUID,
+    slot=Slot.YIELD,
+    title="the lag acts on the signed yield force, which rebuilds after every reversal",
+    equation="T_s dF_y/dt + F_y = F_ER sign(xdot)",
+    source="Gamota and Filisko, J. Rheol. 35 (1991) 399-425",
+    validity="in addition to Eq. 12, whose T_d goes to 0 where this is the only lag",
+    requires=(Requirement.FIELD, Requirement.REVERSALS),
+    shows=Variable.SINCE_REVERSAL,
+    quantities=(
+        Quantity(
+            symbol="T_s", unit="s", title="time constant of the signed yield force",
+            low=1e-5, high=10.0, start=0.01, scale=Scale.LOG,
+        ),
+    ),
+    apply=signed_yield_lag,
+)  # fmt: skip

@@ -1,0 +1,50 @@
+"""High-voltage amplifier with a limited slew rate.
+
+    dv_a/dt = sign(v - v_a) / T_full until v_a = v
+
+v : (n,) duty cycle, held from its sample to the next [1];  v_a : that of the electrodes [1]
+T_full : time from zero to full scale [s], T_full >= 0, off at 0
+v_a is handed on as its mean over each step. A record begins with v_a = v.
+Valid for an amplifier with the same limit up and down.
+Check: samples 10 ms apart, v = 0, 0.3, 0.3, 0.3, T_full = 50 ms (0.2 in 10 ms): v_a goes from 0 to
+0.2, then in 5 ms to 0.3: means 0, 0.1, (0.25 + 0.3) / 2 = 0.275, 0.3.
+Source: P. Horowitz, W. Hill, The Art of Electronics, 3rd ed. (2015), Sec. 4.4 (slew rate).
+"""
+
+from __future__ import annotations
+
+from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.quantity import Quantity, Scale
+from erdctl.recording import Array
+from erdctl.signals import Signals
+
+
+def supply_slew(s: Signals, p: Values) -> Array:
+    """(n,) duty that reaches the electrodes [1], its mean over each step."""
+    if p["T_full"] == 0.0:
+        return s.duty
+    from erdctl.recurrences import rate_limited
+
+    duty: Array = rate_limited(s.duty, s.step, s.starts, 1.0 / p["T_full"])
+    return duty
+
+
+EFFECT = Effect(
+    name="supply_slew",
+    stage=Stage.FIELD,
+    slot=Slot.CONTROL,
+    title="the high-voltage amplifier is slew-rate limited",
+    equation="dv_a/dt = sign(v - v_a) / T_full until v_a = v",
+    source="Horowitz and Hill, The Art of Electronics (2015), Sec. 4.4",
+    validity="the same limit up and down",
+    requires=(Requirement.FIELD, Requirement.STEPS),
+    shows=Variable.SINCE_DUTY_STEP,
+    quantities=(
+        Quantity(
+            symbol="T_full", unit="s", title="time from zero to full scale",
+            low=1e-4, high=100.0, start=0.05, scale=Scale.LOG,
+        ),
+    ),
+    apply=supply_slew,
+    order=10,  # the amplifier comes before the fluid
+)  # fmt: skip

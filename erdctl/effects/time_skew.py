@@ -1,0 +1,53 @@
+"""Force channel recorded late, or early, against motion and control.
+
+    F_rec(t) = F(t - tau)
+
+F, F_rec : (n,) force of the damper, and as recorded [N];  tau : delay [s], < 0 when early, off at 0
+Straight lines between samples; beyond the ends of a record its first or last force holds.
+Valid for a constant delay (filters, conversion times) of a few samples or more.
+Check: samples 10 ms apart, F = 0, 4, 8, 8 N, tau = 5 ms gives 0, 2, 6, 8 N; -5 ms 2, 6, 8, 8 N.
+Source: T. I. Laakso et al., Splitting the unit delay, IEEE Signal Processing Magazine 13 (1996)
+30-60 (linear interpolation as fractional delay).
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.quantity import Quantity
+from erdctl.recording import Array
+from erdctl.signals import Signals
+
+
+def time_skew(column: Array, s: Signals, p: Values) -> Array:
+    """(n,) the column as the force channel records it."""
+    if p["tau"] == 0.0:
+        return column
+    out = np.empty_like(column)
+    for a, b in pairwise(s.starts.tolist()):
+        t = s.t[a:b] - s.t[a]  # small numbers, whatever the clock says
+        out[a:b] = np.interp(t - p["tau"], t, column[a:b])
+    return out
+
+
+EFFECT = Effect(
+    name="time_skew",
+    stage=Stage.MOTION,
+    slot=Slot.CHANNEL,
+    title="force channel recorded late (or early) against the motion",
+    equation="F_rec(t) = F(t - tau)",
+    source="Laakso et al., IEEE Signal Processing Magazine 13 (1996) 30-60",
+    validity="a constant delay, with the duty logged on the clock of the motion",
+    requires=(Requirement.REVERSALS,),
+    shows=Variable.SINCE_REVERSAL,
+    quantities=(
+        Quantity(
+            symbol="tau", unit="s", title="delay of the force channel, below 0 when early",
+            low=-0.5, high=0.5, start=2e-3,
+        ),
+    ),
+    apply=time_skew,
+)  # fmt: skip
