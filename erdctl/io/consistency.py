@@ -12,8 +12,8 @@ from erdctl.recording import Array, Index
 # Whatever independent noise does, at this correlation it changes the slope by less than 10 %.
 CERTAIN = 0.95
 LOW, HIGH = 0.2, 5.0
-SPANS = (1, 8, 64)  # samples that a displacement is taken over: longer ones drown quantisation
-FEWEST = 24  # displacements
+SPANS = (1, 8, 64)  # samples that a mean velocity is taken over: long ones drown quantisation
+FEWEST = 24  # mean velocities
 _BLOCK, _BLOCKS, _RECORDS = 4096, 8, 64  # 2 million samples at most, 40 ms
 
 # dx/dt over xdot when one of them is in another unit.
@@ -40,10 +40,11 @@ def check_consistency(
 ) -> None:
     """Raise InputProblem if x clearly moves at another rate, or another way, than xdot says.
 
-        slope = sum d v / sum v^2,   d_i = x_{i+k} - x_i,   v_i = integral of xdot over the same k
+        slope = sum u v / sum v^2,   u_i = (x_{i+k} - x_i) / T,   v_i = mean of xdot over T
 
-    both about their means, over at most 64 records and 32768 samples of each. A verdict needs a
-    correlation above 0.95: noise, quantisation, drift, filters or a standstill give none.
+    with T = t_{i+k} - t_i, and both about their means; over at most 64 records and 32768 samples
+    of each. A verdict needs a correlation above 0.95: noise, quantisation, an offset, drift, a
+    filter or a standstill give none.
 
     sources : the log's own names of t, x and xdot
     """
@@ -73,24 +74,29 @@ def _advice(slope: float, step: float, sources: dict[str, str]) -> str:
             # Nobody samples a damper once a second.
             late = ratio == 1e-3 and step > 0.05
             return (_MILLISECONDS if late else text).format(**sources)
-    return 'one of t, x and xdot is in another unit; map it, e.g. --map "x={x}[mm]"'.format(
-        **sources
-    )
+    return (
+        "one of t, x and xdot is in another unit (map it, e.g."
+        ' --map "x={x}[mm]"), or xdot was filtered too strongly (leave it out to have it derived)'
+    ).format(**sources)
 
 
 def _slope(t: Array, x: Array, xdot: Array, parts: Sequence[slice]) -> tuple[float, float]:
     """Slope and correlation at the shortest span that makes them certain; else correlation 0."""
     travelled = [_integral(t[p], xdot[p]) for p in parts]
     for span in SPANS:
-        d = np.concatenate([np.diff(x[p][::span]) for p in parts])
-        v = np.concatenate([np.diff(y[::span]) for y in travelled])
-        if d.size < FEWEST:
+        times = np.concatenate([np.diff(t[p][::span]) for p in parts])
+        if times.size < FEWEST:
             break
-        d, v = d - d.mean(), v - v.mean()
-        # Not d @ v: waking the threads of BLAS takes longer than these sums.
-        dd, vv, dv = (float(np.sum(a * b)) for a, b in ((d, d), (v, v), (d, v)))
-        if dv**2 >= CERTAIN**2 * dd * vv > 0.0:
-            return dv / vv, dv / (dd * vv) ** 0.5
+        u = np.concatenate([np.diff(x[p][::span]) for p in parts]) / times
+        v = np.concatenate([np.diff(y[::span]) for y in travelled]) / times
+        u, v = u - u.mean(), v - v.mean()
+        # Not u @ v: waking the threads of BLAS takes longer than these sums.
+        uu, vv, uv = (float(np.sum(a * b)) for a, b in ((u, u), (v, v), (u, v)))
+        if uv**2 < CERTAIN**2 * uu * vv or not uu * vv > 0.0:
+            continue
+        # How many velocities share the motion: one glitch in x and xdot alike proves nothing.
+        if vv**2 >= FEWEST * float(np.sum(np.square(v * v))):
+            return uv / vv, uv / (uu * vv) ** 0.5
     return 1.0, 0.0
 
 

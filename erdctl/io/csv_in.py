@@ -39,18 +39,28 @@ def column_names(data: Data, file: str) -> list[str]:
 
     Raises InputProblem if there is none, if it is not UTF-8, or not separated by commas.
     """
-    for line, names in _rows(data, file):
-        _check_text(names, line, file)
-        found = [s for s in _SEPARATORS if s in names[0]] if len(names) == 1 else []
-        if found:
+    rows = _rows(data, file)
+    line, names = next(rows, (1, []))
+    if not names:
+        raise InputProblem("empty; expected a header row and samples", file=file)
+    _check_text(names, line, file)
+    if len(names) == 1:
+        below = next(rows, (0, names))[1]
+        if len(below) > 1:
             raise InputProblem(
-                f"the header is separated by {_SEPARATORS[found[0]]}, expected commas: export it"
-                " as comma-separated, with a point as decimal sign",
+                f"one cell where {len(below)} follow; remove what stands before the header",
                 file=file,
                 row=line,
             )
-        return names
-    raise InputProblem("empty; expected a header row and samples", file=file)
+        for separator, called in _SEPARATORS.items():
+            if separator in names[0]:
+                raise InputProblem(
+                    f"the header is separated by {called}, expected commas; export it as"
+                    " comma-separated, with a point as decimal sign",
+                    file=file,
+                    row=line,
+                )
+    return names
 
 
 def read(

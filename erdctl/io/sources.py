@@ -101,7 +101,7 @@ def read_source(
         if source.format is Format.CSV:
             return csv_in.read(source.data, source.name, source.columns, names, numbers)
         if source.format is Format.PARQUET:
-            return _read_parquet(source.data, names, labels)
+            return _read_parquet(source, names, labels)
         return _read_arrow(source, names)
 
     try:
@@ -183,12 +183,16 @@ def _schema(data: Data, format: Format) -> pa.Schema:
         return _arrow_reader(file).schema
 
 
-def _read_parquet(data: Data, names: Sequence[str], labels: Collection[str]) -> pa.Table:
+def _read_parquet(source: TableSource, names: Sequence[str], labels: Collection[str]) -> pa.Table:
     import pyarrow.parquet as pq
 
-    # As dictionary indices: text in one piece takes longer to read than five columns of numbers.
+    assert source.schema is not None
+    text = (pa.string(), pa.large_string())
     with pq.ParquetFile(
-        _native(data), read_dictionary=list(labels), page_checksum_verification=True
+        _native(source.data),
+        # As dictionary indices: text takes longer to read than five columns of numbers.
+        read_dictionary=[n for n in labels if source.schema.field(n).type in text],
+        page_checksum_verification=True,
     ) as file:
         return file.read(columns=list(names)).select(list(names))
 
