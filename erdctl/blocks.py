@@ -13,7 +13,7 @@ from erdctl.signals import Signals
 # The state of Eq. 12 before a record or a piece of one is unknown; it has faded after this time
 # for every T_d up to 60 ms (to 0.7 %).
 SETTLE = 0.3
-LONGEST = 500_000  # samples in one piece: bounds memory, and gives each thread its share
+LONGEST = 50_000  # samples in one piece: its columns fit into a processor's cache
 
 
 class Block(NamedTuple):

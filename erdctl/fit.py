@@ -22,6 +22,7 @@ from erdctl.recording import Array
 from erdctl.signals import Signals
 
 DIFFERENCE = 1e-6  # relative step of a one-sided difference
+COLOURED = 16  # blocks on which the effect of coloured noise is measured
 HUBER = 1.345  # tuning constant for 95 % efficiency under normal noise
 SINGULAR = 1e-10  # relative eigenvalue of the scaled normal matrix below which a direction is flat
 
@@ -185,11 +186,12 @@ class _Projected:
 
 @dataclass(frozen=True)
 class _Sums:
-    """What one block contributes: J'WJ, J'Wr and J'WCWJ."""
+    """What one block contributes: J'WJ, J'Wr, J'WCWJ (where it is asked for), its samples."""
 
     normal: Array
     gradient: Array
-    meat: Array
+    meat: Array | None
+    samples: int
 
 
 def assess(
@@ -221,8 +223,20 @@ def assess(
             return [b for b, _, _ in found], sum(s for _, s, _ in found), noise
 
         weighted, before, noise = residuals(values)
-        parts = list(pool.map(lambda b: _sum_up(model, b, values, free, noise), weighted))
+        # Colouring is the dearest part, and a share of a long log gives the noise's effect as well.
+        every = -(-len(weighted) // COLOURED)
+        parts = list(
+            pool.map(
+                lambda i: _sum_up(
+                    model, weighted[i], values, free, noise if i % every == 0 else None
+                ),
+                range(len(weighted)),
+            )
+        )
         inverse, flat = _inverse(np.sum([p.normal for p in parts], axis=0), free)
+        coloured = [p for p in parts if p.meat is not None]
+        share = sum(p.samples for p in parts) / max(sum(p.samples for p in coloured), 1)
+        meat = share * np.sum([p.meat for p in coloured], axis=0)
         step = inverse @ np.sum([p.gradient for p in parts], axis=0)
         moved = dict(values)
         for name, move in zip(free, step.tolist(), strict=True):
@@ -236,7 +250,7 @@ def assess(
         model=model,
         values=moved,
         free=free,
-        covariance=inverse @ np.sum([p.meat for p in parts], axis=0) @ inverse,
+        covariance=inverse @ meat @ inverse,
         rms=float(np.sqrt(after / max(samples - len(free), 1))),
         noise=noise_after,
         samples=samples,
@@ -276,13 +290,25 @@ def _residual(
 
 
 def _sum_up(
-    model: Model, block: Block, values: Values, free: Sequence[str], noise: ColouredNoise
+    model: Model,
+    block: Block,
+    values: Values,
+    free: Sequence[str],
+    noise: ColouredNoise | None,
 ) -> _Sums:
     J = jacobian(model, block.signals, values, free)
     residual = block.force - model.force(block.signals, values)
     weighted = J * block.weight
-    coloured = noise.colour(weighted, block.signals.starts)
-    return _Sums(normal=weighted @ J.T, gradient=weighted @ residual, meat=coloured @ coloured.T)
+    meat = None
+    if noise is not None:
+        coloured = noise.colour(weighted, block.signals.starts)
+        meat = coloured @ coloured.T
+    return _Sums(
+        normal=weighted @ J.T,
+        gradient=weighted @ residual,
+        meat=meat,
+        samples=int(np.count_nonzero(block.weight)),
+    )
 
 
 def _inverse(normal: Array, free: Sequence[str]) -> tuple[Array, tuple[tuple[str, ...], ...]]:

@@ -16,7 +16,7 @@ from erdctl.parameters import Estimate
 from erdctl.recording import DIRECTIONS, Recording
 from erdctl.two_step import two_step
 
-SEARCH = 150_000  # samples for the search; the last step and the errors use all
+SEARCH = 40_000  # samples for the search; the last step and the errors use all
 CORRELATED = 0.95
 
 

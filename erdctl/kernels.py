@@ -14,6 +14,9 @@ from erdctl.recording import Array, Index
 
 # exp(LIMIT) stays far from overflow, so a segment may decay by that much before a restart.
 LIMIT = 300.0
+# Above this decay a step, segments would be so short that doubling costs less.
+FAST = 0.5
+GONE = 1e-30  # of a decay: no longer seen beside any sum, and kept out of slow denormal numbers
 
 
 def first_order(exponent: Array | float, source: Array, initial: Array, starts: Index) -> Array:
@@ -33,11 +36,15 @@ def first_order(exponent: Array | float, source: Array, initial: Array, starts: 
     Check: e = ln 2, source = 1, y[0] = 0 gives 0, 1, 1.5, 1.75.
     """
     out = np.empty_like(source)
-    bounds = starts.tolist()
-    for record, (a, b) in enumerate(pairwise(bounds)):
+    for record, (a, b) in enumerate(pairwise(starts.tolist())):
         out[a] = initial[record]
         if isinstance(exponent, float):
-            _uniform(exponent, source[a:b], out[a:b])
+            if exponent < FAST:
+                _uniform(exponent, source[a:b], out[a:b])
+            else:
+                _doubling(np.full(b - a, exponent), source[a:b], out[a:b])
+        elif b - a > 1 and exponent[a : b - 1].mean() >= FAST:
+            _doubling(exponent[a:b], source[a:b], out[a:b])
         else:
             _varying(exponent[a:b], source[a:b], out[a:b])
     return out
@@ -46,8 +53,7 @@ def first_order(exponent: Array | float, source: Array, initial: Array, starts: 
 def _uniform(e: float, source: Array, out: Array) -> None:
     """Fill out[1:] where every step decays alike: one table of powers serves all segments."""
     n = len(out)
-    e = min(e, 2 * LIMIT)  # what decays by more than that in one step is gone either way
-    length = max(1, min(n, 4096, int(LIMIT / e) if e > 0 else n))
+    length = min(n, 4096, int(LIMIT / e) if e > 0 else n)
     growth = np.exp(e * np.arange(1, length + 1))
     decay = np.exp(-e * np.arange(1, length + 1))
     work = np.empty(length)
@@ -75,3 +81,21 @@ def _varying(e: Array, source: Array, out: Array) -> None:
         np.cumsum(work, out=work)
         np.divide(work, growth, out=out[a + 1 : b + 1])
         a = b
+
+
+def _doubling(e: Array, source: Array, out: Array) -> None:
+    """Fill out[1:] where states fade within few steps: each pass doubles the steps summed."""
+    decay, total = np.exp(-e[:-1]), source[:-1].copy()
+    if len(total) == 0:
+        return
+    total[0] += decay[0] * out[0]
+    decay[0] = 0.0
+    k = 1
+    while k < len(total):
+        decay[decay < GONE] = 0.0
+        if not decay.any():
+            break
+        total[k:] += decay[k:] * total[:-k]
+        decay[k:] = decay[k:] * decay[:-k]
+        k *= 2
+    out[1:] = total
