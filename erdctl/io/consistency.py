@@ -14,7 +14,7 @@ CERTAIN = 0.95
 LOW, HIGH = 0.2, 5.0
 SPANS = (1, 8, 64)  # samples that a mean velocity is taken over: long ones drown quantisation
 FEWEST = 24  # mean velocities
-_BLOCK, _BLOCKS, _RECORDS = 4096, 8, 64  # 2 million samples at most, 40 ms
+_BLOCK, _BLOCKS, _RECORDS = 4096, 4, 64  # a million samples at most, 40 ms
 
 # dx/dt over xdot when one of them is in another unit.
 _UNITS = {
@@ -42,7 +42,7 @@ def check_consistency(
 
         slope = sum u v / sum v^2,   u_i = (x_{i+k} - x_i) / T,   v_i = mean of xdot over T
 
-    with T = t_{i+k} - t_i, and both about their means; over at most 64 records and 32768 samples
+    with T = t_{i+k} - t_i, and both about their means; over at most 64 records and 16384 samples
     of each. A verdict needs a correlation above 0.95: noise, quantisation, an offset, drift, a
     filter or a standstill give none.
 

@@ -238,11 +238,7 @@ def _in_contract_names(table: pa.Table, plan: Plan, say: Report) -> pa.Table:
             new = f"{name} (original)"
             say(f"the log's own column '{name}' is kept as '{new}'")
         names.append(new)
-    if names == table.column_names:
-        return table
-    # pandas' notes on columns and index no longer fit.
-    others = {k: v for k, v in (table.schema.metadata or {}).items() if k != b"pandas"}
-    return table.rename_columns(names).replace_schema_metadata(others)
+    return table.rename_columns(names)
 
 
 def _with_channel(table: pa.Table, target: str, values: Array, *, converted: bool) -> pa.Table:

@@ -82,6 +82,11 @@ def test_absurd_numbers(
     assert said == f"found {value:g}, expected a number below 1e12"
 
 
+def test_absurd_integers(columns: Columns, write: Write, refused: Refused) -> None:
+    columns["force"] = [0] * 199 + [2**60 + 1]
+    assert "found 1.15292e+18" in refused(write(columns, PARQUET), 200, "force")
+
+
 @pytest.mark.parametrize(
     ("cell", "words"),
     [

@@ -149,6 +149,12 @@ def test_velocity_differentiated_from_pure_noise_is_never_accused(seed: int, win
     check(t, x, np.gradient(x, t))
 
 
+def test_one_glitch_in_x_and_xdot_is_not_accused() -> None:
+    t = np.arange(5000) * 1e-3
+    glitch = (np.arange(5000) == 2500) * 1.0
+    check(t, np.cumsum(glitch) * 1e-3, 0.01 * (glitch + np.roll(glitch, 1)))
+
+
 @pytest.mark.parametrize("speed", [0.0, 1e-6])
 def test_a_constant_velocity_offset_over_a_creep_is_not_accused(speed: float) -> None:
     t = np.arange(5000) * 1e-3

@@ -208,12 +208,13 @@ def test_exchanged_names(columns: Columns, write: Write, read: Read, said: list[
 
 
 def test_pandas_reads_a_mapped_log(columns: Columns, tmp_path: Path, read: Read) -> None:
-    frame = pd.DataFrame(columns).set_index("t").rename(columns={"force": "F"})
+    frame = pd.DataFrame(columns).rename(columns={"force": "F", "t": "Time"}).set_index("Time")
     frame.to_parquet(tmp_path / "log.parquet")
-    log = read(str(tmp_path / "log.parquet"), maps=["force=F[kN]"], keep_table=True)
+    log = read(str(tmp_path / "log.parquet"), maps=["force=F[kN]", "t=Time"], keep_table=True)
     write_table(log.table, str(tmp_path / "out.parquet"))
     back = pd.read_parquet(tmp_path / "out.parquet")
     assert np.allclose(back["force"], columns["force"] * 1e3)
+    assert np.array_equal(back["t"], columns["t"])
 
 
 # --- the table that passes through
@@ -251,6 +252,16 @@ def test_types_that_need_no_change_stay(
     log = read(write(columns, "log.parquet"), need_force=False, keep_table=True)
     assert log.table.schema.field("duty").type == kind
     assert log.recording.duty.dtype == np.float64
+
+
+def test_types_stay_in_logs_of_many_batches(columns: Columns, tmp_path: Path, read: Read) -> None:
+    table = pa.table(columns)
+    table = table.set_column(3, "duty", table["duty"].cast(pa.float32()))
+    path = str(tmp_path / "log.arrow")
+    with pa.OSFile(path, "wb") as file, pa.ipc.new_stream(file, table.schema) as writer:
+        writer.write_table(table, max_chunksize=30)
+    log = read(path, need_force=False, keep_table=True)
+    assert log.table.equals(table)
 
 
 def test_categories_stay_categories(columns: Columns, write: Write, read: Read) -> None:

@@ -157,6 +157,19 @@ def test_many_rows_of_csv(tmp_path: Path) -> None:
     assert read_table(path, numbers=["t", "f"]).equals(table)
 
 
+@pytest.mark.parametrize("block", [40, 64, 100])
+def test_line_ends_in_quotes_across_blocks(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, block: int
+) -> None:
+    monkeypatch.setattr("erdctl.io.csv_in.BLOCK", block)
+    path = str(tmp_path / "a.csv")
+    notes = [f"{i},\n0,\n" for i in range(300)]
+    write_table(pa.table({"t": np.arange(300.0), "s": notes}), path)
+    got = read_table(path, numbers=["t"])
+    assert got["s"].to_pylist() == notes
+    assert got["t"].to_pylist() == list(range(300))
+
+
 def test_slices_are_written_from_their_beginning(tmp_path: Path) -> None:
     path = str(tmp_path / "a.csv")
     write_table(pa.table({"t": np.arange(10.0), "s": list("abcdefghij")}).slice(4, 2), path)
@@ -346,6 +359,15 @@ def test_big_integers_in_parquet_survive_csv(tmp_path: Path) -> None:
     table = pa.table({"t": [1.0], "id": pa.array([2**64 - 1], pa.uint64())})
     write_table(table, str(tmp_path / "a.csv"))
     assert "18446744073709551615" in (tmp_path / "a.csv").read_text()
+
+
+def test_only_columns_of_few_values_are_dictionaries(tmp_path: Path) -> None:
+    path = str(tmp_path / "a.parquet")
+    columns = {"x": np.arange(10.0), "duty": np.zeros(10), "record": ["a"] * 10}
+    write_table(pa.table(columns), path)
+    group = pq.read_metadata(path).row_group(0)
+    encoded = [("RLE_DICTIONARY" in group.column(i).encodings) for i in range(3)]
+    assert encoded == [False, True, True]
 
 
 def test_writing_many_rows_prints_its_speed(tmp_path: Path) -> None:
