@@ -1,0 +1,41 @@
+"""A plant simulator that shares no code with the rest of erdctl, to prove the diagnosis with.
+
+case = draw(seed)     a concealed case: effect, strength, damper, campaign, noise
+log(case)             the log that a laboratory would have
+fresh(case)           other records, noise-free, to judge a corrected model by
+key(case)             the truth, for JSON
+simulate(plant, record)
+"""
+
+from __future__ import annotations
+
+from erdctl.plant.campaign import Campaign, Duty, Record
+from erdctl.plant.case import Case, Truth
+from erdctl.plant.draw import draw
+from erdctl.plant.hidden import CATALOGUE, EQUIVALENT, OUTSIDE
+from erdctl.plant.logs import fresh, key, log
+from erdctl.plant.motion import Motion
+from erdctl.plant.plant import Channel, Outside, Physics, Plant, Side
+from erdctl.plant.simulate import simulate
+
+__all__ = [
+    "CATALOGUE",
+    "EQUIVALENT",
+    "OUTSIDE",
+    "Campaign",
+    "Case",
+    "Channel",
+    "Duty",
+    "Motion",
+    "Outside",
+    "Physics",
+    "Plant",
+    "Record",
+    "Side",
+    "Truth",
+    "draw",
+    "fresh",
+    "key",
+    "log",
+    "simulate",
+]

@@ -1,0 +1,94 @@
+"""One attempt at a case: a damper is drawn, and each effect made as strong as the plan wants it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from erdctl.plant.base import PLAIN, Weights, draw_base
+from erdctl.plant.hidden import Hidden, Scales
+from erdctl.plant.noise import ForceNoise
+from erdctl.plant.plan import Plan
+from erdctl.plant.plant import Plant
+from erdctl.plant.refit import joined
+from erdctl.plant.simulate import Ride, forces
+from erdctl.plant.strength import MOST_NEAR, Outcome, Setting, crowding, outcome, scales_of, sought
+
+Random = np.random.Generator
+
+
+@dataclass(frozen=True)
+class Trial:
+    """How an attempt may differ from a plain draw.
+
+    weights : parts of the force that are favoured;  noise : factor on the noise's amplitude
+    level : factor on the wanted levels
+    """
+
+    weights: Weights = PLAIN
+    noise: float = 1.0
+    level: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Built:
+    """An attempt: what came out for each effect alone, without each, and for all together.
+
+    off : log of reached over wanted level, the farthest from 0
+    crowding : how many times stronger the effect ought to be not to live next to reversals only
+    """
+
+    setting: Setting
+    noise: ForceNoise
+    alone: tuple[Outcome, ...]
+    without: tuple[Outcome, ...]
+    whole: Outcome
+    off: float
+    crowding: float
+
+
+def build(plan: Plan, over: tuple[Ride, ...], random: Random, trial: Trial) -> Built:
+    """An attempt at a plan."""
+    base = draw_base(random, plan.campaign, trial.weights)
+    samples, plain = joined(over), forces(base, over)
+    scales = scales_of(over, plain, samples, plan.campaign.rating.stroke)
+    noise = plan.force_noise.scaled(float(np.ptp(plain)), trial.noise)
+    setting = Setting(over, samples, base, plain, scales, noise.rms)
+    makers, alone, off, crowd = [], [], 0.0, 1.0
+    for effect, level in zip(plan.effects, plan.levels, strict=True):
+        maker = _maker(effect, effect.drawn(random), scales)
+        wanted = level * trial.level
+        alone_in_base = partial(maker, base)
+        found = sought(setting, effect, alone_in_base, wanted)
+        if found.near > MOST_NEAR:
+            crowd = max(crowd, crowding(setting, effect, alone_in_base, found))
+        distance = float(np.log(max(found.level, 1e-9) / wanted))
+        off = distance if abs(distance) > abs(off) else off
+        makers.append(maker)
+        alone.append(found)
+    if len(alone) == 1:
+        return Built(setting, noise, tuple(alone), (), alone[0], off, crowd)
+    strengths = [a.strength for a in alone]
+    whole = _together(setting, makers, strengths)
+    without = tuple(
+        _together(setting, makers[:k] + makers[k + 1 :], strengths[:k] + strengths[k + 1 :])
+        for k in range(len(alone))
+    )
+    return Built(setting, noise, tuple(alone), without, whole, off, crowd)
+
+
+Maker = Callable[[Plant, float], Plant]
+
+
+def _maker(effect: Hidden, shape: dict[str, float], scales: Scales) -> Maker:
+    return lambda plant, s: effect.build(plant, s, shape, scales)
+
+
+def _together(setting: Setting, makers: Sequence[Maker], strengths: Sequence[float]) -> Outcome:
+    plant = setting.base
+    for maker, s in zip(makers, strengths, strict=True):
+        plant = maker(plant, s)
+    return outcome(setting, plant, float("nan"), full=True)

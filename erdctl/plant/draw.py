@@ -1,0 +1,179 @@
+"""From a seed to a concealed case.
+
+The campaign stands; if it cannot show the effect as wanted, the damper and the amplitude of the
+noise are drawn anew: less noise and a part of the force that carries the effect, or, where the
+misfit would live only next to the reversals, more noise and less yield force, so that the same
+level needs more of the effect. At last the effect is made stronger than wanted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from erdctl.plant.base import Weights
+from erdctl.plant.build import Built, Trial, build
+from erdctl.plant.campaign import Campaign, draw_other
+from erdctl.plant.case import Case, Truth
+from erdctl.plant.hidden import CATALOGUE, EQUIVALENT, UNITS, Hidden
+from erdctl.plant.noise import FRACTIONS
+from erdctl.plant.plan import Plan, draw_plan, stream
+from erdctl.plant.plant import Plant
+from erdctl.plant.refit import joined, predicted
+from erdctl.plant.regions import regions
+from erdctl.plant.simulate import forces, rides
+from erdctl.plant.strength import MOST_NEAR
+
+TRIES = 8
+PATIENCE = 4  # tries before levels are raised
+TOLERANCE = 0.1  # of the log of a level
+GOOD = 0.1  # NRMSE below which a plain fit looks good
+WORSE = 1.5  # times as bad on fresh records
+ABSORBED = 0.15  # part of the raw misfit that the refit leaves at most
+
+
+def draw(
+    seed: int,
+    *,
+    effects: Sequence[str] | None = None,
+    level: float | None = None,
+    kind: str | None = None,
+    concealment: str | None = None,
+    motion: str | None = None,
+    colour: str | None = None,
+    scatter: bool = False,
+) -> Case:
+    """A concealed case.
+
+    effects : names to choose from; all of the catalogue, or all outside it for "unknown"
+    level : misfit that the refitted paper model leaves, over the rms of the force noise
+    kind : "single", "pair", "null" (nothing hidden) or "unknown" (outside the catalogue)
+    concealment : "absorbed" looks for a damper whose plain fit looks good and fails elsewhere
+    motion : "exact", or "measured" for xdot from a noisy, quantised x
+    colour : of the force noise, "white", "ar1" or "pink";  scatter : of the gain between records
+    """
+    plan = draw_plan(
+        seed, effects=effects, level=level, kind=kind, motion=motion, colour=colour, scatter=scatter
+    )
+    over = rides(plan.campaign)
+    trial, best = Trial(), None
+    for attempt in range(TRIES):
+        built = build(plan, over, stream(seed, "damper", attempt), trial)
+        other = draw_other(stream(seed, "fresh", attempt), plan.campaign)
+        case = _case(plan, built, other)
+        faults = _faults(case, built, concealment)
+        if best is None or faults < best[0]:
+            best = faults, case
+        if faults == 0.0:
+            break
+        trial = _next(trial, built, plan.effects, attempt)
+    assert best is not None
+    return best[1]
+
+
+def _next(trial: Trial, built: Built, effects: Sequence[Hidden], attempt: int) -> Trial:
+    """What to change after an attempt that did not give what was wanted."""
+    weights, noise, level = trial.weights, trial.noise, trial.level
+    fraction = built.noise.fraction
+    if built.crowding > 1.0:
+        gain = min(built.crowding, FRACTIONS[1] / fraction)
+        noise *= gain
+        weights = replace(weights, yielding=weights.yielding * 0.9 * gain / built.crowding)
+        level *= 1.6 if attempt >= PATIENCE else 1.0
+    elif abs(built.off) > TOLERANCE:
+        noise *= max(0.9 * float(np.exp(built.off)), FRACTIONS[0] / fraction)
+        for effect in effects:
+            if effect.part:
+                weights = _favoured(weights, effect.part)
+    return Trial(weights, noise, level)
+
+
+def _favoured(weights: Weights, part: str) -> Weights:
+    return Weights(
+        weights.gas * (2.0 if part == "gas" else 1.0),
+        weights.viscous * (2.0 if part == "viscous" else 1.0),
+        weights.yielding * (2.0 if part == "yielding" else 1.0),
+    )
+
+
+def _faults(case: Case, built: Built, concealment: str | None) -> float:
+    """0 for a case as wanted; else how far off it is."""
+    if case.kind == "null":
+        return 0.0
+    off = max(abs(built.off) - TOLERANCE, 0.0) + 4.0 * max(case.near - MOST_NEAR, 0.0)
+    if concealment is not None and concealment != case.concealment:
+        off += 10.0
+    return off
+
+
+def _case(plan: Plan, built: Built, other: Campaign) -> Case:
+    setting, whole = built.setting, built.whole
+    spread = float(np.ptp(whole.force))
+    own = float(np.hypot(whole.fitted.rms, built.noise.rms)) / spread
+    over = rides(other)
+    true = forces(whole.plant, over)
+    missed = true - predicted(joined(over), whole.fitted.plant)
+    fresh = float(np.sqrt(np.mean(missed**2)) / np.ptp(true))
+    hidden = any(e.hidden for e in plan.effects)
+    absorbed = bool(plan.effects) and own < GOOD and fresh > WORSE * own
+    return Case(
+        seed=plan.seed,
+        kind=plan.kind,
+        concealment="not_logged" if hidden else "absorbed" if absorbed else "unlabelled",
+        truth=tuple(_truth(plan, built, k) for k in range(len(plan.effects))),
+        plant=whole.plant,
+        refitted=whole.fitted.plant,
+        campaign=plan.campaign,
+        fresh=other,
+        force_noise=built.noise,
+        motion_noise=plan.motion_noise,
+        gains=plan.gains,
+        level=whole.level,
+        raw=whole.raw,
+        near=whole.near,
+        own_nrmse=own,
+        fresh_nrmse=fresh,
+        regions=regions(setting.samples, whole.force, whole.fitted.rest) if plan.effects else (),
+        effect_regions=regions(setting.samples, whole.force, whole.force - setting.plain),
+        flags=_flags(plan, built),
+    )
+
+
+def _truth(plan: Plan, built: Built, k: int) -> Truth:
+    effect, alone = plan.effects[k], built.alone[k]
+    within = alone.level
+    if built.without:
+        added = built.whole.fitted.rest - built.without[k].fitted.rest
+        within = float(np.sqrt(np.mean(added**2))) / built.noise.rms
+    return Truth(
+        name=effect.name,
+        catalogued=effect.name in CATALOGUE,
+        parameters={p.split(".")[1]: _value(built.whole.plant, p) for p in effect.shows},
+        strength=alone.strength,
+        wanted=plan.levels[k],
+        alone=alone.level,
+        raw=alone.raw,
+        within=within,
+        equivalent=EQUIVALENT.get(effect.name, ()),
+    )
+
+
+def _value(plant: Plant, path: str) -> tuple[float, str]:
+    part, field = path.split(".")
+    return float(getattr(getattr(plant, part), field)), UNITS[field]
+
+
+def _flags(plan: Plan, built: Built) -> tuple[str, ...]:
+    flags = []
+    if built.whole.near > MOST_NEAR:
+        flags.append("lives next to reversals only")
+    for effect, alone in zip(plan.effects, built.alone, strict=True):
+        if abs(built.off) > TOLERANCE:
+            flags.append(f"{effect.name}: wanted level not reached")
+        if alone.level < ABSORBED * alone.raw:
+            flags.append(f"{effect.name}: the paper's parameters absorb it")
+        if alone.level < 0.5:
+            flags.append(f"{effect.name}: far below the noise")
+    return tuple(dict.fromkeys(flags))

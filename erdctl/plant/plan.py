@@ -1,0 +1,115 @@
+"""What a seed decides before anything is simulated: what to hide, how strongly, in which campaign.
+
+Each decision has its own stream of random numbers, so that the campaign and the noise of a seed are
+the same whatever is hidden, and nothing that fails later can change them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from erdctl.plant.campaign import Campaign, draw_campaign
+from erdctl.plant.hidden import CATALOGUE, OUTSIDE, Hidden
+from erdctl.plant.noise import (
+    ForceNoise,
+    MotionNoise,
+    draw_force_noise,
+    draw_gains,
+    draw_motion_noise,
+)
+
+Random = np.random.Generator
+
+KINDS = ("single", "pair", "null", "unknown")
+KIND_SHARES = (0.6, 0.15, 0.125, 0.125)
+BANDS = ((0.2, 1.0), (1.0, 2.0), (2.0, 10.0))
+BAND_SHARES = (0.2, 0.25, 0.55)
+STREAMS = (
+    "plan",
+    "campaign",
+    "force noise",
+    "motion noise",
+    "gains",
+    "damper",
+    "fresh",
+    "sound",
+    "rig",
+)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """effects : to hide;  levels : wanted for each."""
+
+    seed: int
+    kind: str
+    effects: tuple[Hidden, ...]
+    levels: tuple[float, ...]
+    campaign: Campaign
+    force_noise: ForceNoise
+    motion_noise: MotionNoise
+    gains: tuple[float, ...]
+
+
+def stream(seed: int, name: str, *more: int) -> Random:
+    """Random numbers of one decision."""
+    return np.random.default_rng([seed, STREAMS.index(name), *more])
+
+
+def draw_plan(
+    seed: int,
+    *,
+    effects: Sequence[str] | None = None,
+    level: float | None = None,
+    kind: str | None = None,
+    motion: str | None = None,
+    colour: str | None = None,
+    scatter: bool = False,
+) -> Plan:
+    """A plan; the arguments are those of `draw`."""
+    random = stream(seed, "plan")
+    chosen = str(random.choice(KINDS, p=KIND_SHARES))
+    if kind is None and effects is not None:
+        chosen = "unknown" if all(e in OUTSIDE for e in effects) else "single"
+    chosen = kind or chosen
+    hidden = _chosen(random, chosen, effects)
+    levels = tuple(_level(random, chosen) if level is None else float(level) for _ in hidden)
+    campaign = draw_campaign(stream(seed, "campaign"))
+    gains = stream(seed, "gains")
+    spread = float(gains.uniform(0.02, 0.06)) if scatter else 0.0
+    return Plan(
+        seed, chosen, hidden, levels, campaign,
+        draw_force_noise(stream(seed, "force noise"), colour),
+        draw_motion_noise(stream(seed, "motion noise"), campaign, motion),
+        draw_gains(gains, len(campaign.records), spread),
+    )  # fmt: skip
+
+
+def _chosen(random: Random, kind: str, names: Sequence[str] | None) -> tuple[Hidden, ...]:
+    if kind not in KINDS:
+        raise ValueError(f"kind is {kind!r}, expected one of {', '.join(KINDS)}")
+    if kind == "null":
+        return ()
+    source = OUTSIDE if kind == "unknown" else CATALOGUE
+    unknown = [n for n in names or () if n not in source]
+    if unknown:
+        raise ValueError(f"no such effect to hide: {', '.join(unknown)}; there are {list(source)}")
+    pool = [source[n] for n in names or source]
+    first = pool[int(random.integers(len(pool)))]
+    if kind != "pair":
+        return (first,)
+    others = [e for e in pool if e.family != first.family]
+    if not others:
+        raise ValueError(f"nothing to pair {first.name} with: the others fill the same place")
+    return first, others[int(random.integers(len(others)))]
+
+
+def _level(random: Random, kind: str) -> float:
+    """Pairs and strangers are drawn clear of the noise: below it nobody can tell."""
+    low, high = BANDS[int(random.choice(len(BANDS), p=BAND_SHARES))]
+    if kind in ("pair", "unknown"):
+        low, high = BANDS[-1]
+    return float(np.exp(random.uniform(np.log(low), np.log(high))))

@@ -1,0 +1,130 @@
+"""Where a misfit lives: over each of the contract's variables, the interval in which most of its
+energy lies although the log spends little of its time there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from erdctl.plant.refit import Samples
+
+Array = npt.NDArray[np.float64]
+
+CELLS = 200  # of equal numbers of samples
+LEAST_SHARE = 0.5  # of the energy that a region must hold
+LEAST_EXCESS = 0.25  # of that share over the share of the samples
+MOST_WIDTH = 0.6  # of the variable's range
+NEAR = 2  # samples next to a reversal
+
+
+@dataclass(frozen=True)
+class Region:
+    """share : of the misfit's energy;  time : of the samples;  width : of the variable's range."""
+
+    variable: str
+    low: float
+    high: float
+    share: float
+    time: float
+    width: float
+
+
+def variables(samples: Samples, force: Array) -> dict[str, Array]:
+    """(n,) of each variable of the contract; nan where it has no value yet."""
+    n = len(samples.x)
+    names = ("t", "since_reversal", "since_duty_step", "dissipated_energy")
+    out = {"xdot": samples.v, "x": samples.x, "duty": samples.duty}
+    out.update({name: np.full(n, np.nan) for name in names})
+    dt = samples.dt
+    power = np.maximum(force * samples.v, 0.0) * dt
+    for a, b in zip(samples.starts[:-1], samples.starts[1:], strict=True):
+        at = slice(a, b)
+        t = dt * np.arange(b - a)
+        out["t"][at] = t
+        out["since_reversal"][at] = _since(t, turns(samples.v[at]))
+        steps = np.concatenate([[False], np.diff(samples.duty[at]) != 0])
+        out["since_duty_step"][at] = _since(t, steps)
+        out["dissipated_energy"][at] = np.cumsum(power[at])
+    return out
+
+
+def turns(v: Array) -> npt.NDArray[np.bool_]:
+    """(n,) first sample in a new direction."""
+    s = np.sign(v)
+    return np.concatenate([[False], s[1:] * s[:-1] < 0])
+
+
+def _since(t: Array, events: npt.NDArray[np.bool_]) -> Array:
+    last = np.maximum.accumulate(np.where(events, t, -np.inf))
+    return np.where(np.isfinite(last), t - last, np.nan)
+
+
+def near_reversals(samples: Samples, misfit: Array) -> float:
+    """Share of the misfit's energy within two samples of a change of sign of xdot."""
+    total = float(np.sum(misfit**2))
+    if total == 0.0:
+        return 0.0
+    close = np.zeros(len(misfit), dtype=bool)
+    for a, b in zip(samples.starts[:-1], samples.starts[1:], strict=True):
+        first = a + np.flatnonzero(turns(samples.v[a:b]))
+        for k in range(-NEAR, NEAR):
+            close[np.clip(first + k, a, b - 1)] = True
+    return float(np.sum(misfit[close] ** 2)) / total
+
+
+def regions(samples: Samples, force: Array, misfit: Array) -> tuple[Region, ...]:
+    """Regions of a misfit (n,) [N], the tightest first; none if it lies everywhere."""
+    energy = misfit**2
+    total = float(energy.sum())
+    if total == 0.0:
+        return ()
+    found = []
+    for name, value in variables(samples, force).items():
+        region = _interval(name, value, energy, total)
+        if region is not None:
+            found.append(region)
+    return tuple(sorted(found, key=lambda r: r.time - r.share))
+
+
+def _interval(name: str, value: Array, energy: Array, total: float) -> Region | None:
+    known = np.isfinite(value)
+    u, e = value[known], energy[known]
+    if len(u) < CELLS:
+        return None
+    low_end, high_end = np.quantile(u, [0.002, 0.998])
+    if high_end <= low_end:
+        return None
+    edges = np.unique(np.quantile(u, np.linspace(0, 1, CELLS + 1)))
+    if len(edges) < 3:
+        return None
+    cell = np.clip(np.searchsorted(edges, u, side="right") - 1, 0, len(edges) - 2)
+    share = np.bincount(cell, e, len(edges) - 1) / total
+    time = np.bincount(cell, minlength=len(edges) - 1) / len(energy)
+    a, b = _most(share - time)
+    part, spent = float(share[a:b].sum()), float(time[a:b].sum())
+    low, high = float(edges[a]), float(edges[b])
+    width = (min(high, high_end) - max(low, low_end)) / (high_end - low_end)
+    if part < max(LEAST_SHARE, spent + LEAST_EXCESS) or not 0.0 < width <= MOST_WIDTH:
+        return None
+    return Region(name, low, high, part, spent, float(width))
+
+
+def _most(excess: Array) -> tuple[int, int]:
+    """Bounds of the run of cells with the largest sum (Kadane)."""
+    best, at, total, begin = -np.inf, (0, 1), 0.0, 0
+    for k, value in enumerate(excess):
+        if total <= 0.0:
+            total, begin = 0.0, k
+        total += float(value)
+        if total > best:
+            best, at = total, (begin, k + 1)
+    return at
+
+
+def overlap(a: Region, b: tuple[float, float]) -> float:
+    """Intersection over union of two intervals of one variable.  Check: 0..2 and 1..3 give 1/3."""
+    inter = max(0.0, min(a.high, b[1]) - max(a.low, b[0]))
+    union = max(a.high, b[1]) - min(a.low, b[0])
+    return inter / union if union > 0 else 0.0
