@@ -1,15 +1,12 @@
-"""Paths and independent solutions that several tests share."""
+"""The fixtures' independent solution, and one linear algebra thread for each test process."""
 
 from __future__ import annotations
 
 import os
 import sys
-from pathlib import Path
 
-ROOT = Path(__file__).parents[1]
-FIXTURES = ROOT / "fixtures"
-SHARED = ROOT.parent / "shared" / "data"  # real recordings, where they are at hand
+from places import FIXTURES
 
 sys.path.insert(0, str(FIXTURES))  # the oracle is a script's module, not part of the package
-# One linear algebra thread for each test process: the processes are the parallelism.
+# The processes are the parallelism.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from conftest import FIXTURES, ROOT
+from places import FIXTURES, ROOT
 
 from erdctl import effects
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from bench import TRUTH, campaign, noisy, real
-from conftest import SHARED
+from places import SHARED
 
 from erdctl.blocks import pieces, sample, whole
 from erdctl.identify import identify

@@ -6,9 +6,9 @@ import numpy as np
 import oracle
 import pytest
 from bench import TRUTH, recording
-from conftest import FIXTURES
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from places import FIXTURES
 from pyarrow import csv
 
 from erdctl.amplifier import Amplifier

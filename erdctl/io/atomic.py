@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import secrets
 import stat
 import sys
 from collections.abc import Iterator
@@ -56,7 +55,7 @@ def replacing(path: str) -> Iterator[str]:
     target = os.path.realpath(path)
     if not path or os.path.isdir(target):
         raise UsageProblem(f"cannot write to '{path}': not the name of a file")
-    temporary = os.path.join(os.path.dirname(target), f".erdctl-{secrets.token_hex(8)}.tmp")
+    temporary = os.path.join(os.path.dirname(target), f".erdctl-{os.urandom(8).hex()}.tmp")
     try:
         with _explained(path, "nothing was written"):
             _create(temporary, path, target)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pyarrow as pa
 
+from erdctl.io.arrays import view
 from erdctl.io.checks import Place
 from erdctl.recording import Array, Index
 
@@ -29,7 +30,7 @@ def to_numbers(column: pa.ChunkedArray, name: str, place: Place) -> Array:
     if kind != pa.float64():
         # Unsafe only for integers beyond 2^53, which no check lets pass.
         column = column.cast(pa.float64(), safe=False)
-    chunks = [chunk.to_numpy(zero_copy_only=True) for chunk in column.chunks]
+    chunks = [view(chunk) for chunk in column.chunks]
     return chunks[0] if len(chunks) == 1 else np.concatenate([np.empty(0), *chunks])
 
 
@@ -38,21 +39,23 @@ def to_records(column: pa.ChunkedArray, name: str, place: Place) -> tuple[Index,
 
     Raises InputProblem for empty cells, and at a record that comes back after another.
     """
-    import pyarrow.compute as pc
-
     if column.null_count:
+        import pyarrow.compute as pc
+
         at = pc.index(pc.is_null(column), True).as_py()
         raise place.problem("empty, expected the name of a record", at, name)
     whole = column.combine_chunks()
     if isinstance(whole, pa.ChunkedArray):  # too long for one array
         raise place.problem("too long for one log; split it", None, name)
-    keys = whole.indices if pa.types.is_dictionary(whole.type) else whole
     try:
-        firsts = np.flatnonzero(pc.not_equal(keys.slice(1), keys.slice(0, len(keys) - 1))) + 1
-        starts = np.concatenate([[0], firsts])
-        names = tuple(_text(whole.take(pa.array(starts))).to_pylist())
+        if not pa.types.is_dictionary(whole.type):
+            whole = whole.dictionary_encode()
+        labels = _text(whole.dictionary)
     except (pa.ArrowNotImplementedError, pa.ArrowInvalid):
         raise place.problem(f"holds {column.type}, expected text", None, name) from None
+    keys = view(whole.indices)
+    starts = np.concatenate([[0], np.flatnonzero(keys[1:] != keys[:-1]) + 1])
+    names = tuple(labels[key] for key in keys[starts])
     seen: set[str] = set()
     for record, start in zip(names, starts.tolist(), strict=True):
         if record in seen:
@@ -69,10 +72,12 @@ def to_records(column: pa.ChunkedArray, name: str, place: Place) -> tuple[Index,
     return np.append(starts, len(whole)).astype(np.intp), names
 
 
-def _text(values: pa.Array) -> pa.Array:
-    if pa.types.is_dictionary(values.type):
-        values = values.dictionary_decode()
-    return values.cast(pa.string())
+def _text(values: pa.Array) -> list[str]:
+    # Casting text to text would import the compute functions for nothing, at every start.
+    text: list[str] = (
+        values if pa.types.is_string(values.type) else values.cast(pa.string())
+    ).to_pylist()
+    return text
 
 
 def _not_numbers(column: pa.ChunkedArray) -> tuple[str, int | None]:

@@ -11,6 +11,7 @@ import numpy as np
 import pyarrow as pa
 
 from erdctl.errors import InputProblem, UsageProblem
+from erdctl.io.arrays import arrow, runs_of_text
 from erdctl.io.checks import Place, check_time, check_values, remark_on_time
 from erdctl.io.columns import to_numbers, to_records
 from erdctl.io.consistency import check_consistency
@@ -142,7 +143,7 @@ def _read(
     )
     return Log(
         recording,
-        table=_with_own_label(table, source, plan) if keep_table else None,
+        table=_with_own_label(table, source, plan, starts, names) if keep_table else None,
         force_model=channels.get("force_model"),
     )
 
@@ -247,16 +248,21 @@ def _with_channel(table: pa.Table, target: str, values: Array, *, converted: boo
     field, column = table.schema.field(index), table.column(index)
     if not converted and (column.num_chunks == 1 or field.type != pa.float64()):
         return table
-    return table.set_column(index, field.with_type(pa.float64()), pa.array(values))
+    return table.set_column(index, field.with_type(pa.float64()), arrow(values))
 
 
-def _with_own_label(table: pa.Table, source: TableSource, plan: Plan) -> pa.Table:
+def _with_own_label(
+    table: pa.Table, source: TableSource, plan: Plan, starts: Index, names: Sequence[str]
+) -> pa.Table:
     """The table with `record` in the type that the log has it in."""
     if RECORD not in plan or source.schema is None:
         return table
     index = table.column_names.index(RECORD)
     field = source.schema.field(plan[RECORD][0]).with_name(RECORD)
-    return table.set_column(index, field, table.column(index).cast(field.type))
+    if field.type == table.schema.field(index).type:
+        return table
+    text = runs_of_text(names, np.diff(starts), field.type)
+    return table.set_column(index, field, text)
 
 
 def _refuse_repeated(paths: Sequence[str]) -> None:

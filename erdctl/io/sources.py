@@ -7,7 +7,6 @@ import os
 import stat
 import sys
 from collections.abc import Callable, Collection, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any, BinaryIO, TypeVar
 
@@ -105,6 +104,8 @@ def read_source(
         return _read_arrow(source, names)
 
     try:
+        from concurrent.futures import ThreadPoolExecutor
+
         with ThreadPoolExecutor(1) as pool:
             # Beside the parsing, hashing is nearly hidden.
             digest = pool.submit(_sha256, source.data) if want_hash else None

@@ -10,6 +10,7 @@ import pyarrow as pa
 
 from erdctl.errors import UsageProblem
 from erdctl.io import csv_out
+from erdctl.io.arrays import arrow, runs_of_text
 from erdctl.io.atomic import STDOUT, output
 from erdctl.io.formats import SUFFIXES, Format, by_suffix
 from erdctl.recording import CHANNELS, Array, Recording
@@ -60,16 +61,15 @@ def append_column(table: pa.Table, name: str, values: Array) -> pa.Table:
     """The table with a column at its end, in place of one that has this name already."""
     if name in table.column_names:
         table = table.drop_columns([name])
-    return table.append_column(name, pa.array(values))
+    return table.append_column(name, arrow(values))
 
 
 def table_of(recording: Recording) -> pa.Table:
     """A recording as a log: the channels that it has, then `record`."""
     channels = {name: getattr(recording, name) for name in CHANNELS}
-    columns = {name: pa.array(c) for name, c in channels.items() if c is not None}
+    columns = {name: arrow(c) for name, c in channels.items() if c is not None}
     lengths = np.diff(recording.starts)
-    which = pa.array(np.repeat(np.arange(len(lengths)), lengths))
-    columns["record"] = pa.array(recording.names, pa.string()).take(which)
+    columns["record"] = runs_of_text(recording.names, lengths, pa.string())
     return pa.table(columns)
 
 

@@ -23,7 +23,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from conftest import FIXTURES
+from places import FIXTURES
 
 pytestmark = pytest.mark.benchmark
 

@@ -14,7 +14,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from bench import real
-from conftest import FIXTURES, SHARED
+from places import FIXTURES, SHARED
 from pyarrow import csv
 from scipy.io import loadmat
 
