@@ -24,7 +24,7 @@ def play(
     compressing : (n,) direction of motion; a record begins on the flank of its first
     Returns q (n,) [m], and the engaged part of each sample (n,) [1]: 1 on a flank that the motion
     presses on, 0 off it, and from 0 to 1 as contact falls between half a step after the sample and
-    half a step before.
+    half a step before; less far before and after where the play has lasted less than half a step.
     Check: gap 2 m, steps of 1 s, xdot = 1, 1, -1, -1, -1, -1 m/s. The rod turns at 1.5 s, is 0.25 m
     back at 2 s, 1.25 m at 3 s and meets the other flank at 3.75 s: q = 1, 1, 0.75, -0.25, -1, -1,
     engaged 1, 1, 0, 0, 0.75, 1.
@@ -38,11 +38,13 @@ def play(
             continue
         q = half if compressing[first] else -half
         lost[first], engaged[first] = q, 1.0
+        free = 0.0  # time since the joint left a flank
         for i in range(first, end - 1):
             v0, v1, h = xdot[i], xdot[i + 1], step[i]
             turning = v0 * v1 < 0.0
             before = v0 / (v0 - v1) * h if turning else h
-            contact, side = -1.0, 0.0  # time into the step at which a flank is met, and which
+            # Time into the step at which a flank is met, which one, and the time to blur it over.
+            contact, side, edge = -1.0, 0.0, h
             for leg in range(2 if turning else 1):
                 a = v0 if leg == 0 else 0.0
                 b = 0.0 if turning and leg == 0 else v1
@@ -52,22 +54,27 @@ def play(
                     continue
                 flank = half if travel > 0.0 else -half
                 room = abs(flank - q)
+                if room == gap:
+                    free = 0.0
                 if abs(travel) < room:
                     q += travel
+                    free += span
                     continue
                 if room > 0.0:
                     u, rate = abs(a), (abs(b) - abs(a)) / span
                     met = 2.0 * room / (u + np.sqrt(max(u * u + 2.0 * rate * room, 0.0)))
-                    contact, side = (before if leg == 1 else 0.0) + min(met, span), flank
+                    met = min(met, span)
+                    contact, side = (before if leg == 1 else 0.0) + met, flank
+                    edge = max(min(h, 2.0 * (free + met)), 1e-12)
                 q = flank
             lost[i + 1] = q
             pressing = (v1 > 0.0 and q == half) or (v1 < 0.0 and q == -half)
             engaged[i + 1] = 1.0 if pressing else 0.0
             if contact >= 0.0:
                 if pressing:
-                    engaged[i + 1] = min(1.0, 0.5 + (h - contact) / h)
-                if engaged[i] == 0.0 and contact < 0.5 * h and v0 * side > 0.0:
-                    engaged[i] = 0.5 - contact / h
+                    engaged[i + 1] = min(1.0, 0.5 + (h - contact) / edge)
+                if engaged[i] == 0.0 and contact < 0.5 * edge and v0 * side > 0.0:
+                    engaged[i] = 0.5 - contact / edge
     return lost, engaged
 
 
