@@ -1,0 +1,82 @@
+"""Play: by hand, against a fine sampling of the play operator, and its limits."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from made import PLAIN, act, force, signals, sine
+
+from erdctl import effects
+from erdctl.model import Model
+from erdctl.recurrences import play
+from erdctl.signals import Signals
+
+
+def test_check_value() -> None:
+    """1 m/s up for 2 s, then down; g = 2 m, on the flank at first: x_p rises with x, then stays."""
+    s = signals([1, 1, 1, -1, -1, -1], x=[0, 1, 2, 2, 1, 0], step=1.0)
+    piston = act("backlash", s, {"g": 2.0})
+    assert piston.x - piston.x[0] == pytest.approx([0, 1, 2, 2.25, 2.25, 2])
+    assert piston.xdot == pytest.approx([1, 1, 1, 0, 0, -0.75])
+    assert piston.sign == pytest.approx([1, 1, 1, 0, 0, -0.75])
+
+
+def test_recurrence_check_value() -> None:
+    s = signals([1, 1, -1, -1, -1, -1], step=1.0)
+    lost, engaged = play(s.xdot, s.step, s.starts, s.compressing, 2.0)
+    assert lost == pytest.approx([1, 1, 0.75, -0.25, -1, -1])
+    assert engaged == pytest.approx([1, 1, 0, 0, 0.75, 1])
+
+
+def test_docstring_check_value() -> None:
+    """x = 0, 1, 2, 1, 0 mm from the lower flank: the piston gives 0, 1, 2, 2, 2 mm."""
+    t = np.linspace(0, 4, 4001)
+    x = 1e-3 * np.where(t < 2, t, 4 - t)
+    s = signals(np.where(t < 2, 1e-3, -1e-3), x=x, t=t)
+    piston = act("backlash", s, {"g": 2e-3})
+    assert 1e3 * (piston.x - piston.x[0])[::1000] == pytest.approx([0, 1, 2, 2, 2], abs=2e-3)
+
+
+def test_begins_on_the_flank_of_its_first_motion() -> None:
+    s = signals([0, 0, -1, -1, 1, 1, 1], starts=[0, 4, 7])
+    lost, _ = play(s.xdot, s.step, s.starts, s.compressing, 0.1)
+    assert lost[[0, 1, 4]] == pytest.approx([-0.05, -0.05, 0.05])
+
+
+@pytest.mark.parametrize("gap", [2e-5, 1e-4, 1e-3])
+def test_force_equals_a_fine_sampling(gap: float) -> None:
+    """Play operator sample by sample at 100 times the rate; they differ where contact closes."""
+    fine = sine(1.3, 0.01, 6.0, 50_000.0, duty=0.3)
+    y = np.empty(len(fine))
+    y[0] = fine.x[0] - gap / 2
+    for i, x in enumerate(fine.x.tolist()[1:], start=1):
+        y[i] = min(max(y[i - 1], x - gap / 2), x + gap / 2)
+    moved = np.diff(y, prepend=y[0])
+    moved[0] = 1.0
+    piston = fine.with_motion(y, np.where(moved * fine.xdot > 0, fine.xdot, 0.0))
+    truth = Model().force(piston, PLAIN)[::100]
+    found = force("backlash", sine(1.3, 0.01, 6.0, 500.0, duty=0.3), {"g": gap})
+    wrong = np.abs(found - truth) > 0.05
+    assert wrong.sum() <= 16  # reversals
+    assert np.abs(found - truth).max() < 0.55 * np.ptp(truth) / 2 + 0.05
+
+
+def test_noise_on_x_does_not_open_the_joint() -> None:
+    s = sine(0.5, 0.01, 4.0, 1000.0)
+    rough = s.x + 1e-4 * np.random.default_rng(1).standard_normal(len(s))
+    still = act("backlash", s, {"g": 1e-4}).xdot
+    assert np.array_equal(act("backlash", s.with_motion(rough, s.xdot), {"g": 1e-4}).xdot, still)
+
+
+def test_force_goes_over_into_that_without_play() -> None:
+    s = sine(1.3, 0.01, 4.0, 500.0, duty=0.3)
+    off = force("backlash", s, {"g": 0.0})
+    near = force("backlash", s, {"g": 1e-9})
+    moving = np.abs(s.xdot) > 1e-6  # one sample falls on a turn: there no sign is right
+    assert near[moving] == pytest.approx(off[moving], abs=1e-3 * np.ptp(off))
+
+
+def test_a_piston_in_play_keeps_its_direction() -> None:
+    s: Signals = act("backlash", signals([1, 1, -1, -1, -1, -1], step=1.0), {"g": 2.0})
+    assert s.per_direction(10.0, 20.0) == pytest.approx([10, 10, 10, 10, 17.5, 20])
+    assert effects.get("backlash").equivalents == ()

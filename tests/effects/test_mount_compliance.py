@@ -1,0 +1,44 @@
+"""Mount in series: static, and against an ODE solver in continuous time."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from made import force, signals, sine
+from scipy.integrate import solve_ivp
+
+
+def test_check_value() -> None:
+    s = signals(np.zeros(50), x=np.full(50, 0.01))
+    found = force("mount_compliance", s, {"s_m": 1e-4}, k_nom=1000.0)
+    assert found == pytest.approx(10 / 1.1)
+
+
+@pytest.mark.parametrize("s_m", [1e-6, 2e-5, 2e-4])
+def test_force_equals_an_ode_solver(s_m: float) -> None:
+    """dF/dt = (xdot - v) / s; v from F - k (x - s F) = c v + Y sign(v), v = 0 where Y holds."""
+    k, c, Y = 200.0, 70.0, 20.0 * 0.3**0.5
+    frequency, amplitude, rate = 1.5, 0.01, 1000.0
+    w = 2 * np.pi * frequency
+    s = sine(frequency, amplitude, 2.0, rate, duty=0.3)
+
+    def slope(t: float, y: list[float]) -> list[float]:
+        rest = y[0] - k * (amplitude * np.sin(w * t) - s_m * y[0])
+        v = (rest - min(max(rest, -Y), Y)) / c
+        return [(amplitude * w * np.cos(w * t) - v) / s_m]
+
+    start = (c * amplitude * w + Y) / (1 + k * s_m)
+    solution = solve_ivp(
+        slope, (0.0, s.t[-1]), [start], method="LSODA", t_eval=s.t, rtol=1e-9, atol=1e-9,
+        max_step=1e-3,
+    )  # fmt: skip
+    found = force("mount_compliance", s, {"s_m": s_m})
+    error = found - solution.y[0]
+    assert np.sqrt(np.mean(error**2)) < 1.5e-3 * np.ptp(found)
+
+
+def test_a_stiff_mount_is_none() -> None:
+    s = sine(1.5, 0.01, 2.0, 500.0, duty=0.3)
+    off, stiff = (force("mount_compliance", s, {"s_m": v}) for v in (0.0, 1e-12))
+    moving = np.abs(s.xdot) > 1e-3
+    assert stiff[moving] == pytest.approx(off[moving], abs=5e-3 * np.ptp(off))

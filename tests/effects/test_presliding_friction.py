@@ -1,0 +1,47 @@
+"""Dahl's loop: by hand, and against an ODE solver."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from made import signals, sine, unit_forces
+from scipy.integrate import solve_ivp
+
+
+def test_check_value() -> None:
+    """-1 + 2 exp(-1) at 0.1 mm after the reversal, x_d = 0.1 mm: 92.5 and 102.5 um there."""
+    xdot = np.where(np.arange(40) < 20, 0.1, -0.1)  # 10 um a step, the turn half-way in one
+    s = signals(xdot, step=1e-4)
+    z = unit_forces("presliding_friction", s, {"x_d": 1e-4})[0]
+    assert z[:20] == pytest.approx(np.ones(20))
+    assert s.path_since_reversal[[20, 29, 30]] == pytest.approx([2.5e-6, 92.5e-6, 102.5e-6])
+    left = (1 + z[29]) ** 0.25 * (1 + z[30]) ** 0.75
+    assert left - 1 == pytest.approx(-1 + 2 * np.exp(-1), abs=1e-9)
+
+
+def test_first_state() -> None:
+    s = signals([0.0, 0.1, 0.1, -0.1, -0.1, -0.1], step=1e-3, starts=[0, 3, 6])
+    z = unit_forces("presliding_friction", s, {"x_d": 1e-4})[0]
+    assert z[0] == 0.0
+    assert z[1] == pytest.approx(1 - np.exp(-0.5))  # 0.05 mm from rest
+    assert z[3:] == pytest.approx([-1, -1, -1])
+
+
+@pytest.mark.parametrize("rate", [200.0, 2000.0])
+@pytest.mark.parametrize("x_d", [1e-4, 2e-3, 5e-2])
+def test_state_equals_an_ode_solver(rate: float, x_d: float) -> None:
+    """dz/dt = (xdot - z |xdot|) / x_d."""
+    frequency, amplitude = 1.5, 0.01
+    w = 2 * np.pi * frequency
+    s = sine(frequency, amplitude, 2.0, rate)
+
+    def slope(t: float, z: list[float]) -> list[float]:
+        v = amplitude * w * np.cos(w * t)
+        return [(v - z[0] * abs(v)) / x_d]
+
+    solution = solve_ivp(
+        slope, (0.0, s.t[-1]), [1.0], method="LSODA", t_eval=s.t, rtol=1e-9, atol=1e-10,
+        max_step=1e-3,
+    )  # fmt: skip
+    z = unit_forces("presliding_friction", s, {"x_d": x_d})[0]
+    assert np.sqrt(np.mean((z - solution.y[0]) ** 2)) < (4e-3 if rate > 1000 else 1e-2)
