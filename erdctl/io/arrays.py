@@ -14,6 +14,8 @@ import pyarrow as pa
 
 from erdctl.recording import Array
 
+MOST_BYTES = 2**31 - 1  # of one text array: its offsets are 32-bit
+
 
 def view(array: pa.Array) -> npt.NDArray[Any]:
     """(n,) the values of an array of a number type without nulls, read-only."""
@@ -32,13 +34,18 @@ def arrow(values: Array) -> pa.Array:
 
 def runs_of_text(
     texts: Sequence[str], lengths: npt.NDArray[np.intp], kind: pa.DataType
-) -> pa.Array:
-    """The text array of type `kind` that holds each text so many times in a row."""
+) -> pa.ChunkedArray:
+    """The text column of type `kind` that holds each text so many times in a row."""
     encoded = [text.encode() for text in texts]
-    sizes = np.repeat([len(e) for e in encoded], lengths)
-    wide = np.int64 if pa.types.is_large_string(kind) else np.int32
-    offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(wide)
+    sizes = np.array([len(e) for e in encoded], np.int64)
+    wide = pa.types.is_large_string(kind)
+    if not wide and int(sizes @ lengths) > MOST_BYTES:
+        half = int(lengths.sum()) // 2
+        first = np.clip(half - (np.cumsum(lengths) - lengths), 0, lengths)
+        parts = [runs_of_text(texts, part, kind).chunks for part in (first, lengths - first)]
+        return pa.chunked_array([chunk for part in parts for chunk in part], kind)
+    offsets = np.concatenate([[0], np.cumsum(np.repeat(sizes, lengths))])
+    offsets = offsets.astype(np.int64 if wide else np.int32)
     data = b"".join(e * n for e, n in zip(encoded, lengths.tolist(), strict=True))
-    return pa.Array.from_buffers(
-        kind, len(sizes), [None, pa.py_buffer(offsets), pa.py_buffer(data)]
-    )
+    buffers = [None, pa.py_buffer(offsets), pa.py_buffer(data)]
+    return pa.chunked_array([pa.Array.from_buffers(kind, len(offsets) - 1, buffers)])

@@ -372,6 +372,24 @@ def test_imports_are_light() -> None:
     assert done.stdout == "\n"
 
 
+@pytest.mark.parametrize("name", ["log.parquet", "log.arrow"])
+def test_reading_and_writing_import_little(columns: Columns, write: Write, name: str) -> None:
+    program = (
+        "import sys\n"
+        "from erdctl.io.logs import read_logs\n"
+        "from erdctl.io.tables import append_column, write_table\n"
+        "log = read_logs([sys.argv[1]], need_force=False, keep_table=True, report=print)\n"
+        "table = append_column(log.table, 'force_model', log.recording.x)\n"
+        "write_table(table, sys.argv[1])\n"
+        "heavy = {'pandas', 'scipy', 'pint', 'pyarrow.compute', 'pyarrow.dataset'}\n"
+        "print(', '.join(heavy & set(sys.modules)))"
+    )
+    path = write(columns, name)
+    done = subprocess.run([sys.executable, "-c", program, path], capture_output=True, text=True)
+    assert done.stderr == ""
+    assert done.stdout == "\n"
+
+
 def test_reading_many_rows_prints_its_speed(tmp_path: Path, read: Read) -> None:
     import time
 

@@ -115,7 +115,11 @@ def test_line_ends(tmp_path: Path, ends: str) -> None:
         ("a.csv", b"", "empty; expected a bench log"),
         ("a.csv", b"\n\n  \n", "empty; expected a bench log"),
         ("a.parquet", b"", "empty"),
-        ("a.csv.gz", gzip.compress(b"t,x\n0,1\n", mtime=0), "compressed with gzip; use gzip -dc FILE |"),
+        (
+            "a.csv.gz",
+            gzip.compress(b"t,x\n0,1\n", mtime=0),
+            "compressed with gzip; use gzip -dc FILE |",
+        ),
         ("a.csv", b"PK\x03\x04rest", "an Excel or zip file; export it as CSV"),
         ("a.mat", b"MATLAB 5.0 MAT-file", "a MATLAB file"),
         ("a.h5", b"\x89HDF\r\n\x1a\nrest", "an HDF5 or MATLAB file"),
