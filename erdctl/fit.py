@@ -1,63 +1,29 @@
-"""Separable least squares over any composed model, with errors that hold for coloured residuals.
+"""Separable least squares over any composed model.
 
     min over shape parameters s of  min over amplitudes a of  sum w (F - a . columns(s))^2
 
 The inner problem is solved by linear algebra (variable projection, Golub and Pereyra 1973), so
-the search runs over the few shape parameters only. Nothing here names an effect.
+the search runs over the few shape parameters only. Where the force feeds back on itself it is not
+linear in the amplitudes, and all parameters are searched. Nothing here names an effect.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from erdctl.blocks import Block
 from erdctl.effect import Values
 from erdctl.model import Model
-from erdctl.noise import ColouredNoise
+from erdctl.quantity import Quantity, Scale
 from erdctl.recording import Array
-from erdctl.signals import Signals
 
-DIFFERENCE = 1e-6  # relative step of a one-sided difference
-COLOURED = 16  # blocks on which the effect of coloured noise is measured
+STEP = 1e-5  # of a one-sided difference, in units of the search
 HUBER = 1.345  # tuning constant for 95 % efficiency under normal noise
 SINGULAR = 1e-10  # relative eigenvalue of the scaled normal matrix below which a direction is flat
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Fit:
-    """Parameter estimates and what is known about them.
-
-    values : every parameter of the model;  free : names of the estimated ones
-    covariance : (p, p) of the free ones, valid under correlated residuals
-    rms : weighted residual [N];  samples : number of samples with weight
-    flat : groups of free parameters along which the data do not change the cost at all
-    """
-
-    model: Model
-    values: dict[str, float]
-    free: tuple[str, ...]
-    covariance: Array
-    rms: float
-    noise: ColouredNoise
-    samples: int
-    evaluations: int
-    converged: bool
-    flat: tuple[tuple[str, ...], ...] = ()
-
-    @property
-    def stderr(self) -> dict[str, float]:
-        """Standard error of every free parameter."""
-        return dict(zip(self.free, np.sqrt(np.diag(self.covariance)).tolist(), strict=True))
-
-    def correlation(self) -> Array:
-        """(p, p) correlation of the free parameters."""
-        scale = np.sqrt(np.diag(self.covariance))
-        scale = np.where(scale > 0, scale, 1.0)
-        return np.asarray(self.covariance / np.outer(scale, scale))
+SHORTEST = 1e-5  # s; a time constant of exactly 0 has no derivative, a search stays above
 
 
 def fit(
@@ -128,14 +94,17 @@ def solve_linear(
 
 
 class _Projected:
-    """The cost as a function of the free shape parameters, amplitudes solved inside."""
+    """The cost as a function of the searched parameters, all others solved inside."""
 
     def __init__(
         self, model: Model, block: Block, values: Values, held: set[str], shape: Sequence[str]
     ) -> None:
-        self.model, self.block, self.shape = model, block, list(shape)
-        self.base = dict(values)
-        self.linear = [n for n in model.linear if n not in held]
+        self.model, self.block = model, block
+        linear = [n for n in model.linear if n not in held]
+        self.linear = linear if model.separable else []
+        self.names = list(shape) if model.separable else [*shape, *linear]
+        self.axes = [_Axis.of(model.quantities[n], values[n]) for n in self.names]
+        self.base = {**values, **{n: a.value for n, a in zip(self.names, self.axes, strict=True)}}
         self.open = np.array([n not in held for n in model.linear])
         quantities = [model.quantities[n] for n in self.linear]
         self.low = np.array([q.low for q in quantities])
@@ -144,11 +113,15 @@ class _Projected:
         self.evaluations = 0
 
     def solve(self, point: Array) -> tuple[dict[str, float], Array]:
-        """All values and the (n,) residual at given shape parameters."""
+        """All values and the (n,) residual at given searched parameters."""
         self.evaluations += 1
-        values = {**self.base, **dict(zip(self.shape, point.tolist(), strict=True))}
-        columns = self.model.columns(self.block.signals, values)
+        values = dict(self.base)
+        for name, axis, u in zip(self.names, self.axes, point.tolist(), strict=True):
+            values[name] = axis.back(u)
         force = self.block.force
+        if not self.model.separable:
+            return values, force - self.model.force(self.block.signals, values)
+        columns = self.model.columns(self.block.signals, values)
         if not self.open.all():
             given = np.array([values[n] for n in self.model.linear])[~self.open]
             force = force - given @ columns[~self.open]
@@ -158,166 +131,54 @@ class _Projected:
         return values, force - amplitude @ columns
 
     def residual(self, values: Values) -> Array:
-        return self.solve(np.array([values[n] for n in self.shape]))[1]
+        """(n,) residual at given values of the searched parameters."""
+        point = [a.forth(values[n]) for n, a in zip(self.names, self.axes, strict=True)]
+        return self.solve(np.array(point))[1]
 
     def search(self, max_evaluations: int) -> tuple[dict[str, float], bool]:
-        point = np.array([self.base[n] for n in self.shape])
-        if not self.shape:
-            return self.solve(point)[0], True
+        """The best values from the start, and whether the search converged."""
+        if not self.names:
+            return self.solve(np.empty(0))[0], True
         from scipy.optimize import least_squares
 
-        quantities = [self.model.quantities[n] for n in self.shape]
-        # A time constant of exactly 0 removes the lag and its derivative: a search stays above.
-        low = np.array([max(q.low, 1e-5) if q.low == 0 else q.low for q in quantities])
-        high = np.array([q.high for q in quantities])
-        point = np.clip(point, low + 1e-9, high - 1e-9)
+        low = np.array([a.low for a in self.axes])
+        high = np.array([a.high for a in self.axes])
+        start = np.array([a.forth(a.value) for a in self.axes])
+        start = np.clip(start, low + 1e-9 * (high - low), high - 1e-9 * (high - low))
         found = least_squares(
             lambda p: self.root * self.solve(p)[1],
-            point,
+            start,
             bounds=(low, high),
-            x_scale=np.maximum(np.abs(point), 1e-3),
-            ftol=1e-10,
-            xtol=1e-9,
+            diff_step=STEP,
+            x_scale="jac" if not self.model.separable else np.maximum(np.abs(start), 1e-2),
+            ftol=1e-8,
+            xtol=1e-7,
             gtol=1e-12,
             max_nfev=max_evaluations,
         )
         return self.solve(found.x)[0], bool(found.status > 0)
 
 
-@dataclass(frozen=True)
-class _Sums:
-    """What one block contributes: J'WJ, J'Wr, J'WCWJ (where it is asked for), its samples."""
+class _Axis(NamedTuple):
+    """One searched parameter: its start, and the search's own coordinate."""
 
-    normal: Array
-    gradient: Array
-    meat: Array | None
-    samples: int
+    value: float
+    low: float
+    high: float
+    log: bool
 
+    @classmethod
+    def of(cls, q: Quantity, value: float) -> _Axis:
+        """The search begins at the parameter's own start where an off value is out of bounds."""
+        low = SHORTEST if q.unit == "s" and q.low == 0 else q.low
+        if not low <= value <= q.high:
+            value = q.start
+        if q.scale is Scale.LOG:
+            return cls(value, float(np.log(low)), float(np.log(q.high)), log=True)
+        return cls(value, low, q.high, log=False)
 
-def assess(
-    model: Model,
-    blocks: Sequence[Block],
-    values: Values,
-    *,
-    fixed: Iterable[str] = (),
-    evaluations: int = 0,
-    converged: bool = True,
-    robust: bool = False,
-    threads: int = 2,
-) -> Fit:
-    """One Gauss-Newton step over all data from a good start, then errors of the estimates.
+    def forth(self, value: float) -> float:
+        return float(np.log(value)) if self.log else value
 
-    The start may come from a part of the data: one step from there is as good as the full search
-    to the order of the standard errors (one-step estimator, Le Cam). The covariance is the
-    sandwich (J'J)^-1 (J' C J) (J'J)^-1 with C the noise covariance of an autoregressive model of
-    the residual, so that correlated residuals do not make errors look small.
-    """
-    held = set(fixed)
-    free = tuple(n for n in model.quantities if n not in held)
-    with ThreadPoolExecutor(threads) as pool:
-
-        def residuals(at: Values) -> tuple[list[Block], float, ColouredNoise]:
-            """The blocks with robust weights, their weighted square, and the noise in them."""
-            found = list(pool.map(lambda b: _residual(model, b, at, robust), blocks))
-            noise = ColouredNoise.pooled([n for _, _, n in found])
-            return [b for b, _, _ in found], sum(s for _, s, _ in found), noise
-
-        weighted, before, noise = residuals(values)
-        # Colouring is the dearest part, and a share of a long log gives the noise's effect as well.
-        every = -(-len(weighted) // COLOURED)
-        parts = list(
-            pool.map(
-                lambda i: _sum_up(
-                    model, weighted[i], values, free, noise if i % every == 0 else None
-                ),
-                range(len(weighted)),
-            )
-        )
-        inverse, flat = _inverse(np.sum([p.normal for p in parts], axis=0), free)
-        coloured = [p for p in parts if p.meat is not None]
-        share = sum(p.samples for p in parts) / max(sum(p.samples for p in coloured), 1)
-        meat = share * np.sum([p.meat for p in coloured], axis=0)
-        step = inverse @ np.sum([p.gradient for p in parts], axis=0)
-        moved = dict(values)
-        for name, move in zip(free, step.tolist(), strict=True):
-            q = model.quantities[name]
-            moved[name] = float(np.clip(values[name] + move, q.low, q.high))
-        _, after, noise_after = residuals(moved)
-        if not after <= before:
-            moved, after, noise_after = dict(values), before, noise
-    samples = sum(int(np.count_nonzero(b.weight)) for b in blocks)
-    return Fit(
-        model=model,
-        values=moved,
-        free=free,
-        covariance=inverse @ meat @ inverse,
-        rms=float(np.sqrt(after / max(samples - len(free), 1))),
-        noise=noise_after,
-        samples=samples,
-        evaluations=evaluations,
-        converged=converged,
-        flat=flat,
-    )
-
-
-def jacobian(model: Model, signals: Signals, values: Values, free: Sequence[str]) -> Array:
-    """(p, n) derivative of the force by every free parameter."""
-    prepared = model.prepare(signals, values)
-    linear = dict(zip(model.linear, prepared.columns(), strict=True))
-    force = prepared.force(values)
-    rows = []
-    for name in free:
-        if name in linear:
-            rows.append(linear[name])
-            continue
-        q = model.quantities[name]
-        step = DIFFERENCE * max(abs(values[name]), 1e-3 * max(abs(q.start), 1e-3))
-        step = -step if values[name] + step > q.high else step
-        shifted = model.force(signals, {**values, name: values[name] + step})
-        rows.append((shifted - force) / step)
-    return np.array(rows)
-
-
-def _residual(
-    model: Model, block: Block, values: Values, robust: bool
-) -> tuple[Block, float, ColouredNoise]:
-    residual = block.force - model.force(block.signals, values)
-    if robust:
-        block = block._replace(weight=block.weight * huber_weight(residual, block.weight))
-    square = float(np.dot(block.weight, residual * residual))
-    noise = ColouredNoise.of(residual * np.sqrt(block.weight), block.signals.starts)
-    return block, square, noise
-
-
-def _sum_up(
-    model: Model,
-    block: Block,
-    values: Values,
-    free: Sequence[str],
-    noise: ColouredNoise | None,
-) -> _Sums:
-    J = jacobian(model, block.signals, values, free)
-    residual = block.force - model.force(block.signals, values)
-    weighted = J * block.weight
-    meat = None
-    if noise is not None:
-        coloured = noise.colour(weighted, block.signals.starts)
-        meat = coloured @ coloured.T
-    return _Sums(
-        normal=weighted @ J.T,
-        gradient=weighted @ residual,
-        meat=meat,
-        samples=int(np.count_nonzero(block.weight)),
-    )
-
-
-def _inverse(normal: Array, free: Sequence[str]) -> tuple[Array, tuple[tuple[str, ...], ...]]:
-    """Inverse of the normal matrix, and the parameters along each direction that is flat."""
-    scale = np.sqrt(np.diag(normal))
-    scale[scale == 0.0] = 1.0
-    w, v = np.linalg.eigh(normal / np.outer(scale, scale))
-    keep = w > SINGULAR * w[-1]
-    inverse = (v[:, keep] / w[keep]) @ v[:, keep].T / np.outer(scale, scale)
-    names = np.array(free)
-    flat = [tuple(names[np.abs(v[:, j]) > 0.1].tolist()) for j in np.flatnonzero(~keep)]
-    return inverse, tuple(flat)
+    def back(self, u: float) -> float:
+        return float(np.exp(u)) if self.log else u

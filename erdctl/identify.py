@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from erdctl.assess import Fit, assess
 from erdctl.blocks import Block, pieces, sample
 from erdctl.errors import InputProblem
 from erdctl.excitation import Need, unmet
-from erdctl.fit import Fit, assess, fit
+from erdctl.fit import fit
 from erdctl.model import Model, off_values
 from erdctl.parameters import Estimate
 from erdctl.recording import DIRECTIONS, Recording
