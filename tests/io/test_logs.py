@@ -381,7 +381,7 @@ def test_reading_and_writing_import_little(columns: Columns, write: Write, name:
         "log = read_logs([sys.argv[1]], need_force=False, keep_table=True, report=print)\n"
         "table = append_column(log.table, 'force_model', log.recording.x)\n"
         "write_table(table, sys.argv[1])\n"
-        "heavy = {'pandas', 'scipy', 'pint', 'pyarrow.compute', 'pyarrow.dataset'}\n"
+        "heavy = {'pandas', 'scipy', 'pint', 'pyarrow.dataset'}\n"
         "print(', '.join(heavy & set(sys.modules)))"
     )
     path = write(columns, name)
