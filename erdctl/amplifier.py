@@ -39,12 +39,13 @@ class Amplifier:
 
     def limit(self, wanted: float, last: float, elapsed: float) -> float:
         """The duty nearest to `wanted` that can follow `last` after `elapsed` seconds."""
-        reach = self.slew * elapsed
-        duty = min(max(wanted, last - reach, 0.0), last + reach, self.duty_max)
-        if self.resolution:
-            # Down where rounding up would pass a limit.
-            steps = round(duty / self.resolution)
-            if steps * self.resolution > min(last + reach, self.duty_max) + 1e-12:
-                steps -= 1
-            duty = max(steps, 0) * self.resolution
-        return duty
+        low = max(last - self.slew * elapsed, 0.0)
+        high = min(last + self.slew * elapsed, self.duty_max)
+        if not self.resolution:
+            return min(max(wanted, low), high)
+        first = math.ceil(low / self.resolution - 1e-9)
+        final = math.floor(high / self.resolution + 1e-9)
+        # A slow amplifier may not reach the next step within one update: it stays where it is.
+        if first > final:
+            return last
+        return min(max(round(wanted / self.resolution), first), final) * self.resolution

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any
@@ -99,6 +99,8 @@ class Effect:
     carries : groups behind a SERIES compliance, or None for the whole force
     equation, source, validity : text for people
     requires : what a log must contain;  shows : where the misfit gathers when it is left out
+    guesses : (s) -> starts of a search by symbol, where one start would not do (several dips of the
+        cost, or a scale that depends on the motion)
     equivalents : effects that force data can hardly tell from this one, whatever the log
     order : effects of one slot act in this order
     """
@@ -115,6 +117,7 @@ class Effect:
     quantities: tuple[Quantity, ...]
     apply: Callable[..., object] | None = field(default=None, repr=False)
     columns: Callable[[Any, Values], Array] | None = field(default=None, repr=False)
+    guesses: Callable[[Any], Sequence[Values]] | None = field(default=None, repr=False)
     of_speed: bool = False
     carries: tuple[str, ...] | None = None
     equivalents: tuple[str, ...] = ()

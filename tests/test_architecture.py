@@ -25,7 +25,7 @@ FLOORS: tuple[tuple[str, ...], ...] = (
     ("model",),
     ("parameters", "excitation", "fit"),
     ("two_step", "score", "assess"),
-    ("identify", "simulate", "mimic"),
+    ("identify", "simulate", "mimic", "diagnose"),
     ("io", "report"),
     ("cli",),
     ("__main__",),

@@ -1,0 +1,195 @@
+"""The search for effects: beam forward, look at pairs, second pass, drop what became useless.
+
+Training cost lets false effects in, so every decision rests on groups that the fit left out, and
+one hypothesis replaces another only if it is better by more than the scatter between groups.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from erdctl.diagnose.study import Study
+from erdctl.diagnose.trial import Trial, attempt, fresh_start
+from erdctl.effect import Effect, Slot
+
+BEAM = 3  # hypotheses that are extended side by side
+CLEAR = 3.0  # how many times its scatter a gain must be
+TIE = 2.0  # below that many times their scatter two hypotheses cannot be told apart
+LEAST = 0.004  # relative gain in unseen mean square below which nothing is worth a name
+DISTINCT = (Slot.SIGN, Slot.VISCOUS, Slot.GAS, Slot.SERIES)  # one effect at most in each
+
+Progress = Callable[[str, str], None]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """How much better one hypothesis is than another on what neither has seen.
+
+    gain : relative reduction of the unseen mean square;  clear : gain over its scatter between
+    groups, from the logarithms of their ratios, so that no single group decides
+    """
+
+    gain: float
+    clear: float
+
+    @property
+    def real(self) -> bool:
+        """Whether the gain is more than scatter."""
+        return self.clear > CLEAR and self.gain > LEAST
+
+
+def compare(study: Study, worse: Trial, better: Trial) -> Comparison:
+    """The gain of one trial over another."""
+    ratio = np.log(np.maximum(worse.unseen, 1e-300) / np.maximum(better.unseen, 1e-300))
+    n = len(ratio)
+    mean = float(ratio.mean())
+    scatter = float(ratio.std(ddof=1)) / np.sqrt(n) if n > 1 else np.inf
+    gain = 1.0 - better.score(study) / worse.score(study)
+    return Comparison(gain, mean / scatter if scatter > 0 else np.sign(mean) * np.inf)
+
+
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """What the search found.
+
+    base : the paper's model;  best : with the chosen effects;  singles : every effect alone
+    without : for each chosen effect, the best model that lacks it
+    rivals : for each chosen effect, those that would do as well in its place, best first
+    """
+
+    base: Trial
+    best: Trial
+    singles: tuple[Trial, ...]
+    without: Mapping[str, Trial]
+    rivals: Mapping[str, tuple[str, ...]]
+
+
+def choose(study: Study, candidates: Sequence[Effect], most: int, progress: Progress) -> Choice:
+    """Search for the effects, at most `most`, that the recording shows."""
+    base = attempt(study, (), [fresh_start(0.05, 0.4), fresh_start(0.01, 1.0)])
+    best, pool = base, [base]
+    seen: dict[frozenset[str], Trial] = {frozenset(): base}
+    singles: list[Trial] = []
+    for depth in range(most):
+        grown = []
+        for parent in pool:
+            for effect in _addable(parent, candidates):
+                key = frozenset([*(e.name for e in parent.effects), effect.name])
+                if key in seen:
+                    continue
+                progress(f"{depth + 1} effects" if depth else "each effect", effect.name)
+                trial = _extend(study, parent, effect)
+                if trial is None:
+                    continue
+                seen[key] = trial
+                grown.append(trial)
+        if not depth:
+            singles = grown
+        grown.sort(key=lambda t: (t.score(study), len(t.model.shape)))
+        better = [t for t in grown if compare(study, best, t).real]
+        if better:
+            best = better[0]
+        elif depth:
+            break
+        # Also hypotheses that gain nothing alone: one may be worth something beside another.
+        pool = (better or grown)[:BEAM]
+    best = _prune(study, best, seen, progress)
+    without, rivals = {}, {}
+    for effect in best.effects:
+        rest = tuple(e for e in best.effects if e is not effect)
+        without[effect.name] = _refit(study, best, rest, seen)
+        rivals[effect.name] = _rivals(study, best, effect, candidates, singles, seen, progress)
+    return Choice(base, best, tuple(singles), without, rivals)
+
+
+def _addable(parent: Trial, candidates: Sequence[Effect]) -> Iterator[Effect]:
+    taken = {e.slot for e in parent.effects}
+    names = {e.name for e in parent.effects}
+    for effect in candidates:
+        if effect.name not in names and not (effect.slot in DISTINCT and effect.slot in taken):
+            yield effect
+
+
+def _extend(study: Study, parent: Trial, effect: Effect) -> Trial | None:
+    starts = [{**parent.values, **guess} for guess in guesses(effect, study)]
+    return _try(study, (*parent.effects, effect), starts)
+
+
+def guesses(effect: Effect, study: Study) -> list[dict[str, float]]:
+    """Where searches for an effect begin, by full names."""
+    found = effect.guesses(study.block.signals) if effect.guesses else [{}]
+    return [{effect.key(symbol): v for symbol, v in guess.items()} for guess in found]
+
+
+def _try(
+    study: Study, effects: Sequence[Effect], starts: Sequence[Mapping[str, float]]
+) -> Trial | None:
+    try:
+        return attempt(study, effects, starts, max_evaluations=25)
+    except ValueError:
+        return None  # effects that cannot act together
+
+
+def _refit(
+    study: Study, parent: Trial, effects: tuple[Effect, ...], seen: dict[frozenset[str], Trial]
+) -> Trial:
+    key = frozenset(e.name for e in effects)
+    if key not in seen:
+        trial = _try(study, effects, [parent.values])
+        assert trial is not None
+        seen[key] = trial
+    return seen[key]
+
+
+def _prune(
+    study: Study, best: Trial, seen: dict[frozenset[str], Trial], progress: Progress
+) -> Trial:
+    """Remove effects that others have made useless, the least useful first."""
+    while best.effects:
+        lesser = []
+        for effect in best.effects:
+            progress("second pass", effect.name)
+            rest = tuple(e for e in best.effects if e is not effect)
+            lesser.append(_refit(study, best, rest, seen))
+        nearest = min(lesser, key=lambda t: t.score(study))
+        if compare(study, nearest, best).real:
+            return best
+        best = nearest
+    return best
+
+
+def _rivals(
+    study: Study,
+    best: Trial,
+    effect: Effect,
+    candidates: Sequence[Effect],
+    singles: Sequence[Trial],
+    seen: dict[frozenset[str], Trial],
+    progress: Progress,
+) -> tuple[str, ...]:
+    """Effects that explain as much in the place of one: no worse by more than scatter."""
+    rest = tuple(e for e in best.effects if e is not effect)
+    order = sorted(singles, key=lambda t: t.score(study))
+    likely = [t.effects[0] for t in order[:6]]
+    likely += [c for c in candidates if c.name in effect.equivalents]
+    names = {e.name for e in best.effects}
+    base = _refit(study, best, rest, seen)
+    found = []
+    for rival in dict.fromkeys(likely):
+        if rival.name in names:
+            continue
+        key = frozenset([*(e.name for e in rest), rival.name])
+        if key not in seen:
+            progress("look-alikes", rival.name)
+            starts = [{**base.values, **guess} for guess in guesses(rival, study)]
+            trial = _try(study, (*rest, rival), starts)
+            if trial is None:
+                continue
+            seen[key] = trial
+        against = compare(study, seen[key], best)
+        if against.clear < TIE or against.gain < LEAST:
+            found.append((seen[key].score(study), rival.name))
+    return tuple(name for _, name in sorted(found)[:2])

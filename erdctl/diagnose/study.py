@@ -1,0 +1,112 @@
+"""What a diagnosis works on: weighted samples, and the groups of them that are left out in turn."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from erdctl.blocks import Block, whole
+from erdctl.excitation import Need, unmet
+from erdctl.recording import Array, Index, Recording
+from erdctl.signals import Signals
+
+GROUPS = 24  # stretches left out in turn, if the log has fewer records than that
+SHORTEST = 0.8  # s; of such a stretch: longer than noise remembers
+UNCERTAIN = 3.0  # standard deviations of xdot's noise within which its sign is not known
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """A recording prepared for fits.
+
+    block : signals, force, weights (0 where a record settles or the direction is uncertain)
+    group : (n,) which left-out stretch a sample belongs to;  held : paper parameters that the log
+    cannot identify, and their values
+    """
+
+    recording: Recording
+    block: Block
+    group: Index
+    held: dict[str, float]
+    needs: dict[str, Need]
+
+    @cached_property
+    def count(self) -> int:
+        """Number of groups."""
+        return int(self.group.max()) + 1
+
+    @cached_property
+    def weight_of(self) -> Array:
+        """(g,) total weight of each group."""
+        return np.bincount(self.group, self.block.weight, self.count).astype(np.float64)
+
+    def per_group(self, values: Array) -> Array:
+        """(g,) weighted sum of (n,) values in each group."""
+        sums = np.bincount(self.group, values * self.block.weight, self.count)
+        return sums.astype(np.float64)
+
+
+def prepare(recording: Recording) -> Study:
+    """The study of a recording with a measured force."""
+    needs = unmet(recording)
+    held = {
+        name: 1.0 if name.endswith(".beta") else 0.0
+        for name, need in needs.items()
+        if not need.confounded
+    }
+    block = whole(recording)
+    block.weight[uncertain(block.signals)] = 0.0
+    return Study(recording, block, groups(recording), held, needs)
+
+
+def groups(recording: Recording) -> Index:
+    """(n,) left-out stretches: records, each cut evenly where there are few of them."""
+    slices = recording.slices
+    lengths = np.array([recording.t[s][-1] - recording.t[s][0] for s in slices])
+    total = max(float(lengths.sum()), 1e-9)
+    out = np.empty(len(recording), dtype=np.intp)
+    first = 0
+    for part, length in zip(slices, lengths.tolist(), strict=True):
+        share = round(GROUPS * length / total) if len(slices) < GROUPS else 1
+        pieces = max(1, min(share, int(length / SHORTEST)))
+        n = part.stop - part.start
+        out[part] = first + np.arange(n) * pieces // n
+        first += pieces
+    return out
+
+
+def uncertain(signals: Signals) -> Array:
+    """(n,) whether the direction of motion cannot be trusted.
+
+    A differentiated, noisy deflection has the wrong sign at some samples next to reversals, and a
+    sign law turns each into an error of twice the yield force. These samples say nothing about the
+    physics; the noise of xdot is what it holds above the frequencies of its motion.
+    """
+    out = np.zeros(len(signals), dtype=bool)
+    for a, b in zip(signals.starts[:-1].tolist(), signals.starts[1:].tolist(), strict=True):
+        xdot = signals.xdot[a:b]
+        if b - a < 32:
+            continue
+        out[a:b] = np.abs(xdot) < UNCERTAIN * velocity_noise(xdot)
+    return out
+
+
+def velocity_noise(xdot: Array) -> float:
+    """Standard deviation of the noise in the velocity of one record (n,) [m/s].
+
+    The spectrum of a test's motion ends somewhere; what lies beyond three times the frequency that
+    holds 99 % of the energy is noise, and noise goes on below it at about the same density.
+    """
+    window = np.hanning(len(xdot))
+    power = np.abs(np.fft.rfft((xdot - xdot.mean()) * window)) ** 2
+    total = np.cumsum(power)
+    if total[-1] == 0.0:
+        return 0.0
+    edge = 3 * int(np.searchsorted(total, 0.99 * total[-1])) + 8
+    if edge >= len(power):
+        return 0.0
+    beyond = float(total[-1] - total[edge])
+    share = 2.0 * beyond / (np.sum(window**2) * len(xdot))
+    return float(np.sqrt(share))

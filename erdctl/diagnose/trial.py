@@ -1,0 +1,112 @@
+"""One hypothesis: the paper's model with some effects, judged on what its fit has not seen."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from erdctl.assess import jacobian
+from erdctl.diagnose.study import Study
+from erdctl.effect import Effect
+from erdctl.fit import fit
+from erdctl.model import Model
+from erdctl.recording import DIRECTIONS, Array
+
+# A group is left out but for this part of the weight of all data. What only one group shows (a lag,
+# if it alone has duty steps) is otherwise unknown without it, and the step goes to infinity.
+KEPT = 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """A fitted model.
+
+    residual : (n,) [N];  own : (g,) mean square of each group in the fit
+    unseen : (g,) mean square of each group when the fit leaves it out
+    """
+
+    model: Model
+    values: dict[str, float]
+    residual: Array
+    own: Array
+    unseen: Array
+    evaluations: int
+
+    @property
+    def effects(self) -> tuple[Effect, ...]:
+        """The effects beyond the paper's model."""
+        return self.model.effects
+
+    def score(self, study: Study) -> float:
+        """Mean square over what was not seen."""
+        return float(np.average(self.unseen, weights=study.weight_of))
+
+
+def attempt(
+    study: Study,
+    effects: Sequence[Effect],
+    starts: Sequence[Mapping[str, float]],
+    max_evaluations: int = 40,
+) -> Trial:
+    """Fit from every start and judge the best by leaving groups out."""
+    model = Model(tuple(effects))
+    best: tuple[float, dict[str, float], Array] | None = None
+    evaluations = 0
+    for start in starts:
+        full = {**{n: q.start for n, q in model.quantities.items()}, **start, **study.held}
+        values, count, _ = fit(
+            model, study.block, start=full, fixed=study.held, max_evaluations=max_evaluations
+        )
+        evaluations += count
+        residual = study.block.force - model.force(study.block.signals, values)
+        cost = float(np.dot(study.block.weight, residual * residual))
+        if best is None or cost < best[0]:
+            best = (cost, values, residual)
+    assert best is not None
+    _, values, residual = best
+    own = study.per_group(residual**2) / np.maximum(study.weight_of, 1e-300)
+    return Trial(
+        model, values, residual, own, leave_out(study, model, values, residual), evaluations
+    )
+
+
+def leave_out(study: Study, model: Model, values: Mapping[str, float], residual: Array) -> Array:
+    """(g,) mean square error on each group by a fit without it.
+
+        d = (N - N_g)^-1 J_g' W r_g,   theta without g = theta - d,   r_g without = r_g + J_g d
+
+    N = J' W J: exact for a linear model, the first Gauss-Newton step for others, so that leaving
+    every group out costs one Jacobian. A parameter at a bound is kept there.
+    """
+    free = []
+    for name, q in model.quantities.items():
+        if name in study.held:
+            continue
+        v = values[name]
+        if q.low < v < q.high:
+            free.append(name)
+    J = jacobian(model, study.block.signals, values, free)
+    scale = np.sqrt(np.einsum("ij,ij,j->i", J, J, study.block.weight))
+    scale[scale == 0.0] = 1.0
+    J = J / scale[:, None]
+    weighted = J * study.block.weight
+    whole = (1.0 + KEPT) * (weighted @ J.T)
+    out = np.empty(study.count)
+    order = np.argsort(study.group, kind="stable")
+    bounds = np.searchsorted(study.group[order], np.arange(study.count + 1))
+    for g in range(study.count):
+        rows = order[bounds[g] : bounds[g + 1]]
+        part, r = J[:, rows], residual[rows]
+        weight = study.block.weight[rows]
+        own = (part * weight) @ part.T
+        step = np.linalg.lstsq(whole - own, (part * weight) @ r, rcond=1e-10)[0]
+        unseen = r + step @ part
+        out[g] = np.dot(weight, unseen**2) / max(float(weight.sum()), 1e-300)
+    return out
+
+
+def fresh_start(T_d: float, beta: float) -> dict[str, float]:
+    """Shape parameters of the paper's model to begin with, whatever a fit has found before."""
+    return {f"{d}.T_d": T_d for d in DIRECTIONS} | {f"{d}.beta": beta for d in DIRECTIONS}
