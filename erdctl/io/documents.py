@@ -9,7 +9,7 @@ from typing import TypeVar
 import msgspec
 
 from erdctl.errors import InputProblem, UsageProblem
-from erdctl.io.atomic import replacing
+from erdctl.io.atomic import output
 
 T = TypeVar("T", bound=msgspec.Struct)
 
@@ -55,10 +55,5 @@ def encode(document: object) -> bytes:
 
 def write(document: object, path: str) -> None:
     """Write a document whole to a file, or to stdout for `-`."""
-    data = encode(document)
-    if path == "-":
-        sys.stdout.buffer.write(data)
-        sys.stdout.buffer.flush()
-        return
-    with replacing(path) as temporary:
-        Path(temporary).write_bytes(data)
+    with output(path) as stream:
+        stream.write(encode(document))

@@ -1,0 +1,172 @@
+"""The whole diagnosis: locate, screen, refit, choose, explain."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from erdctl.assess import Fit, assess
+from erdctl.blocks import Block
+from erdctl.diagnose.choose import Choice, Comparison, Progress, choose, compare
+from erdctl.diagnose.locate import Region, locate
+from erdctl.diagnose.remains import Remainder, examine
+from erdctl.diagnose.study import Study, prepare
+from erdctl.diagnose.trial import Trial
+from erdctl.effect import Effect, Requirement
+from erdctl.recording import Array, Recording
+from erdctl.score import Normalise, Validation, validate
+
+LEFT = 0.5  # misfit over noise up to which what remains counts as noise
+
+
+class Verdict(StrEnum):
+    """The answer in one word."""
+
+    ADEQUATE = "adequate"
+    EXPLAINED = "explained"
+    UNEXPLAINED = "unexplained"
+
+
+@dataclass(frozen=True, eq=False)
+class Finding:
+    """One effect that the paper's model left out.
+
+    gain : against the best model without it, on what neither has seen
+    before, after : NRMSE on groups left out of the fit, without and with it
+    """
+
+    effect: Effect
+    equivalent: tuple[str, ...]
+    gain: Comparison
+    where: Region | None
+    before: float
+    after: float
+    runner_up: str | None
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """What was found; see the contract for the meaning of the verdicts."""
+
+    verdict: Verdict
+    noise_rms: float
+    study: Study
+    choice: Choice
+    fit: Fit
+    findings: tuple[Finding, ...]
+    mismatch: tuple[Region, ...]
+    baseline: Validation
+    corrected: Validation
+    remainder: Remainder
+    untestable: dict[str, str]
+
+
+def diagnose(
+    recording: Recording,
+    candidates: Sequence[Effect],
+    *,
+    most: int = 3,
+    seed: int = 0,
+    progress: Progress = lambda stage, what: None,
+) -> Diagnosis:
+    """Diagnose a recording with a measured force against a catalogue of effects."""
+    study = prepare(recording)
+    missing = untestable(study, candidates)
+    testable = [e for e in candidates if e.name not in missing]
+    choice = choose(study, testable, most, progress)
+    best = choice.best
+    progress("what remains", "")
+    remainder = examine(study, best.residual, seed)
+    noise = remainder.noise_rms
+    left = remainder.real and remainder.misfit_rms > LEFT * noise
+    if left:
+        verdict = Verdict.UNEXPLAINED
+    else:
+        verdict = Verdict.EXPLAINED if best.effects else Verdict.ADEQUATE
+    findings = _findings(study, choice)
+    misfit = best.model.force(study.block.signals, best.values) - choice.base.model.force(
+        study.block.signals, choice.base.values
+    )
+    if left:
+        misfit = misfit + remainder.predicted
+    mismatch = locate(study, misfit) if verdict is not Verdict.ADEQUATE else []
+    return Diagnosis(
+        verdict=verdict,
+        noise_rms=noise,
+        study=study,
+        choice=choice,
+        fit=_errors(study, best),
+        findings=findings,
+        mismatch=tuple(mismatch[:3]),
+        baseline=_validate(recording, choice.base),
+        corrected=_validate(recording, best),
+        remainder=remainder,
+        untestable=missing,
+    )
+
+
+def untestable(study: Study, candidates: Sequence[Effect]) -> dict[str, str]:
+    """Effects that this recording cannot show, each with what is missing."""
+    s = study.block.signals
+    field = s.duty > 0
+    levels = len(np.unique(np.round(s.duty[field], 2)))
+    steps = any(np.ptp(s.duty[p]) > 0.02 for p in study.recording.slices)
+    longest = max(float(s.t[p][-1] - s.t[p][0]) for p in study.recording.slices)
+    met = {
+        Requirement.REVERSALS: len(s.turns[0]) > 4,
+        Requirement.FIELD: bool(field.any()),
+        Requirement.LEVELS: levels >= 3,
+        Requirement.STEPS: steps,
+        Requirement.SPEEDS: float(np.std(np.abs(s.xdot))) > 0.01 * float(np.abs(s.xdot).mean()),
+        Requirement.STROKE: float(np.ptp(s.x)) > 0.0,
+        Requirement.FREQUENCIES: True,
+        Requirement.TIME: longest > 2.0,
+    }
+    out = {}
+    for effect in candidates:
+        lacking = [r.value for r in effect.requires if not met[r]]
+        if lacking:
+            out[effect.name] = "the log has no " + " and no ".join(lacking)
+    return out
+
+
+def _findings(study: Study, choice: Choice) -> tuple[Finding, ...]:
+    best = choice.best
+    scale = float(np.ptp(study.block.force))
+    found = []
+    with_all = best.model.force(study.block.signals, best.values)
+    ranking = sorted(choice.singles, key=lambda t: t.score(study))
+    chosen = {e.name for e in best.effects}
+    runner = next((t.effects[0].name for t in ranking if t.effects[0].name not in chosen), None)
+    for effect in best.effects:
+        without = choice.without[effect.name]
+        absent = without.model.force(study.block.signals, without.values)
+        regions = locate(study, with_all - absent)
+        found.append(
+            Finding(
+                effect=effect,
+                equivalent=choice.rivals[effect.name],
+                gain=compare(study, without, best),
+                where=regions[0] if regions else None,
+                before=float(np.sqrt(without.score(study))) / scale,
+                after=float(np.sqrt(best.score(study))) / scale,
+                runner_up=runner,
+            )
+        )
+    return tuple(sorted(found, key=lambda f: -f.gain.gain))
+
+
+def _errors(study: Study, trial: Trial) -> Fit:
+    model = trial.model
+    at_bound = [n for n, q in model.quantities.items() if not q.low < trial.values[n] < q.high]
+    block = Block(study.block.signals, study.block.force, study.block.weight)
+    return assess(model, [block], trial.values, fixed={*study.held, *at_bound}, threads=1)
+
+
+def _validate(recording: Recording, trial: Trial) -> Validation:
+    assert recording.force is not None
+    modelled: Array = recording.force - trial.residual
+    return validate(recording, modelled, Normalise.RANGE)
