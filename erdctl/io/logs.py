@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
 
 import numpy as np
 import pyarrow as pa
@@ -172,6 +171,8 @@ def _plan(
 
 
 def _missing(missing: Sequence[str], free: Sequence[str], source: TableSource) -> InputProblem:
+    from difflib import get_close_matches
+
     by_lower = {c.lower(): c for c in free}
     close = get_close_matches(missing[0], by_lower, 1, 0.3)
     example = by_lower[close[0]] if close else "NAME[UNIT]"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 import stat
 import sys
@@ -152,6 +151,8 @@ def _all_of(stream: BinaryIO) -> bytearray:
 
 
 def _sha256(data: Data) -> str:
+    import hashlib
+
     if not isinstance(data, str):
         return hashlib.sha256(data).hexdigest()
     with open(data, "rb") as file:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING, Any
@@ -69,7 +68,7 @@ _POWER = r"(?:\s*(?:\^|\*\*)\s*-?\d|⁻?[¹²³])?"
 _BETWEEN = r"(?:\s*[*/·⋅]\s*|\s+)"
 _PLAIN_FACTOR = rf"{_NAME}{_POWER}"
 _FACTOR = rf"(?:{_PLAIN_FACTOR}|\({_PLAIN_FACTOR}(?:{_BETWEEN}{_PLAIN_FACTOR})*\){_POWER})"
-_UNIT = re.compile(rf"{_FACTOR}(?:{_BETWEEN}{_FACTOR})*")
+_UNIT = rf"{_FACTOR}(?:{_BETWEEN}{_FACTOR})*"
 _BRACKETS = re.compile(r"(?P<name>.*\S)\s*\[(?P<unit>[^\[\]]*)\]\s*", re.DOTALL)
 
 
@@ -126,6 +125,8 @@ class Mapping:
         return Conversion(plain.factor * sign, plain.offset * sign)
 
     def _missing(self, columns: Sequence[str], file: str) -> InputProblem:
+        from difflib import get_close_matches
+
         name = _split(self.source)[0].lstrip("-")
         by_lower = {c.lower(): c for c in columns}
         close = [by_lower[c] for c in get_close_matches(name.lower(), by_lower, 3, 0.6)]
@@ -150,6 +151,8 @@ def parse_maps(specs: Sequence[str]) -> tuple[Mapping, ...]:
                 f'--map "{spec}": write COLUMN=NAME[UNIT], e.g. --map "force=F_fl[N]"'
             )
         if target not in TARGETS:
+            from difflib import get_close_matches
+
             close = get_close_matches(target, TARGETS, 1, 0.4)
             hint = f"did you mean '{close[0]}'? " if close else ""
             raise UsageProblem(
@@ -221,7 +224,7 @@ def _between(given: str, wanted: str) -> Conversion:
         return Conversion()
     import pint
 
-    if given and not _UNIT.fullmatch(given):
+    if given and not re.fullmatch(_UNIT, given):
         raise _WrongUnit(f"'{given}', which is not a unit")
     registry = _registry()
     try:

@@ -17,15 +17,16 @@ from hypothesis import strategies as st
 from places import FIXTURES
 from typer.testing import CliRunner
 
-from erdctl.cli.app import app
+from erdctl.cli.app import build
 
+APP = build()
 BAD = FIXTURES / "bad"
 INDEX = json.loads((BAD / "index.json").read_text())
 TABLE_2 = json.loads((FIXTURES / "table_2.json").read_text())
 
 
 def run(*arguments: str, data: bytes | None = None) -> Any:
-    return CliRunner().invoke(app, list(arguments), input=data, catch_exceptions=True)
+    return CliRunner().invoke(APP, list(arguments), input=data, catch_exceptions=True)
 
 
 def check_clean(result: Any) -> None:
