@@ -37,7 +37,7 @@ class Trial:
 class Built:
     """An attempt: what came out for each effect alone, without each, and for all together.
 
-    off : log of reached over wanted level, the farthest from 0
+    off : log of reached over wanted level, of each effect
     crowding : how many times stronger the effect ought to be not to live next to reversals only
     """
 
@@ -46,7 +46,7 @@ class Built:
     alone: tuple[Outcome, ...]
     without: tuple[Outcome, ...]
     whole: Outcome
-    off: float
+    off: tuple[float, ...]
     crowding: float
 
 
@@ -57,7 +57,7 @@ def build(plan: Plan, over: tuple[Ride, ...], random: Random, trial: Trial) -> B
     scales = scales_of(over, plain, samples, plan.campaign.rating.stroke)
     noise = plan.force_noise.scaled(float(np.ptp(plain)), trial.noise)
     setting = Setting(over, samples, base, plain, scales, noise.rms)
-    makers, alone, off, crowd = [], [], 0.0, 1.0
+    makers, alone, off, crowd = [], [], [], 1.0
     for effect, level in zip(plan.effects, plan.levels, strict=True):
         maker = _maker(effect, effect.drawn(random), scales)
         wanted = level * trial.level
@@ -65,19 +65,18 @@ def build(plan: Plan, over: tuple[Ride, ...], random: Random, trial: Trial) -> B
         found = sought(setting, effect, alone_in_base, wanted)
         if found.near > MOST_NEAR:
             crowd = max(crowd, crowding(setting, effect, alone_in_base, found))
-        distance = float(np.log(max(found.level, 1e-9) / wanted))
-        off = distance if abs(distance) > abs(off) else off
+        off.append(float(np.log(max(found.level, 1e-9) / wanted)))
         makers.append(maker)
         alone.append(found)
     if len(alone) == 1:
-        return Built(setting, noise, tuple(alone), (), alone[0], off, crowd)
+        return Built(setting, noise, tuple(alone), (), alone[0], tuple(off), crowd)
     strengths = [a.strength for a in alone]
     whole = _together(setting, makers, strengths)
     without = tuple(
         _together(setting, makers[:k] + makers[k + 1 :], strengths[:k] + strengths[k + 1 :])
         for k in range(len(alone))
     )
-    return Built(setting, noise, tuple(alone), without, whole, off, crowd)
+    return Built(setting, noise, tuple(alone), without, whole, tuple(off), crowd)
 
 
 Maker = Callable[[Plant, float], Plant]

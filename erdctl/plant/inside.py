@@ -22,6 +22,8 @@ from erdctl.plant.plant import Physics, Side
 MOUNT = 1
 COLUMN = 2
 
+LAST_BUBBLES = 0.1  # of the largest void
+
 
 class Instant(NamedTuple):
     """What is known before the speed at the end of a fine step is.
@@ -63,12 +65,17 @@ def yield_state(v: float, way: float, i: Instant, up: Side, down: Side, p: Physi
 def fluid(x: float, v: float, way: float, i: Instant, up: Side, down: Side, p: Physics) -> float:
     """Viscous and yield force [N]."""
     now = i.way0 if way == 0.0 else way
+    left = 1.0
     if i.void > 0.0 and now < 0.0:
-        return 0.0  # the chamber holds vapour until its void is taken up
+        # The chamber holds vapour until its void is all but taken up; the last bubbles give way.
+        left = 1.0 - i.void / (LAST_BUBBLES * p.void)
+        if left <= 0.0:
+            return 0.0
     state = yield_state(v, way, i, up, down, p)
     if p.signed == 0.0:
         state *= direction(x, v, way, p)
-    return i.on_viscous * viscous(x, v, up if now > 0.0 else down, p) + i.on_yield * state
+    loss = viscous(x, v, up if now > 0.0 else down, p)
+    return left * (i.on_viscous * loss + i.on_yield * state)
 
 
 @njit(cache=True)

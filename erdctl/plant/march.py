@@ -3,6 +3,9 @@
 Chain: rod -> play -> mount -> piston -> gas, seals, stops and the fluid column beside each other.
 At a record's start the states of the paper and the slow ones restart (Eq. 12 at the steady value of
 the first sample, no heat, no wear); play, springs and seals are as the motion before it left them.
+
+Compiled code is cached beside each file and notices a change of that file only: after an edit in
+field, law, inside or outside, delete __pycache__.
 """
 
 from __future__ import annotations
@@ -69,9 +72,13 @@ def march(
             goal_c, goal_r = target(at_plates, up, p), target(at_plates, down, p)
             last = at_plates
         if k == 0 or k == lead_in:
-            yielding = goal_c if way_f > 0.0 else goal_r
+            # Behind a spring the fluid still goes on as before when the rod turns.
+            facing = way_f
+            if v[k] != 0.0 and p.mount == 0.0 and p.fluid_spring == 0.0:
+                facing = math.copysign(1.0, v[k])
+            yielding = goal_c if facing > 0.0 else goal_r
             if p.signed != 0.0:
-                yielding *= way_f
+                yielding *= facing
             hot = 0.0
             out.restart(states, xp, o)
             if k > 0:

@@ -14,6 +14,7 @@ import numpy as np
 from erdctl.plant.campaign import Campaign, draw_campaign
 from erdctl.plant.hidden import CATALOGUE, OUTSIDE, Hidden
 from erdctl.plant.noise import (
+    COLOURS,
     ForceNoise,
     MotionNoise,
     draw_force_noise,
@@ -24,6 +25,7 @@ from erdctl.plant.noise import (
 Random = np.random.Generator
 
 KINDS = ("single", "pair", "null", "unknown")
+CONCEALMENTS = ("unlabelled", "absorbed", "not_logged")
 KIND_SHARES = (0.6, 0.15, 0.125, 0.125)
 BANDS = ((0.2, 1.0), (1.0, 2.0), (2.0, 10.0))
 BAND_SHARES = (0.2, 0.25, 0.55)
@@ -65,18 +67,25 @@ def draw_plan(
     effects: Sequence[str] | None = None,
     level: float | None = None,
     kind: str | None = None,
+    concealment: str | None = None,
     motion: str | None = None,
     colour: str | None = None,
     scatter: bool = False,
 ) -> Plan:
     """A plan; the arguments are those of `draw`."""
+    _known("kind", kind, KINDS)
+    _known("concealment", concealment, CONCEALMENTS)
+    _known("motion", motion, ("exact", "measured"))
+    _known("colour", colour, COLOURS)
     random = stream(seed, "plan")
     chosen = str(random.choice(KINDS, p=KIND_SHARES))
     if kind is None and effects is not None:
         chosen = "unknown" if all(e in OUTSIDE for e in effects) else "single"
     chosen = kind or chosen
-    hidden = _chosen(random, chosen, effects)
-    levels = tuple(_level(random, chosen) if level is None else float(level) for _ in hidden)
+    hidden = _chosen(random, chosen, effects, unlogged=concealment == "not_logged")
+    # Below the noise nobody can tell what a pair or a stranger is, nor that a fit fails elsewhere.
+    clear = chosen in ("pair", "unknown") or concealment == "absorbed"
+    levels = tuple(_level(random, clear) if level is None else float(level) for _ in hidden)
     campaign = draw_campaign(stream(seed, "campaign"))
     gains = stream(seed, "gains")
     spread = float(gains.uniform(0.02, 0.06)) if scatter else 0.0
@@ -88,16 +97,23 @@ def draw_plan(
     )  # fmt: skip
 
 
-def _chosen(random: Random, kind: str, names: Sequence[str] | None) -> tuple[Hidden, ...]:
-    if kind not in KINDS:
-        raise ValueError(f"kind is {kind!r}, expected one of {', '.join(KINDS)}")
+def _known(name: str, value: str | None, values: Sequence[str]) -> None:
+    if value is not None and value not in values:
+        raise ValueError(f"{name} is {value!r}, expected one of {', '.join(values)}")
+
+
+def _chosen(
+    random: Random, kind: str, names: Sequence[str] | None, *, unlogged: bool
+) -> tuple[Hidden, ...]:
     if kind == "null":
         return ()
     source = OUTSIDE if kind == "unknown" else CATALOGUE
     unknown = [n for n in names or () if n not in source]
     if unknown:
         raise ValueError(f"no such effect to hide: {', '.join(unknown)}; there are {list(source)}")
-    pool = [source[n] for n in names or source]
+    pool = [source[n] for n in names or source if source[n].hidden or not unlogged]
+    if not pool:
+        raise ValueError("none of these effects hides a temperature or a fault's onset")
     first = pool[int(random.integers(len(pool)))]
     if kind != "pair":
         return (first,)
@@ -107,9 +123,8 @@ def _chosen(random: Random, kind: str, names: Sequence[str] | None) -> tuple[Hid
     return first, others[int(random.integers(len(others)))]
 
 
-def _level(random: Random, kind: str) -> float:
-    """Pairs and strangers are drawn clear of the noise: below it nobody can tell."""
+def _level(random: Random, clear: bool) -> float:
     low, high = BANDS[int(random.choice(len(BANDS), p=BAND_SHARES))]
-    if kind in ("pair", "unknown"):
+    if clear:
         low, high = BANDS[-1]
     return float(np.exp(random.uniform(np.log(low), np.log(high))))

@@ -79,6 +79,7 @@ def scales_of(over: Sequence[Ride], plain: Array, samples: Samples, stroke: floa
         shortest=min(spans),
         longest=max(spans),
         energy=max(energy),
+        tick=over[0].h,
     )
 
 

@@ -19,6 +19,7 @@ class Scales:
 
     x, v, a : largest |x|, |xdot|, |xddot|;  stroke : rated;  force : half its range
     duty : highest;  shortest, longest : records [s];  energy : most that a record dissipates [J]
+    tick : step of the simulation [s]
     """
 
     x: float
@@ -30,6 +31,7 @@ class Scales:
     shortest: float
     longest: float
     energy: float
+    tick: float
 
 
 @dataclass(frozen=True)

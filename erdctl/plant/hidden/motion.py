@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from erdctl.plant.hidden.kinds import Hidden, Scales, Shape
 from erdctl.plant.plant import Plant
 
@@ -25,10 +27,11 @@ def _end_stop(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
 
 
 def _time_skew(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
-    """Force later (in three of four cases) or earlier by s periods of the motion, which is
-    taken as x/v; 0.1 s at most."""
+    """Force later (in three of four cases) or earlier by s periods of the motion, 2 pi x/v each;
+    0.1 s at most. Whole steps of the simulation: no interpolation finds the jump at a reversal."""
     late = 1.0 if q["early"] < 0.75 else -1.0
-    return plant.with_channel(skew=late * min(s * 6.28 * by.x / by.v, 0.1))
+    skew = min(s * 2 * math.pi * by.x / by.v, 0.1)
+    return plant.with_channel(skew=late * round(skew / by.tick) * by.tick)
 
 
 EFFECTS = (
