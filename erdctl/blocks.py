@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -37,34 +38,37 @@ def whole(recording: Recording) -> Block:
     return Block(Signals.of(recording), recording.force, weight)
 
 
+def neighbours(recording: Recording, longest: int = LONGEST) -> list[Recording]:
+    """The recording as runs of whole records, of at most about `longest` samples where they fit."""
+    bounds = recording.starts.tolist()
+    firsts, size = [0], 0
+    for i, (a, b) in enumerate(pairwise(bounds)):
+        if size and size + b - a > longest:
+            firsts.append(i)
+            size = 0
+        size += b - a
+    if len(firsts) == 1:
+        return [recording]
+    runs = pairwise([*firsts, len(bounds) - 1])
+    return [
+        recording.window(
+            slice(bounds[i], bounds[j]),
+            recording.starts[i : j + 1] - bounds[i],
+            recording.names[i:j],
+        )
+        for i, j in runs
+    ]
+
+
 def pieces(recording: Recording, longest: int = LONGEST) -> list[Block]:
     """The recording as blocks of at most about `longest` samples that together weigh each sample.
 
     Records stay whole where they fit; a longer one is cut, and each cut piece begins with a stretch
     without weight in which its state settles.
     """
-    groups: list[list[slice]] = [[]]
-    room = longest
-    for part in recording.slices:
-        length = part.stop - part.start
-        if length > room and groups[-1]:
-            groups.append([])
-            room = longest
-        if length > longest:
-            groups[-1].append(part)
-            groups.append([])
-            room = longest
-            continue
-        groups[-1].append(part)
-        room -= length
-    out = []
-    for group in groups:
-        if not group:
-            continue
-        if len(group) == 1 and group[0].stop - group[0].start > longest:
-            out += _cut(recording, group[0], longest)
-        else:
-            out.append(whole(_span(recording, group)))
+    out: list[Block] = []
+    for run in neighbours(recording, longest):
+        out += _cut(run, longest) if len(run) > longest else [whole(run)]
     return out
 
 
@@ -86,24 +90,12 @@ def sample(recording: Recording, most: int, length: int = 4000, seed: int = 0) -
     return _joined(recording, [windows[i] for i in picks])
 
 
-def _span(recording: Recording, parts: Sequence[slice]) -> Recording:
-    """Neighbouring records as a recording that shares their samples."""
-    first = int(np.searchsorted(recording.starts, parts[0].start))
-    if len(parts) == len(recording.names):
-        return recording
-    span = slice(parts[0].start, parts[-1].stop)
-    starts = recording.starts[first : first + len(parts) + 1] - span.start
-    return recording.window(span, starts, recording.names[first : first + len(parts)])
-
-
-def _cut(recording: Recording, record: slice, longest: int) -> list[Block]:
+def _cut(record: Recording, longest: int) -> list[Block]:
     out = []
-    for a in range(record.start, record.stop, longest):
-        b = min(a + longest, record.stop)
-        from_t = recording.t[a] - SETTLE * 2
-        begin = max(record.start, int(np.searchsorted(recording.t[record], from_t)) + record.start)
-        part = recording.window(slice(begin, b))
-        block = whole(part)
+    for a in range(0, len(record), longest):
+        b = min(a + longest, len(record))
+        begin = int(np.searchsorted(record.t, record.t[a] - SETTLE * 2))
+        block = whole(record.window(slice(begin, b)))
         if begin < a:
             block.weight[:] = 1.0
             block.weight[: a - begin] = 0.0

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
+from erdctl.blocks import neighbours
 from erdctl.parameters import Parameters
 from erdctl.recording import Array, Recording
 from erdctl.signals import Signals
@@ -13,7 +16,22 @@ BEYOND = 0.05  # of a range: how far a drive may leave it before that is worth a
 
 
 def simulate(parameters: Parameters, recording: Recording, faults: Sequence[str] = ()) -> Array:
-    """(n,) modelled force [N]; `faults` as on the command line (Eqs. 20-23)."""
+    """(n,) modelled force [N]; `faults` as on the command line (Eqs. 20-23).
+
+    States restart with each record, so a long log is computed in runs of records that fit into a
+    processor's cache, which is twice as fast as all at once.
+    """
+    runs = neighbours(recording)
+    if len(runs) == 1:
+        return _force(parameters, recording, faults)
+    out = np.empty(len(recording))
+    ends = np.cumsum([len(run) for run in runs]).tolist()
+    for run, end in zip(runs, ends, strict=True):
+        out[end - len(run) : end] = _force(parameters, run, faults)
+    return out
+
+
+def _force(parameters: Parameters, recording: Recording, faults: Sequence[str]) -> Array:
     signals = Signals.of(recording)
     prepared = parameters.model.prepare(signals, parameters.values)
     if not faults:
