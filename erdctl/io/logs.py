@@ -17,7 +17,6 @@ from erdctl.io.consistency import check_consistency
 from erdctl.io.memory import check_fits
 from erdctl.io.sources import STDIN, TableSource, open_source, read_source
 from erdctl.io.units import RECORD, TARGETS, Conversion, Mapping, listed, parse_maps
-from erdctl.motion import derive_xdot
 from erdctl.recording import Array, Index, Recording, Source, concatenate
 
 Report = Callable[[str], None]
@@ -213,6 +212,8 @@ def _recording(
         own = {n: plan[n][0] for n in ("t", "x", "xdot")}
         check_consistency(t, x, xdot, starts, place, sources=own)
     else:
+        from erdctl.motion import derive_xdot
+
         xdot, note = derive_xdot(t, x, starts, file=place.file, row_of=place.row_of)
         say(f"no column xdot; {note}")
     if "duty" not in channels:

@@ -8,7 +8,7 @@ from typing import Any
 
 import msgspec
 
-from erdctl import __version__, effects
+from erdctl import __version__
 from erdctl.errors import InputProblem
 from erdctl.io import documents
 from erdctl.model import Model
@@ -80,6 +80,8 @@ def parse_parameters(data: bytes, name: str) -> Parameters:
             estimates[full] = _estimate(getattr(given, symbol), quantity, full, name)
     chosen = []
     for i, extra in enumerate(document.effects):
+        from erdctl import effects  # only where there are any: most parameter files have none
+
         effect = effects.get(extra.effect)
         if effect in chosen:
             raise InputProblem(f"effects[{i}]: '{effect.name}' is listed twice", file=name)

@@ -103,13 +103,14 @@ def read_source(
         return _read_arrow(source, names)
 
     try:
+        if not want_hash:
+            return _guarded(source.name, source.format, read), ""
         from concurrent.futures import ThreadPoolExecutor
 
         with ThreadPoolExecutor(1) as pool:
             # Beside the parsing, hashing is nearly hidden.
-            digest = pool.submit(_sha256, source.data) if want_hash else None
-            table = _guarded(source.name, source.format, read)
-            return table, digest.result() if digest else ""
+            digest = pool.submit(_sha256, source.data)
+            return _guarded(source.name, source.format, read), digest.result()
     except MemoryError:
         raise ComputationProblem(f"out of memory while reading {source.name}; split it") from None
 
