@@ -168,6 +168,12 @@ def effectiveness(fault: Fault, t: Array, xdot: Array, starts: Index) -> Array:
     return f
 
 
+def onsets(t: Array) -> list[float]:
+    """Times [s] at which a search for the onset of a fault in records (n,) of times t may begin."""
+    parts = (0.15, 0.3, 0.45, 0.6, 0.75, 0.9)
+    return [float(v) for v in np.quantile(t, parts)]
+
+
 def leakage(xdot: Array, flow: float) -> Array:
     """Flow-dependent leakage f1 = min(1, q / |xdot|), Eq. 21 with its constant and its bound.
 

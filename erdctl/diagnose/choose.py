@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from erdctl.diagnose.screen import Prospect, Screen
 from erdctl.diagnose.study import Study
 from erdctl.diagnose.trial import Trial, attempt, fresh_start
 from erdctl.effect import Effect, Slot
@@ -19,6 +20,8 @@ BEAM = 3  # hypotheses that are extended side by side
 CLEAR = 3.0  # how many times its scatter a gain must be
 TIE = 2.0  # below that many times their scatter two hypotheses cannot be told apart
 LEAST = 0.004  # relative gain in unseen mean square below which nothing is worth a name
+HOPE = 0.4  # of the most promising effect's gain: worth a full trial
+ALWAYS = 4  # effects that get one in any case
 DISTINCT = (Slot.SIGN, Slot.VISCOUS, Slot.GAS, Slot.SERIES)  # one effect at most in each
 
 Progress = Callable[[str, str], None]
@@ -76,16 +79,16 @@ def choose(study: Study, candidates: Sequence[Effect], most: int, progress: Prog
     for depth in range(most):
         grown = []
         for parent in pool:
-            for effect in _addable(parent, candidates):
-                key = frozenset([*(e.name for e in parent.effects), effect.name])
+            taken = frozenset(e.name for e in parent.effects)
+            for prospect in _prospects(study, parent, candidates, progress):
+                key = taken | {prospect.effect.name}
                 if key in seen:
                     continue
-                progress(f"{depth + 1} effects" if depth else "each effect", effect.name)
-                trial = _extend(study, parent, effect)
-                if trial is None:
-                    continue
-                seen[key] = trial
-                grown.append(trial)
+                progress(f"{depth + 1} effects" if depth else "each effect", prospect.effect.name)
+                trial = _extend(study, parent, prospect)
+                if trial is not None:
+                    seen[key] = trial
+                    grown.append(trial)
         if not depth:
             singles = grown
         grown.sort(key=lambda t: (t.score(study), len(t.model.shape)))
@@ -113,15 +116,32 @@ def _addable(parent: Trial, candidates: Sequence[Effect]) -> Iterator[Effect]:
             yield effect
 
 
-def _extend(study: Study, parent: Trial, effect: Effect) -> Trial | None:
-    starts = [{**parent.values, **guess} for guess in guesses(effect, study)]
-    return _try(study, (*parent.effects, effect), starts)
+def _prospects(
+    study: Study, parent: Trial, candidates: Sequence[Effect], progress: Progress
+) -> list[Prospect]:
+    """The effects worth a full trial beside the parent's, the most promising first."""
+    screen = Screen(study, parent)
+    found = []
+    for effect in _addable(parent, candidates):
+        progress("screening", effect.name)
+        prospect = screen.look(effect)
+        if prospect is not None:
+            found.append(prospect)
+    found.sort(key=lambda p: -p.gain)
+    bar = HOPE * found[0].gain if found else 0.0
+    # What feeds the force back can be worth nothing near the present fit and all of it elsewhere.
+    return [
+        p for i, p in enumerate(found)
+        if i < ALWAYS or p.gain > bar or p.effect.slot in (Slot.SERIES, Slot.FEEDBACK)
+    ]  # fmt: skip
 
 
-def guesses(effect: Effect, study: Study) -> list[dict[str, float]]:
-    """Where searches for an effect begin, by full names."""
-    found = effect.guesses(study.block.signals) if effect.guesses else [{}]
-    return [{effect.key(symbol): v for symbol, v in guess.items()} for guess in found]
+def _extend(study: Study, parent: Trial, prospect: Prospect) -> Trial | None:
+    starts = [{**parent.values, **guess} for guess in prospect.starts]
+    if prospect.effect.slot is Slot.SERIES:
+        # Without the lag that stands in for the compliance.
+        starts.append({**parent.values, **fresh_start(0.005, 0.4), **prospect.starts[0]})
+    return _try(study, (*parent.effects, prospect.effect), starts)
 
 
 def _try(
@@ -184,8 +204,8 @@ def _rivals(
         key = frozenset([*(e.name for e in rest), rival.name])
         if key not in seen:
             progress("look-alikes", rival.name)
-            starts = [{**base.values, **guess} for guess in guesses(rival, study)]
-            trial = _try(study, (*rest, rival), starts)
+            prospect = Screen(study, base).look(rival)
+            trial = None if prospect is None else _extend(study, base, prospect)
             if trial is None:
                 continue
             seen[key] = trial

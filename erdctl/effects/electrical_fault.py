@@ -15,7 +15,7 @@ Source: the ER damper paper, Eq. 22.
 from __future__ import annotations
 
 from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
-from erdctl.faults import Fault, FaultKind, factors
+from erdctl.faults import Fault, FaultKind, factors, onsets
 from erdctl.quantity import Quantity
 from erdctl.recording import Array
 from erdctl.signals import Signals
@@ -31,6 +31,11 @@ def electrical_fault(s: Signals, p: Values) -> dict[str, Array]:
     fault = Fault(kind=FaultKind.ELECTRICAL, factor=p["f"], start=p["t_0"] - 0.5 * ramp, ramp=ramp)
     found = factors([fault], s.t, s.xdot, s.starts)
     return {"gas": found.gas, "viscous": found.viscous, "yield": found.yield_}
+
+
+def starts(s: Signals) -> list[Values]:
+    """Onsets over the length of the records, where half of the effectiveness goes."""
+    return [{"f": 0.5, "t_0": t_0} for t_0 in onsets(s.t)]
 
 
 EFFECT = Effect(
@@ -54,4 +59,5 @@ EFFECT = Effect(
         ),
     ),
     apply=electrical_fault,
+    guesses=starts,
 )  # fmt: skip

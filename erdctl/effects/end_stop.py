@@ -26,6 +26,12 @@ def end_stop(s: Signals, p: Values) -> Array:
     return np.array([np.maximum(s.x - stop, 0.0), -np.maximum(-s.x - stop, 0.0)])
 
 
+def starts(s: Signals) -> list[Values]:
+    """Stops that the recorded stroke would touch."""
+    reached = float(np.abs(s.x).max())
+    return [{"x_stop": max(part * reached, 1e-4)} for part in (0.5, 0.7, 0.85, 0.95)]
+
+
 EFFECT = Effect(
     name="end_stop",
     stage=Stage.MOTION,
@@ -51,4 +57,5 @@ EFFECT = Effect(
         ),
     ),
     columns=end_stop,
+    guesses=starts,
 )  # fmt: skip
