@@ -13,7 +13,8 @@ from erdctl.plant.motion import Motion
 Array = npt.NDArray[np.float64]
 Random = np.random.Generator
 
-RATES = (100.0, 125.0, 200.0, 250.0, 400.0, 500.0, 800.0, 1000.0)  # Hz
+RATES = (100.0, 200.0, 250.0, 400.0, 500.0, 800.0, 1000.0)  # Hz
+RATE_SHARES = (0.08, 0.15, 0.2, 0.12, 0.2, 0.1, 0.15)
 MOST_SAMPLES, LEAST_SAMPLES = 60_000, 15_000
 LONGEST, SHORTEST = 60.0, 2.5  # s
 PER_RECORD = 1500  # samples that a record needs for a few cycles
@@ -73,15 +74,16 @@ class Campaign:
 
 def draw_campaign(random: Random) -> Campaign:
     """A campaign of 6 to 24 records and 15,000 to 60,000 samples at 100 to 1000 Hz."""
-    rate = float(random.choice(RATES))
+    rate = float(random.choice(RATES, p=RATE_SHARES))
     least = max(LEAST_SAMPLES, 6 * SHORTEST * rate)
     samples = float(np.exp(random.uniform(np.log(least), np.log(MOST_SAMPLES))))
     fewest = max(6, int(np.ceil(samples / (LONGEST * rate))))
     most = int(min(24, samples / PER_RECORD, samples / (SHORTEST * rate)))
     count = int(random.integers(fewest, max(most, fewest) + 1))
-    # Real recordings have 300 to 2000 samples a period.
-    low, high = rate / random.uniform(1500, 2500), rate / random.uniform(150, 300)
-    stroke = float(np.exp(random.uniform(np.log(0.005), np.log(0.06))))
+    # Slow enough that a period has 50 samples or more, fast enough that inertia is felt.
+    low = float(np.exp(random.uniform(np.log(0.1), np.log(0.4))))
+    high = min(rate / random.uniform(50, 120), float(random.uniform(5.0, 12.0)))
+    stroke = float(np.exp(random.uniform(np.log(0.008), np.log(0.06))))
     rating = Rating(stroke, 2 * np.pi * float(np.sqrt(low * high)) * stroke)
     return _fill(random, rating, rate, low, high, samples / count, count)
 

@@ -78,7 +78,7 @@ def march(
                 facing = math.copysign(1.0, v[k])
             yielding = goal_c if facing > 0.0 else goal_r
             if p.signed != 0.0:
-                yielding *= facing
+                yielding *= facing if v[k] != 0.0 else 0.0
             hot = 0.0
             out.restart(states, xp, o)
             if k > 0:
@@ -115,6 +115,9 @@ def march(
         else:
             xp1, vp1 = (z, zv) if p.mount == 0.0 else (xp, vp)
             now = 0.0 if vp1 == 0.0 else math.copysign(1.0, vp1)
+            if p.signed != 0.0 and now == 0.0:
+                goal_c = goal_r = 0.0  # sign(0) = 0
+                last = -1.0
             i = Instant(
                 step, xp, vp, way, 0.0, 0.0, fade, yielding, goal_c, goal_r, bend, void, oil,
                 on_viscous, on_yield,

@@ -76,7 +76,7 @@ class Motion:
         return r * x, dr * x + r * v, ddr * x + 2 * dr * v + r * a
 
 
-ROUNDING = 0.995
+ROUNDING = 0.97
 
 
 @njit(cache=True)

@@ -114,8 +114,10 @@ def draw_motion_noise(random: Random, campaign: Campaign, kind: str | None = Non
     way = str(random.choice(["savgol", "difference"]))
     step = campaign.rating.stroke * float(np.exp(random.uniform(np.log(3e-5), np.log(3e-4))))
     noise = step * float(random.uniform(0.3, 1.0))
-    window = 2 * int(random.integers(5, 16)) + 1
-    cutoff = min(float(random.uniform(12.0, 25.0)) * campaign.high, 0.4 * campaign.rate)
+    # Over no more than a fifth of the shortest period, or the smoothing bends the motion.
+    widest = max(int(campaign.rate / campaign.high / 10), 3)
+    window = 2 * int(random.integers(3, min(widest, 15) + 1)) + 1
+    cutoff = min(float(random.uniform(10.0, 20.0)) * campaign.high, 0.4 * campaign.rate)
     if kind == "exact" or (kind is None and exact):
         way = "exact"
     return MotionNoise(way, noise, step, window, cutoff)

@@ -38,8 +38,9 @@ def _turbulent(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
 
 
 def _inertia(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
-    """s times the damper's force at the highest acceleration."""
-    return plant.with_physics(mass=s * by.force / by.a)
+    """s times the damper's force at the highest acceleration; no more than a damper of its size may
+    have: 50 kg for 1000 N, with its fixture and the fluid column as felt at the rod."""
+    return plant.with_physics(mass=by.force * min(s / by.a, 0.05))
 
 
 def _compressible(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:

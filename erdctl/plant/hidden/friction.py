@@ -36,9 +36,12 @@ def _polytropic(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
 
 
 def _position(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
-    """Damping times 1 + a x + b x^2: taper and groove, at most s at the end of the rated stroke."""
+    """Damping times 1 + a x + b x^2: taper and groove, at most s at the end of the rated stroke;
+    nowhere does it fall below a twentieth."""
     a, b = math.cos(q["form"]), math.sin(q["form"])
-    most = s / (abs(a) + abs(b))
+    middle = -a * a / (4 * b) if abs(a) < abs(2 * b) and b > 0 else 0.0
+    fall = -min(a + b, b - a, middle)
+    most = min(s / (abs(a) + abs(b)), 0.95 / max(fall, 1e-6))
     return plant.with_physics(
         taper=most * a / (1.1 * by.stroke), groove=most * b / (1.1 * by.stroke) ** 2
     )
@@ -64,7 +67,7 @@ EFFECTS = (
         ("physics.closing", "physics.polytropic"), {"exponent": (1.0, 1.4)},
     ),
     Hidden(
-        "position_dependent_damping", "bore", "viscous", 1e-3, 0.3, 0.95, _position,
+        "position_dependent_damping", "bore", "viscous", 1e-3, 0.3, 5.0, _position,
         ("physics.taper", "physics.groove"), {"form": (0.0, 2 * math.pi)},
     ),
 )  # fmt: skip
