@@ -50,7 +50,9 @@ def _end(message: str, code: ExitCode) -> typer.Exit:
     return typer.Exit(code)
 
 
-COMMANDS = ("identify", "simulate", "validate", "mimic", "derive", "effects", "schema")
+COMMANDS = (
+    "identify", "simulate", "validate", "diagnose", "mimic", "derive", "effects", "schema",
+)  # fmt: skip
 
 
 def _version(asked: bool) -> None:

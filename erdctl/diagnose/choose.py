@@ -67,7 +67,7 @@ class Choice:
     best: Trial
     singles: tuple[Trial, ...]
     without: Mapping[str, Trial]
-    rivals: Mapping[str, tuple[str, ...]]
+    rivals: Mapping[str, tuple[tuple[str, Trial], ...]]
 
 
 def choose(study: Study, candidates: Sequence[Effect], most: int, progress: Progress) -> Choice:
@@ -189,7 +189,7 @@ def _rivals(
     singles: Sequence[Trial],
     seen: dict[frozenset[str], Trial],
     progress: Progress,
-) -> tuple[str, ...]:
+) -> tuple[tuple[str, Trial], ...]:
     """Effects that explain as much in the place of one: no worse by more than scatter."""
     rest = tuple(e for e in best.effects if e is not effect)
     order = sorted(singles, key=lambda t: t.score(study))
@@ -211,5 +211,6 @@ def _rivals(
             seen[key] = trial
         against = compare(study, seen[key], best)
         if against.clear < TIE or against.gain < LEAST:
-            found.append((seen[key].score(study), rival.name))
-    return tuple(name for _, name in sorted(found)[:2])
+            found.append((rival.name, seen[key]))
+    found.sort(key=lambda f: f[1].score(study))
+    return tuple(found[:2])

@@ -11,6 +11,7 @@ import numpy as np
 from erdctl.assess import Fit, assess
 from erdctl.blocks import Block
 from erdctl.diagnose.choose import Choice, Comparison, Progress, choose, compare
+from erdctl.diagnose.distinguish import Test, telling_apart
 from erdctl.diagnose.locate import Region, locate
 from erdctl.diagnose.remains import Remainder, examine
 from erdctl.diagnose.study import Study, prepare
@@ -36,6 +37,7 @@ class Finding:
 
     gain : against the best model without it, on what neither has seen
     before, after : NRMSE on groups left out of the fit, without and with it
+    test : the drive that would tell it from its equivalents, if it has any
     """
 
     effect: Effect
@@ -45,6 +47,7 @@ class Finding:
     before: float
     after: float
     runner_up: str | None
+    test: Test | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,7 +151,8 @@ def _findings(study: Study, choice: Choice) -> tuple[Finding, ...]:
         found.append(
             Finding(
                 effect=effect,
-                equivalent=choice.rivals[effect.name],
+                equivalent=tuple(name for name, _ in choice.rivals[effect.name]),
+                test=telling_apart(study, best, choice.rivals[effect.name]),
                 gain=compare(study, without, best),
                 where=regions[0] if regions else None,
                 before=float(np.sqrt(without.score(study))) / scale,

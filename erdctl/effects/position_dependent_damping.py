@@ -1,10 +1,12 @@
 """Damping that varies along the stroke.
 
-    F_viscous, F_yield -> max(1 + b_1 x + b_2 x^2, 0) of them
+    F_viscous -> max(1 + b_1 x + b_2 x^2, 0) of it,   F_yield -> max(1 + e_1 x + e_2 x^2, 0) of it
 
-x : (n,) piston stroke [m];  b_1 [1/m], b_2 [1/m^2] : slope and curvature, off at 0
-Valid for tapered or eccentric ducts and for bypasses, with the force at x = 0 as reference.
-Check: b_1 = 10 /m, b_2 = 100 /m^2, x = 20, -20, 0 mm gives 1.24, 0.84, 1.
+x : (n,) piston stroke [m];  b_1, e_1 [1/m], b_2, e_2 [1/m^2] : slopes and curvatures, off at 0
+Valid for tapered or eccentric ducts and for bypasses, with the force at x = 0 as reference. A duct
+of varying gap d changes the two alike in sign but not in size: by d^-3 and d^-1 (Eq. 8), and a
+bypass may change the viscous force alone.
+Check: b_1 = 10 /m, b_2 = 100 /m^2, x = 20, -20, 0 mm gives 1.24, 0.84, 1 of the viscous force.
 Source: J. C. Dixon, The Shock Absorber Handbook, 2nd ed. (2007), position-dependent dampers.
 """
 
@@ -20,8 +22,11 @@ from erdctl.signals import Signals
 
 def position_dependent_damping(s: Signals, p: Values) -> dict[str, Array]:
     """Factors of the viscous and the yield force, (n,) each [1]."""
-    factor = np.maximum(1.0 + (p["b_1"] + p["b_2"] * s.x) * s.x, 0.0)
-    return {"viscous": factor, "yield": factor}
+
+    def along(slope: float, curvature: float) -> Array:
+        return np.maximum(1.0 + (slope + curvature * s.x) * s.x, 0.0)
+
+    return {"viscous": along(p["b_1"], p["b_2"]), "yield": along(p["e_1"], p["e_2"])}
 
 
 EFFECT = Effect(
@@ -29,18 +34,26 @@ EFFECT = Effect(
     stage=Stage.POSITION,
     slot=Slot.SCALE,
     title="damping varies along the stroke",
-    equation="F_viscous, F_yield -> max(1 + b_1 x + b_2 x^2, 0) of them",
+    equation="F_viscous -> max(1 + b_1 x + b_2 x^2, 0) of it, F_yield with e_1, e_2",
     source="Dixon, The Shock Absorber Handbook (2007)",
     validity="the force at x = 0 as reference",
     requires=(Requirement.STROKE,),
     shows=Variable.X,
     quantities=(
         Quantity(
-            symbol="b_1", unit="1/m", title="slope of the damping over the stroke",
+            symbol="b_1", unit="1/m", title="slope of the viscous force over the stroke",
             low=-1e4, high=1e4, start=1.0,
         ),
         Quantity(
-            symbol="b_2", unit="1/m^2", title="curvature of the damping over the stroke",
+            symbol="b_2", unit="1/m^2", title="curvature of the viscous force over the stroke",
+            low=-1e7, high=1e7, start=100.0,
+        ),
+        Quantity(
+            symbol="e_1", unit="1/m", title="slope of the yield force over the stroke",
+            low=-1e4, high=1e4, start=1.0,
+        ),
+        Quantity(
+            symbol="e_2", unit="1/m^2", title="curvature of the yield force over the stroke",
             low=-1e7, high=1e7, start=100.0,
         ),
     ),

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 
 
 def say(text: str, kind: str = "note") -> None:
@@ -41,3 +42,18 @@ def _rich(title: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> N
 def number(value: float | None, digits: int = 4) -> str:
     """A number with so many significant digits, or a dash."""
     return "-" if value is None else f"{value:.{digits}g}"
+
+
+@contextmanager
+def progress() -> Iterator[Callable[[str, str], None]]:
+    """A line on stderr that shows stage, item and time, on a terminal only."""
+    if not sys.stderr.isatty() or os.environ.get("TERM") == "dumb":
+        yield lambda stage, what: None
+        return
+    from rich.console import Console
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    columns = SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn()
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("")
+        yield lambda stage, what: bar.update(task, description=f"{stage}: {what}")

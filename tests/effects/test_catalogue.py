@@ -108,7 +108,7 @@ def inside(q: Quantity, part: float) -> float:
 
 @settings(deadline=None, max_examples=25)
 @given(
-    parts=st.lists(st.sampled_from([0.0, 1.0]) | st.floats(0.0, 1.0), min_size=3, max_size=3),
+    parts=st.lists(st.sampled_from([0.0, 1.0]) | st.floats(0.0, 1.0), min_size=4, max_size=4),
     T_d=st.sampled_from([0.0, 1e-3, 0.043, 1.0]),
     log=st.sampled_from([clean, noisy]),
 )

@@ -1,0 +1,103 @@
+"""`erdctl diagnose`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from erdctl.cli.options import Logs, Maps, Out
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from erdctl.diagnose.diagnosis import Diagnosis
+    from erdctl.effect import Effect
+
+
+def command(
+    logs: Logs,
+    output: Out = "-",
+    only: Annotated[
+        list[str],
+        typer.Option("--effects", metavar="NAME,...", help="Test these effects only."),
+    ] = [],
+    exclude: Annotated[
+        list[str], typer.Option(metavar="NAME,...", help="Do not test these effects.")
+    ] = [],
+    max_effects: Annotated[int, typer.Option(min=1, max=6, help="Name at most so many.")] = 3,
+    seed: Annotated[int, typer.Option(help="Of the regression that looks at what remains.")] = 0,
+    fail_on_mismatch: Annotated[
+        bool, typer.Option("--fail-on-mismatch", help="Exit 1 unless the verdict is adequate.")
+    ] = False,
+    maps: Maps = [],
+) -> None:
+    """Locate a mismatch, name the physics left out, and show the fit improve.
+
+    Tests every effect of the catalogue, alone and together, and keeps only what improves data that
+    the fit has not seen. The verdict is adequate, explained or unexplained; what the data cannot
+    tell apart is said, with the drive that would.
+
+    \b
+    Examples:
+      erdctl diagnose bench.parquet -o diagnosis.json
+      erdctl diagnose a.csv b.csv --exclude thermal_fade --fail-on-mismatch
+      erdctl diagnose bench.csv --effects backlash,mount_compliance
+    """
+    from erdctl.diagnose.diagnosis import Verdict, diagnose
+    from erdctl.errors import CheckFailed
+    from erdctl.io import documents
+    from erdctl.io.diagnosis import to_json
+    from erdctl.io.logs import read_logs
+    from erdctl.report.text import progress, say
+
+    log = read_logs(logs, maps=maps, need_force=True, want_hash=True, report=say)
+    candidates = _candidates(only, exclude)
+    with progress() as step:
+        found = diagnose(log.recording, candidates, most=max_effects, seed=seed, progress=step)
+    documents.write(to_json(found), output)
+    _show(found)
+    if fail_on_mismatch and found.verdict is not Verdict.ADEQUATE:
+        raise CheckFailed(f"the paper's model does not hold: {found.verdict.value}")
+
+
+def _candidates(only: Sequence[str], exclude: Sequence[str]) -> list[Effect]:
+    from erdctl import effects
+    from erdctl.errors import InputProblem, UsageProblem
+
+    def names(options: Sequence[str]) -> list[str]:
+        return [name.strip() for option in options for name in option.split(",") if name.strip()]
+
+    try:
+        barred = {effects.get(name).name for name in names(exclude)}
+        chosen = [effects.get(name) for name in names(only)] or list(effects.catalogue())
+    except InputProblem as problem:
+        raise UsageProblem(str(problem)) from None
+    return [e for e in chosen if e.name not in barred]
+
+
+def _show(found: Diagnosis) -> None:
+    from erdctl.io.diagnosis import finding_text, parameters, remaining_text
+    from erdctl.report.text import number, say, table
+
+    before, after = found.baseline, found.corrected
+    rows = [
+        [f"{100 * d:g} %", f"{s.nrmse:.4f}", f"{after.by_duty[d].nrmse:.4f}"]
+        for d, s in before.by_duty.items()
+    ]
+    rows.append(["all", f"{before.overall.nrmse:.4f}", f"{after.overall.nrmse:.4f}"])
+    title = f"Verdict: {found.verdict.value}. NRMSE over the range, per PWM level"
+    table(title, ["", "paper's model", "corrected"], rows)
+    known = parameters(found)
+    for finding in found.findings:
+        say(finding_text(finding), finding.effect.name)
+        for q in finding.effect.quantities:
+            e = known.estimates[finding.effect.key(q.symbol)]
+            error = "" if e.stderr is None else f" +- {number(e.stderr, 2)}"
+            say(
+                f"  {q.symbol} = {number(e.value)}{error} {e.unit}  ({q.title})",
+                finding.effect.name,
+            )
+    for region in found.mismatch:
+        say(region.text, "where")
+    say(remaining_text(found), "remains")

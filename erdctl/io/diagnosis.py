@@ -1,0 +1,131 @@
+"""The diagnosis as JSON, `"schema": "erdctl.diagnosis/1"`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict
+from erdctl.diagnose.locate import Region
+from erdctl.io.parameters import provenance, to_document
+from erdctl.parameters import Estimate, Parameters
+from erdctl.score import Validation
+
+SCHEMA = "erdctl.diagnosis/1"
+
+
+def to_json(found: Diagnosis) -> dict[str, Any]:
+    """The document of a diagnosis."""
+    corrected = parameters(found)
+    return {
+        "schema": SCHEMA,
+        "verdict": found.verdict.value,
+        "noise_rms": found.noise_rms,
+        "baseline": _scores(found.baseline),
+        "mismatch": [
+            {"where": _where(r), "share": r.share, "text": r.text} for r in found.mismatch
+        ],
+        "findings": [_finding(f, corrected) for f in found.findings],
+        "corrected": {**_scores(found.corrected), "params": to_document(corrected)},
+        "remaining": {
+            "rms": found.corrected.overall.rms,
+            "over_noise": found.corrected.overall.rms / found.noise_rms if found.noise_rms else 1.0,
+            "misfit_rms": found.remainder.misfit_rms,
+            "text": remaining_text(found),
+        },
+        "not_testable": found.untestable,
+        "provenance": dict(corrected.provenance),
+    }
+
+
+def parameters(found: Diagnosis) -> Parameters:
+    """The corrected model's parameters, with errors."""
+    errors = found.fit.stderr
+    values = found.fit.values
+    estimates = {}
+    for name, q in found.fit.model.quantities.items():
+        need = found.study.needs.get(name)
+        if need is None:
+            estimates[name] = Estimate(value=values[name], unit=q.unit, stderr=errors.get(name))
+        else:
+            estimates[name] = Estimate(
+                value=None, unit=q.unit, assumed=values[name], reason=need.reason
+            )
+    return Parameters(
+        model=found.fit.model,
+        estimates=estimates,
+        provenance=provenance(found.study.recording, found.noise_rms),
+        fits={"method": "diagnose"},
+    )
+
+
+def finding_text(finding: Finding) -> str:
+    """One finding in words."""
+    e = finding.effect
+    text = (
+        f"{e.title}: leaving it out costs {100 * finding.gain.gain:.0f} % of the mean square error"
+        f" on data that the fit had not seen (NRMSE {finding.before:.4f} without it,"
+        f" {finding.after:.4f} with it)"
+    )
+    if finding.where is not None:
+        text += f"; {finding.where.text}"
+    if finding.equivalent:
+        text += f"; these data cannot tell it from {' or '.join(finding.equivalent)}"
+    if finding.test is not None:
+        text += (
+            f"; to tell it from {finding.test.against}, record --drive {finding.test.drive}, where"
+            f" they differ by {finding.test.difference:.3g} N rms"
+        )
+    return text
+
+
+def remaining_text(found: Diagnosis) -> str:
+    """What is left, in words."""
+    left = found.remainder
+    if found.verdict is not Verdict.UNEXPLAINED:
+        return (
+            f"what remains, {found.corrected.overall.rms:.3g} N rms, holds nothing that motion,"
+            " duty, time or energy would predict: measurement noise"
+        )
+    words = (
+        f"{left.misfit_rms:.3g} N rms beyond a noise of {left.noise_rms:.3g} N can be predicted"
+        " from motion and duty, but by no effect in the catalogue"
+    )
+    return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
+
+
+def _finding(f: Finding, corrected: Parameters) -> dict[str, Any]:
+    def value(symbol: str) -> dict[str, Any]:
+        e = corrected.estimates[f.effect.key(symbol)]
+        return {"value": e.value, "unit": e.unit, "stderr": e.stderr}
+
+    out: dict[str, Any] = {
+        "effect": f.effect.name,
+        "equivalent": list(f.equivalent),
+        "text": finding_text(f),
+        "equation": f.effect.equation,
+        "source": f.effect.source,
+        "parameters": {q.symbol: value(q.symbol) for q in f.effect.quantities},
+        "where": None if f.where is None else _where(f.where),
+        "evidence": {
+            "gain_unseen": f.gain.gain,
+            "gain_over_scatter": float(f.gain.clear),
+            "runner_up": f.runner_up,
+        },
+        "heldout": {"nrmse_before": f.before, "nrmse_after": f.after},
+    }
+    if f.test is not None:
+        out["test"] = {"drive": f.test.drive, "difference": f.test.difference, "unit": "N",
+                       "against": f.test.against}  # fmt: skip
+    return out
+
+
+def _where(region: Region) -> dict[str, Any]:
+    return {"variable": region.variable.value, "low": region.low, "high": region.high}
+
+
+def _scores(v: Validation) -> dict[str, Any]:
+    return {
+        "nrmse": v.overall.nrmse,
+        "nrmse_by_duty": [{"duty": d, "nrmse": s.nrmse} for d, s in v.by_duty.items()],
+        "rms": v.overall.rms,
+    }
