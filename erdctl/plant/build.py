@@ -15,7 +15,7 @@ from erdctl.plant.plan import Plan
 from erdctl.plant.plant import Plant
 from erdctl.plant.refit import joined
 from erdctl.plant.simulate import Ride, forces
-from erdctl.plant.strength import MOST_NEAR, Outcome, Setting, crowding, outcome, scales_of, sought
+from erdctl.plant.strength import Outcome, Setting, crowding, outcome, scales_of, sought
 
 Random = np.random.Generator
 
@@ -25,12 +25,12 @@ class Trial:
     """How an attempt may differ from a plain draw.
 
     weights : parts of the force that are favoured;  noise : factor on the noise's amplitude
-    level : factor on the wanted levels
+    levels : factor on the wanted level of each effect; 1 where there is none
     """
 
     weights: Weights = PLAIN
     noise: float = 1.0
-    level: float = 1.0
+    levels: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +38,7 @@ class Built:
     """An attempt: what came out for each effect alone, without each, and for all together.
 
     off : log of reached over wanted level, of each effect
-    crowding : how many times stronger the effect ought to be not to live next to reversals only
+    crowding : of each, how many times its level must rise not to live next to reversals only
     """
 
     setting: Setting
@@ -47,7 +47,7 @@ class Built:
     without: tuple[Outcome, ...]
     whole: Outcome
     off: tuple[float, ...]
-    crowding: float
+    crowding: tuple[float, ...]
 
 
 def build(plan: Plan, over: tuple[Ride, ...], random: Random, trial: Trial) -> Built:
@@ -57,26 +57,26 @@ def build(plan: Plan, over: tuple[Ride, ...], random: Random, trial: Trial) -> B
     scales = scales_of(over, plain, samples, plan.campaign.rating.stroke)
     noise = plan.force_noise.scaled(float(np.ptp(plain)), trial.noise)
     setting = Setting(over, samples, base, plain, scales, noise.rms)
-    makers, alone, off, crowd = [], [], [], 1.0
-    for effect, level in zip(plan.effects, plan.levels, strict=True):
+    makers, alone, off, crowd = [], [], [], []
+    factors = trial.levels or (1.0,) * len(plan.effects)
+    for effect, level, factor in zip(plan.effects, plan.levels, factors, strict=True):
         maker = _maker(effect, effect.drawn(random), scales)
-        wanted = level * trial.level
+        wanted = level * factor
         alone_in_base = partial(maker, base)
         found = sought(setting, effect, alone_in_base, wanted)
-        if found.near > MOST_NEAR:
-            crowd = max(crowd, crowding(setting, effect, alone_in_base, found))
+        crowd.append(crowding(setting, effect, alone_in_base, found))
         off.append(float(np.log(max(found.level, 1e-9) / wanted)))
         makers.append(maker)
         alone.append(found)
     if len(alone) == 1:
-        return Built(setting, noise, tuple(alone), (), alone[0], tuple(off), crowd)
+        return Built(setting, noise, tuple(alone), (), alone[0], tuple(off), tuple(crowd))
     strengths = [a.strength for a in alone]
     whole = _together(setting, makers, strengths)
     without = tuple(
         _together(setting, makers[:k] + makers[k + 1 :], strengths[:k] + strengths[k + 1 :])
         for k in range(len(alone))
     )
-    return Built(setting, noise, tuple(alone), without, whole, tuple(off), crowd)
+    return Built(setting, noise, tuple(alone), without, whole, tuple(off), tuple(crowd))
 
 
 Maker = Callable[[Plant, float], Plant]

@@ -26,7 +26,7 @@ from erdctl.plant.regions import regions
 from erdctl.plant.simulate import forces, rides
 from erdctl.plant.strength import MOST_NEAR
 
-TRIES = 7
+TRIES = 6
 PATIENCE = 3  # tries before levels are raised, or given up
 CHOICES = 4  # of fresh records, where those must show that the fit fails
 NOT_AS_ASKED = 10.0  # fault of a case that is not concealed as asked
@@ -75,7 +75,8 @@ def draw(
             if faults < NOT_AS_ASKED:
                 break
         # A level out of this campaign's reach stays so; the key says what was reached instead.
-        given_up = attempt >= PATIENCE and faults < NOT_AS_ASKED and built.crowding == 1.0
+        calm = max(built.crowding, default=1.0) == 1.0
+        given_up = attempt >= PATIENCE and faults < NOT_AS_ASKED and calm
         if faults == 0.0 or given_up:
             break
         trial = _next(trial, built, plan.effects, attempt)
@@ -85,19 +86,26 @@ def draw(
 
 def _next(trial: Trial, built: Built, effects: Sequence[Hidden], attempt: int) -> Trial:
     """What to change after an attempt that did not give what was wanted."""
-    weights, noise, level = trial.weights, trial.noise, trial.level
+    weights, noise = trial.weights, trial.noise
+    levels = trial.levels or (1.0,) * len(effects)
     fraction = built.noise.fraction
-    if built.crowding > 1.0:
-        gain = min(built.crowding, FRACTIONS[1] / fraction)
+    crowding = max(built.crowding, default=1.0)
+    weak = [off < -TOLERANCE for off in built.off]
+    if crowding > 1.0 and not any(weak):
+        gain = min(crowding, FRACTIONS[1] / fraction)
         noise *= gain
-        weights = replace(weights, yielding=weights.yielding * 0.9 * gain / built.crowding)
-        level *= 1.6 if attempt >= PATIENCE else 1.0
-    elif _farthest(built) > TOLERANCE:
+        weights = replace(weights, yielding=weights.yielding * 0.9 * gain / crowding)
+    elif any(weak):
         noise *= max(0.9 * float(np.exp(min(built.off))), FRACTIONS[0] / fraction)
         for effect, off in zip(effects, built.off, strict=True):
             if off < -TOLERANCE:
                 weights = _favoured(weights, effect.part, min(1.5 * float(np.exp(-off)), 6.0))
-    return Trial(weights, noise, level)
+    # Where one effect of a pair needs less noise and the other more, or nothing else helps.
+    if any(weak) or attempt >= PATIENCE:
+        levels = tuple(
+            level * min(crowded, 2.0) for level, crowded in zip(levels, built.crowding, strict=True)
+        )
+    return Trial(weights, noise, levels)
 
 
 def _farthest(built: Built) -> float:
@@ -116,7 +124,8 @@ def _faults(case: Case, built: Built, concealment: str | None) -> float:
     """0 for a case as wanted; else how far off it is."""
     if case.kind == "null":
         return 0.0
-    off = max(_farthest(built) - TOLERANCE, 0.0) + 4.0 * max(case.near - MOST_NEAR, 0.0)
+    near = max(case.near, *(alone.near for alone in built.alone))
+    off = max(_farthest(built) - TOLERANCE, 0.0) + 4.0 * max(near - MOST_NEAR, 0.0)
     if concealment == "absorbed" and not _absorbed(case.own_nrmse, case.fresh_nrmse):
         off += NOT_AS_ASKED
     return off
@@ -187,10 +196,12 @@ def _value(plant: Plant, path: str) -> tuple[float, str]:
 def _flags(plan: Plan, built: Built) -> tuple[str, ...]:
     flags = []
     if plan.effects and built.whole.near > MOST_NEAR:
-        flags.append("lives next to reversals only")
+        flags.append("the misfit lives next to reversals only")
     for effect, alone, off in zip(plan.effects, built.alone, built.off, strict=True):
         if abs(off) > TOLERANCE:
             flags.append(f"{effect.name}: wanted level not reached")
+        if alone.near > MOST_NEAR:
+            flags.append(f"{effect.name}: lives next to reversals only")
         if alone.level < ABSORBED * alone.raw:
             flags.append(f"{effect.name}: the paper's parameters absorb it")
         if alone.level < 0.5:

@@ -112,7 +112,7 @@ def draw_motion_noise(random: Random, campaign: Campaign, kind: str | None = Non
     """Half of the logs hold the motion as it was; `kind` may ask for "exact" or "measured"."""
     exact = random.random() < 0.5
     way = str(random.choice(["savgol", "difference"]))
-    step = campaign.rating.stroke * float(np.exp(random.uniform(np.log(3e-5), np.log(3e-4))))
+    step = campaign.rating.stroke * float(np.exp(random.uniform(np.log(2e-5), np.log(1.5e-4))))
     noise = step * float(random.uniform(0.3, 1.0))
     # Over no more than a fifth of the shortest period, or the smoothing bends the motion.
     widest = max(int(campaign.rate / campaign.high / 10), 3)

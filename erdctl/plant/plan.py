@@ -29,6 +29,7 @@ CONCEALMENTS = ("unlabelled", "absorbed", "not_logged")
 KIND_SHARES = (0.6, 0.15, 0.125, 0.125)
 BANDS = ((0.2, 1.0), (1.0, 2.0), (2.0, 10.0))
 BAND_SHARES = (0.2, 0.25, 0.55)
+OF_A_PAIR = (2.0, 5.0)  # each; with more, one hides the other
 STREAMS = (
     "plan",
     "campaign",
@@ -83,9 +84,9 @@ def draw_plan(
         chosen = "unknown" if all(e in OUTSIDE for e in effects) else "single"
     chosen = kind or chosen
     hidden = _chosen(random, chosen, effects, unlogged=concealment == "not_logged")
-    # Below the noise nobody can tell what a pair or a stranger is, nor that a fit fails elsewhere.
-    clear = chosen in ("pair", "unknown") or concealment == "absorbed"
-    levels = tuple(_level(random, clear) if level is None else float(level) for _ in hidden)
+    levels = tuple(
+        _level(random, chosen, concealment) if level is None else float(level) for _ in hidden
+    )
     campaign = draw_campaign(stream(seed, "campaign"))
     gains = stream(seed, "gains")
     spread = float(gains.uniform(0.02, 0.06)) if scatter else 0.0
@@ -123,8 +124,11 @@ def _chosen(
     return first, others[int(random.integers(len(others)))]
 
 
-def _level(random: Random, clear: bool) -> float:
+def _level(random: Random, kind: str, concealment: str | None) -> float:
+    """Below the noise nobody can tell what a stranger is, nor that a fit fails elsewhere."""
     low, high = BANDS[int(random.choice(len(BANDS), p=BAND_SHARES))]
-    if clear:
+    if kind == "pair":
+        low, high = OF_A_PAIR
+    elif kind == "unknown" or concealment == "absorbed":
         low, high = BANDS[-1]
     return float(np.exp(random.uniform(np.log(low), np.log(high))))

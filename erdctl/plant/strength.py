@@ -136,6 +136,8 @@ def crowding(
 ) -> float:
     """How many times the level must rise before the misfit no longer lives next to reversals only;
     1 if it does not."""
+    if at.near <= MOST_NEAR:
+        return 1.0
     now, s = at, at.strength
     while now.near > COMFORT and s < effect.high:
         s = min(2.0 * s, effect.high)

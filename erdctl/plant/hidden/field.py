@@ -44,7 +44,7 @@ EFFECTS = (
         ("physics.screening",), {},
     ),
     Hidden(
-        "rise_decay_asymmetry", "field in time", "yielding", 1e-3, 0.6, 3.0, _asymmetry,
+        "rise_decay_asymmetry", "field in time", "yielding", 1e-3, 0.6, 2.0, _asymmetry,
         ("physics.rise", "physics.decay"), {"slow_rise": (0.0, 1.0)},
     ),
     Hidden(
