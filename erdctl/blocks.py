@@ -90,6 +90,24 @@ def sample(recording: Recording, most: int, length: int = 4000, seed: int = 0) -
     return _joined(recording, [windows[i] for i in picks])
 
 
+def thinned(recording: Recording, most: int) -> Recording:
+    """At most about `most` samples, evenly from every record, and all next to duty steps.
+
+    The duty is held from sample to sample, so its steps stay where they were.
+    """
+    every = -(-len(recording) // most)
+    if every == 1:
+        return recording
+    keep = np.zeros(len(recording), dtype=bool)
+    for part in recording.slices:
+        keep[part][::every] = True
+    stepped = np.flatnonzero(np.diff(recording.duty) != 0)
+    if len(stepped) < most // 4:  # a duty that changes all the time has no steps to keep
+        keep[stepped] = keep[stepped + 1] = True
+    rows = np.flatnonzero(keep)
+    return recording.take(rows, np.searchsorted(rows, recording.starts), recording.names)
+
+
 def _cut(record: Recording, longest: int) -> list[Block]:
     out = []
     for a in range(0, len(record), longest):

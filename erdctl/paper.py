@@ -22,7 +22,8 @@ from erdctl.quantity import Quantity
 from erdctl.recording import Array
 from erdctl.signals import Signals
 
-# Bounds are what a damper between a model car's and a building's can have.
+# Bounds are what a damper between a model car's and a building's can have. Damping that gave energy
+# away would be no damper, and behind a compliance it could not even be simulated.
 QUANTITIES: dict[str, Quantity] = {
     q.symbol: q
     for q in (
@@ -32,7 +33,7 @@ QUANTITIES: dict[str, Quantity] = {
         ),
         Quantity(
             symbol="c_vis", unit="N s/m", title="viscosity with no field", linear=True,
-            low=-1e9, high=1e9, start=0.0,
+            low=0.0, high=1e9, start=0.0,
         ),
         Quantity(
             symbol="T_d", unit="s", title="time constant of the yield force",
@@ -40,7 +41,7 @@ QUANTITIES: dict[str, Quantity] = {
         ),
         Quantity(
             symbol="sigma", unit="N", title="yield force at full duty", linear=True,
-            low=-1e9, high=1e9, start=0.0,
+            low=0.0, high=1e9, start=0.0,
         ),
         Quantity(
             symbol="beta", unit="1", title="exponent of the yield law",

@@ -26,6 +26,8 @@ def two_step(block: Block, held: dict[str, float]) -> dict[str, float]:
     Returns every parameter that could be estimated; those whose data are missing are absent.
     """
     s, force = block.signals, block.force
+    from scipy.optimize import lsq_linear
+
     out: dict[str, float] = {}
     null = null_control(s) & (block.weight > 0)
     settled = (s.duty > 0) & (s.since_duty_step > SETTLE) & (block.weight > 0)
@@ -33,9 +35,12 @@ def two_step(block: Block, held: dict[str, float]) -> dict[str, float]:
         at_rest = null & moving
         if np.count_nonzero(at_rest) < ENOUGH:
             continue
-        k, c = np.linalg.lstsq(
-            np.column_stack([s.x[at_rest], s.xdot[at_rest]]), force[at_rest], rcond=None
-        )[0].tolist()
+        # Least squares as in Eq. 16, but no negative viscosity where other physics mimics one.
+        k, c = lsq_linear(
+            np.column_stack([s.x[at_rest], s.xdot[at_rest]]),
+            force[at_rest],
+            bounds=([-np.inf, 0.0], np.inf),
+        ).x.tolist()
         out |= {f"{direction}.k_nom": k, f"{direction}.c_vis": c}
         active = settled & moving
         if f"{direction}.sigma" in held or np.count_nonzero(active) < ENOUGH:
@@ -63,7 +68,7 @@ def yield_law(duty: Array, F_ys: Array) -> tuple[float, float]:
 
     def sigma_of(beta: float) -> float:
         field = levels**beta
-        return float(np.dot(count * field, mean) / np.dot(count * field, field))
+        return max(float(np.dot(count * field, mean) / np.dot(count * field, field)), 0.0)
 
     def error(p: Array) -> Array:
         return np.asarray(root * (sigma_of(float(p[0])) * levels ** p[0] - mean))

@@ -70,6 +70,21 @@ class Choice:
     rivals: Mapping[str, tuple[tuple[str, Trial], ...]]
 
 
+def confirm(study: Study, found: Choice) -> Choice:
+    """The same choice refitted on another study, usually all samples, from where it was found."""
+
+    def again(trial: Trial) -> Trial:
+        return attempt(study, trial.effects, [trial.values])
+
+    return Choice(
+        base=again(found.base),
+        best=again(found.best),
+        singles=found.singles,
+        without={name: again(trial) for name, trial in found.without.items()},
+        rivals=found.rivals,
+    )
+
+
 def choose(study: Study, candidates: Sequence[Effect], most: int, progress: Progress) -> Choice:
     """Search for the effects, at most `most`, that the recording shows."""
     base = attempt(study, (), [fresh_start(0.05, 0.4), fresh_start(0.01, 1.0)])

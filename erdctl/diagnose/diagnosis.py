@@ -9,8 +9,8 @@ from enum import StrEnum
 import numpy as np
 
 from erdctl.assess import Fit, assess
-from erdctl.blocks import Block
-from erdctl.diagnose.choose import Choice, Comparison, Progress, choose, compare
+from erdctl.blocks import Block, thinned
+from erdctl.diagnose.choose import Choice, Comparison, Progress, choose, compare, confirm
 from erdctl.diagnose.distinguish import Test, telling_apart
 from erdctl.diagnose.locate import Region, locate
 from erdctl.diagnose.remains import Remainder, examine
@@ -20,6 +20,7 @@ from erdctl.effect import Effect, Requirement
 from erdctl.recording import Array, Recording
 from erdctl.score import Normalise, Validation, validate
 
+SEARCH = 12_000  # samples for the search among hypotheses; what it finds is fitted to all
 LEFT = 0.5  # misfit over noise up to which what remains counts as noise
 
 
@@ -79,7 +80,9 @@ def diagnose(
     study = prepare(recording)
     missing = untestable(study, candidates)
     testable = [e for e in candidates if e.name not in missing]
-    choice = choose(study, testable, most, progress)
+    choice = choose(prepare(thinned(recording, SEARCH)), testable, most, progress)
+    progress("all samples", "")
+    choice = confirm(study, choice)
     best = choice.best
     progress("what remains", "")
     remainder = examine(study, best.residual, seed)

@@ -62,6 +62,7 @@ def attempt(
         evaluations += count
         residual = study.block.force - model.force(study.block.signals, values)
         cost = float(np.dot(study.block.weight, residual * residual))
+        cost = cost if np.isfinite(cost) else np.inf
         if best is None or cost < best[0]:
             best = (cost, values, residual)
     assert best is not None
