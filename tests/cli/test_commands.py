@@ -261,7 +261,9 @@ def test_schema_describes_the_document(identified: Path) -> None:
     assert "compression" in json.dumps(schema)
 
 
-COMMANDS = ("identify", "simulate", "validate", "mimic", "derive", "effects", "schema")
+COMMANDS = (
+    "identify", "simulate", "validate", "diagnose", "mimic", "derive", "effects", "schema",
+)  # fmt: skip
 
 
 @pytest.mark.parametrize("command", COMMANDS)
