@@ -44,6 +44,7 @@ class Remainder:
 def examine(study: Study, residual: Array, seed: int = 0) -> Remainder:
     """The predictable part of a residual (n,) [N]."""
     from sklearn.ensemble import HistGradientBoostingRegressor
+    from threadpoolctl import threadpool_limits
 
     inputs = features(study.block.signals)
     weight = study.block.weight
@@ -59,8 +60,10 @@ def examine(study: Study, residual: Array, seed: int = 0) -> Remainder:
             max_iter=60, learning_rate=0.12, max_leaf_nodes=24, min_samples_leaf=60,
             l2_regularization=10.0, early_stopping=False, random_state=seed,
         )  # fmt: skip
-        machine.fit(inputs[learn], residual[learn])
-        predicted[tell] = machine.predict(inputs[tell])
+        # Its threads wait for each other in busy loops: on a shared machine that takes minutes.
+        with threadpool_limits(1):
+            machine.fit(inputs[learn], residual[learn])
+            predicted[tell] = machine.predict(inputs[tell])
     # A regression also learns noise; scaled by what holds on unseen groups, that costs nothing.
     cross = study.per_group(residual * predicted)
     power = study.per_group(predicted**2)
