@@ -10,16 +10,21 @@ A factor lies in 0..1; 1 is healthy.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
 
 from erdctl.errors import UsageProblem
+from erdctl.quantity import Quantity
 from erdctl.recording import Array, Index
+from erdctl.signals import Signals
 
 EXAMPLE = "write for instance oil=0.5@15:31 or electrical=0.8@31,ramp=2,channel=fr"
+
+
+EDGE = 4.0  # samples over which a fault as an effect sets in
 
 
 class FaultKind(Enum):
@@ -168,10 +173,37 @@ def effectiveness(fault: Fault, t: Array, xdot: Array, starts: Index) -> Array:
     return f
 
 
-def onsets(t: Array) -> list[float]:
-    """Times [s] at which a search for the onset of a fault in records (n,) of times t may begin."""
+def set_in(kind: FaultKind, s: Signals, p: Mapping[str, float]) -> dict[str, Array]:
+    """Factors by group, (n,) each [1], of a fault that sets in once and stays, as an effect.
+
+    p : f, effectiveness that is left [1], and t_0, onset [s] in the time of each record as logged
+
+    It sets in over EDGE samples about t_0, so that the force is continuous in t_0.
+    """
+    if p["f"] == 1.0:
+        return {}
+    ramp = EDGE * s.typical_step
+    fault = Fault(kind=kind, factor=p["f"], start=p["t_0"] - 0.5 * ramp, ramp=ramp)
+    found = factors([fault], s.t, s.xdot, s.starts)
+    return {"gas": found.gas, "viscous": found.viscous, "yield": found.yield_}
+
+
+def onsets(s: Signals) -> list[dict[str, float]]:
+    """Where a search for a fault may begin: onsets over the length of the records [s]."""
     parts = (0.15, 0.3, 0.45, 0.6, 0.75, 0.9)
-    return [float(v) for v in np.quantile(t, parts)]
+    return [{"f": 0.5, "t_0": float(t_0)} for t_0 in np.quantile(s.t, parts)]
+
+
+ONSET = (
+    Quantity(
+        symbol="f", unit="1", title="effectiveness that is left",
+        low=0.0, high=1.0, start=0.7, off=1.0,
+    ),
+    Quantity(
+        symbol="t_0", unit="s", title="onset, in the time of each record",
+        low=-1e6, high=1e6, start=10.0, off=10.0,
+    ),
+)  # fmt: skip
 
 
 def leakage(xdot: Array, flow: float) -> Array:

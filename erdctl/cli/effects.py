@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+if TYPE_CHECKING:
+    from erdctl.effect import Effect
 
 
 def command(
@@ -44,11 +47,8 @@ def command(
                   f" {p['low']:g} to {p['high']:g}, off at {p['off']:g}")  # fmt: skip
 
 
-def _facts(effect: object) -> dict[str, list[dict[str, object]]]:
-    from erdctl.effect import Effect
-
-    assert isinstance(effect, Effect)
-    facts: dict[str, object] = {
+def _facts(effect: Effect) -> dict[str, Any]:
+    return {
         "name": effect.name,
         "title": effect.title,
         "stage": effect.stage.value,
@@ -70,4 +70,3 @@ def _facts(effect: object) -> dict[str, list[dict[str, object]]]:
             for q in effect.quantities
         ],
     }
-    return facts  # type: ignore[return-value]

@@ -15,27 +15,14 @@ Source: the ER damper paper, Eq. 20.
 from __future__ import annotations
 
 from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
-from erdctl.faults import Fault, FaultKind, factors, onsets
-from erdctl.quantity import Quantity
+from erdctl.faults import ONSET, FaultKind, onsets, set_in
 from erdctl.recording import Array
 from erdctl.signals import Signals
-
-EDGE = 4.0  # samples
 
 
 def oil_leakage(s: Signals, p: Values) -> dict[str, Array]:
     """Factors of the groups, (n,) each [1]."""
-    if p["f"] == 1.0:
-        return {}
-    ramp = EDGE * s.typical_step
-    fault = Fault(kind=FaultKind.OIL, factor=p["f"], start=p["t_0"] - 0.5 * ramp, ramp=ramp)
-    found = factors([fault], s.t, s.xdot, s.starts)
-    return {"gas": found.gas, "viscous": found.viscous, "yield": found.yield_}
-
-
-def starts(s: Signals) -> list[Values]:
-    """Onsets over the length of the records, where half of the effectiveness goes."""
-    return [{"f": 0.5, "t_0": t_0} for t_0 in onsets(s.t)]
+    return set_in(FaultKind.OIL, s, p)
 
 
 EFFECT = Effect(
@@ -48,16 +35,7 @@ EFFECT = Effect(
     validity="a fault that sets in at once and stays",
     requires=(Requirement.TIME,),
     shows=Variable.TIME,
-    quantities=(
-        Quantity(
-            symbol="f", unit="1", title="effectiveness that is left",
-            low=0.0, high=1.0, start=0.7, off=1.0,
-        ),
-        Quantity(
-            symbol="t_0", unit="s", title="onset, in the time of each record",
-            low=-1e6, high=1e6, start=10.0, off=10.0,
-        ),
-    ),
+    quantities=ONSET,
     apply=oil_leakage,
-    guesses=starts,
-)  # fmt: skip
+    guesses=onsets,
+)
