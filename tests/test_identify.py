@@ -10,7 +10,7 @@ from bench import TRUTH, campaign, noisy, real
 from places import SHARED
 
 from erdctl.blocks import pieces, sample, whole
-from erdctl.identify import identify
+from erdctl.identify import Identification, identify
 from erdctl.recording import Recording
 from erdctl.two_step import yield_law
 
@@ -109,7 +109,7 @@ def test_outliers_on_request() -> None:
     spoiled = replace(r, force=force)
     plain, robust = identify(spoiled), identify(spoiled, robust=True)
 
-    def worst(found) -> float:  # type: ignore[no-untyped-def]
+    def worst(found: Identification) -> float:
         return max(abs(found.joint[n].value / v - 1) for n, v in TRUTH.items())
 
     assert worst(robust) < 0.02
