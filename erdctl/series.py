@@ -31,6 +31,54 @@ def speed_grid(fastest: float) -> Array:
 
 
 @njit(cache=True)
+def _moved(
+    F: float, mean: float, end: float, dt: float, s: float, x: float, Y: float, k_c: float,
+    k_r: float, g_visc: float, grid: Array, viscous: Array, sign: Array, friction: Array,
+) -> tuple[float, float]:  # fmt: skip
+    """Force and speed behind the spring at the end of a leg that the rod passes in one direction.
+
+    mean, end : speed of the rod [m/s], over the leg of dt [s] and as it ends;  x : deflection then
+    Y : magnitude of the yield force then;  k_c, k_r : gas stiffness
+    """
+    m = len(grid)
+    q = dt / s
+    E = F + mean * q
+    ahead = min(max(end / mean, SLOWEST), 2.0) if mean * end > 0.0 else 1.0
+    for branch in range(2):
+        k = k_c if branch == 0 else k_r
+        way = 1.0 if branch == 0 else -1.0
+        # H(v) = gas + viscous + yield + friction - F, F = E - q v / lead; increasing in v.
+        lead = ahead if mean * way > 0.0 else 1.0
+        rest = k * (x - s * E) - E
+        slope = q / lead * (1.0 + k * s)
+        if (rest + Y * sign[branch, 0] + friction[branch, 0]) * way >= 0.0:
+            continue
+        low, high = 0, m - 1
+        while high - low > 1:
+            mid = (low + high) // 2
+            h = (
+                rest + slope * way * grid[mid] + viscous[branch, mid] * g_visc
+                + Y * sign[branch, mid] + friction[branch, mid]
+            )  # fmt: skip
+            if h * way < 0.0:
+                low = mid
+            else:
+                high = mid
+        a = (
+            rest + slope * way * grid[low] + viscous[branch, low] * g_visc
+            + Y * sign[branch, low] + friction[branch, low]
+        )  # fmt: skip
+        b = (
+            rest + slope * way * grid[high] + viscous[branch, high] * g_visc
+            + Y * sign[branch, high] + friction[branch, high]
+        )  # fmt: skip
+        part = -a / (b - a) if b != a else 0.0
+        v = way * (grid[low] + part * (grid[high] - grid[low]))
+        return E - q / lead * v, v
+    return E, 0.0
+
+
+@njit(cache=True)
 def march(
     x: Array, xdot: Array, step: Array, stretch: Array, starts: Index,
     compressing: npt.NDArray[np.bool_],
@@ -43,72 +91,46 @@ def march(
     u_c, u_r : (n,) steady yield force in either direction;  g_ : (n,) factors of the groups
     viscous, sign, friction : (2, m) laws on `grid`, for compression and release
     k_c, k_r : gas stiffness behind the spring;  s : compliance [m/N] > 0
+
+    A step in which the rod turns is made of two legs, before and after: by the mean speed of the
+    whole of it the piston would turn up to a step late, however stiff the spring.
     """
     n, m = len(x), len(grid)
     force, speed = np.empty(n), np.empty(n)
     for r in range(len(starts) - 1):
-        up = compressing[starts[r]]
-        y = u_c[starts[r]] if up else u_r[starts[r]]
-        F = 0.0
-        for i in range(starts[r], starts[r + 1]):
-            if i == starts[r]:
-                # No step lies before it: the record begins with the spring's force steady.
-                b0 = 0 if up else 1
-                j = min(max(np.searchsorted(grid, abs(xdot[i])), 1), m - 1)
-                w = min(max((abs(xdot[i]) - grid[j - 1]) / (grid[j] - grid[j - 1]), 0.0), 1.0)
-                law = viscous[b0] * g_visc[i] + y * g_yield[i] * sign[b0] + friction[b0]
-                moving = law[j - 1] * (1.0 - w) + law[j] * w if xdot[i] != 0.0 else 0.0
-                k = (k_c if up else k_r) * g_gas[i]
-                F = (k * x[i] + moving) / (1.0 + k * s)
-                force[i], speed[i] = F, xdot[i]
-                continue
-            dt = step[i - 1]
-            T = (T_c if up else T_r) * stretch[i - 1]
-            u = u_c[i - 1] if up else u_r[i - 1]
-            y = u + (y - u) * np.exp(-dt / T)
-            Y = y * g_yield[i]
-            q = dt / s
-            mean = 0.5 * (xdot[i - 1] + xdot[i])
-            E = F + mean * q
-            ahead = min(max(xdot[i] / mean, SLOWEST), 2.0) if mean * xdot[i] > 0.0 else 1.0
-            v, hit = 0.0, 0
-            for branch in range(2):
-                k = (k_c if branch == 0 else k_r) * g_gas[i]
-                way = 1.0 if branch == 0 else -1.0
-                # H(v) = gas + viscous + yield + friction - F, F = E - q v / lead; increasing in v.
-                lead = ahead if mean * way > 0.0 else 1.0
-                rest = k * (x[i] - s * E) - E
-                slope = q / lead * (1.0 + k * s)
-                at0 = rest + Y * sign[branch, 0] + friction[branch, 0]
-                if at0 * way >= 0.0:
-                    continue
-                hit = 1
-                low, high = 0, m - 1
-                while high - low > 1:
-                    mid = (low + high) // 2
-                    h = (
-                        rest + slope * way * grid[mid] + viscous[branch, mid] * g_visc[i]
-                        + Y * sign[branch, mid] + friction[branch, mid]
-                    )  # fmt: skip
-                    if h * way < 0.0:
-                        low = mid
+        first = starts[r]
+        up = compressing[first]
+        y = u_c[first] if up else u_r[first]
+        # No step lies before it: the record begins with the spring's force steady.
+        way = 0 if up else 1
+        j = min(max(np.searchsorted(grid, abs(xdot[first])), 1), m - 1)
+        w = min(max((abs(xdot[first]) - grid[j - 1]) / (grid[j] - grid[j - 1]), 0.0), 1.0)
+        law = viscous[way] * g_visc[first] + y * g_yield[first] * sign[way] + friction[way]
+        moving = law[j - 1] * (1.0 - w) + law[j] * w if xdot[first] != 0.0 else 0.0
+        k = (k_c if up else k_r) * g_gas[first]
+        F = (k * x[first] + moving) / (1.0 + k * s)
+        force[first], speed[first] = F, xdot[first]
+        for i in range(first + 1, starts[r + 1]):
+            a, b, dt = xdot[i - 1], xdot[i], step[i - 1]
+            turning = a * b < 0.0
+            v = 0.0
+            for leg in range(2 if turning else 1):
+                mean, end, span, x_end = 0.5 * (a + b), b, dt, x[i]
+                if turning:
+                    before = a / (a - b) * dt
+                    if leg == 0:
+                        mean, end, span = 0.5 * a, 0.0, before
+                        x_end = x[i - 1] + mean * span
                     else:
-                        high = mid
-                a = (
-                    rest + slope * way * grid[low] + viscous[branch, low] * g_visc[i]
-                    + Y * sign[branch, low] + friction[branch, low]
+                        mean, span = 0.5 * b, dt - before
+                T = (T_c if up else T_r) * stretch[i - 1]
+                u = u_c[i - 1] if up else u_r[i - 1]
+                y = u + (y - u) * np.exp(-span / T)
+                F, v = _moved(
+                    F, mean, end, span, s, x_end, y * g_yield[i], k_c * g_gas[i], k_r * g_gas[i],
+                    g_visc[i], grid, viscous, sign, friction,
                 )  # fmt: skip
-                b = (
-                    rest + slope * way * grid[high] + viscous[branch, high] * g_visc[i]
-                    + Y * sign[branch, high] + friction[branch, high]
-                )  # fmt: skip
-                part = -a / (b - a) if b != a else 0.0
-                v = way * (grid[low] + part * (grid[high] - grid[low]))
-                break
-            if hit == 1:
-                up = v > 0.0
-                F = E - q / lead * v
-            else:
-                F = E
+                if v != 0.0:
+                    up = v > 0.0
             force[i], speed[i] = F, v
     return force, speed
