@@ -27,6 +27,7 @@ FLOORS: tuple[tuple[str, ...], ...] = (
     ("two_step", "score", "assess"),
     ("identify", "simulate", "mimic", "diagnose"),
     ("io", "report"),
+    ("prove",),
     ("cli",),
     ("__main__",),
 )

@@ -51,7 +51,7 @@ def _end(message: str, code: ExitCode) -> typer.Exit:
 
 
 COMMANDS = (
-    "identify", "simulate", "validate", "diagnose", "mimic", "derive", "effects", "schema",
+    "identify", "simulate", "validate", "diagnose", "prove", "mimic", "derive", "effects", "schema",
 )  # fmt: skip
 
 

@@ -1,0 +1,173 @@
+"""`erdctl prove`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+    from contextlib import AbstractContextManager
+    from pathlib import Path
+
+    from erdctl.prove.case import Wish
+    from erdctl.prove.document import Proof
+
+
+def command(
+    cases: Annotated[int, typer.Option(min=1, help="How many.")] = 12,
+    seed: Annotated[int, typer.Option(min=0, help="Of the first case; the next has the next.")] = 0,
+    only: Annotated[
+        list[str],
+        typer.Option("--effects", metavar="NAME,...", help="Hide one of these."),
+    ] = [],
+    level: Annotated[
+        float | None,
+        typer.Option(metavar="X", help="Misfit of the refitted paper model, over the noise."),
+    ] = None,
+    kind: Annotated[
+        str | None,
+        typer.Option(metavar="single|pair|null|unknown", help="What is hidden."),
+    ] = None,
+    concealment: Annotated[
+        str | None,
+        typer.Option(
+            metavar="unlabelled|absorbed|not_logged",
+            help="absorbed: the plain fit looks good; not_logged: a temperature, an onset.",
+        ),
+    ] = None,
+    motion: Annotated[
+        str | None,
+        typer.Option(metavar="exact|measured", help="measured: xdot from a noisy, quantised x."),
+    ] = None,
+    colour: Annotated[
+        str | None, typer.Option(metavar="white|ar1|pink", help="Of the force noise.")
+    ] = None,
+    keep: Annotated[
+        str | None,
+        typer.Option(metavar="DIR", help="Keep logs, fresh records, keys and diagnoses here."),
+    ] = None,
+    jobs: Annotated[
+        int | None, typer.Option(min=1, help="Cases at a time; all cores if not given.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Results as JSON on stdout.")] = False,
+    output: Annotated[
+        str | None,
+        typer.Option("--output", "-o", metavar="FILE", help="Results as JSON to a file."),
+    ] = None,
+) -> None:
+    """Hide physics in an independent plant, diagnose its log, then open the key and score.
+
+    A separate simulator, which shares no code with the models, draws a damper, a campaign, noise
+    and what to hide. The SHA-256 of the sealed key is printed before `diagnose` sees the log, and
+    nothing but the log. A seed gives the same case every time; what the key says of a single case
+    is kept with --keep.
+
+    \b
+    Examples:
+      erdctl prove
+      erdctl prove --cases 200 --seed 5000 -o proof.json
+      erdctl prove --effects backlash,mount_compliance --level 3 --motion measured
+      erdctl prove --kind null --colour pink --cases 40
+      erdctl prove --seed 5017 --cases 1 --keep case
+    """
+    from erdctl.errors import ComputationProblem
+    from erdctl.io import documents
+    from erdctl.prove.case import Wish, check
+    from erdctl.prove.document import to_json
+
+    names = tuple(n.strip() for option in only for n in option.split(",") if n.strip())
+    wish = Wish(
+        effects=names or None, level=level, kind=kind, concealment=concealment, motion=motion,
+        colour=colour,
+    )  # fmt: skip
+    seeds = range(seed, seed + cases)
+    check(wish, seeds)
+    if output is not None:
+        _must_exist(output)
+    with _folder(keep) as folder:
+        proof = _run(wish, seeds, folder, jobs)
+    document = to_json(proof)
+    if as_json:
+        documents.write(document, "-")
+    if output is not None:
+        documents.write(document, output)
+    _show(proof)
+    if proof.failed:
+        raise ComputationProblem(f"{len(proof.failed)} of {cases} cases could not be scored")
+
+
+def _run(wish: Wish, seeds: Sequence[int], folder: Path, jobs: int | None) -> Proof:
+    import sys
+
+    from erdctl.prove.document import proof_of
+    from erdctl.prove.run import Outcome, cores, prove
+    from erdctl.prove.tables import line
+    from erdctl.report.text import progress, say
+
+    scored = 0
+    say("nrmse on fresh records, without noise: paper's model, corrected, best that can be reached")
+    with progress() as step:
+
+        def on_sealed(number: int, seed: int, sha256: str) -> None:
+            say(f"case {number}, seed {seed}: sha256 {sha256}", "sealed")
+
+        def on_outcome(outcome: Outcome) -> None:
+            nonlocal scored
+            scored += 1
+            print(line(outcome), file=sys.stderr, flush=True)
+            step("scored", f"{scored} of {len(seeds)}")
+
+        step("scored", f"0 of {len(seeds)}")
+        outcomes = prove(
+            wish, seeds, folder, jobs=min(jobs or cores(), len(seeds)),
+            on_sealed=lambda s: on_sealed(s.number, s.seed, s.sha256), on_outcome=on_outcome,
+        )  # fmt: skip
+    return proof_of(wish, seeds, outcomes)
+
+
+def _show(proof: Proof) -> None:
+    from erdctl.prove.tables import tables
+    from erdctl.report.text import table
+
+    for title, header, rows in tables(proof.summary):
+        table(title, header, rows)
+
+
+def _folder(keep: str | None) -> AbstractContextManager[Path]:
+    """Where the cases lie: a directory of the user's, or one that goes when the block ends."""
+    from contextlib import contextmanager
+    from pathlib import Path
+    from tempfile import TemporaryDirectory
+
+    from erdctl.errors import UsageProblem
+
+    @contextmanager
+    def place() -> Iterator[Path]:
+        if keep is None:
+            with TemporaryDirectory(prefix="erdctl-") as name:
+                yield Path(name)
+            return
+        path = Path(keep)
+        try:
+            path.mkdir(parents=True, exist_ok=True)
+            full = any(path.iterdir())
+        except OSError as error:
+            raise UsageProblem(f"--keep {keep}: {error.strerror or error}") from None
+        if full:
+            raise UsageProblem(f"--keep {keep}: the directory is not empty; name a new one")
+        yield path
+
+    return place()
+
+
+def _must_exist(output: str) -> None:
+    """A proof takes long; that its file cannot be written is said before, not after."""
+    from pathlib import Path
+
+    from erdctl.errors import UsageProblem
+
+    parent = Path(output).absolute().parent
+    if output != "-" and not parent.is_dir():
+        raise UsageProblem(f"cannot write to '{output}': no directory {parent}")

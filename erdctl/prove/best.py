@@ -1,0 +1,110 @@
+"""The best that could be reached: the true structure, all its parameters fitted to the same log.
+
+It is told what is hidden and where the damper's own parameters lie, so that its search does not
+fail where a diagnosis may.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from erdctl.blocks import Block, thinned
+from erdctl.diagnose.screen import starts
+from erdctl.diagnose.study import Study, prepare
+from erdctl.effect import Effect
+from erdctl.fit import fit
+from erdctl.model import Model
+from erdctl.paper import QUANTITIES
+from erdctl.recording import DIRECTIONS
+
+SEARCH = 8_000  # samples of the search; the best starts are then fitted to all
+LOOK = 6  # evaluations that rank a start
+SHARPEN = 60  # evaluations for those that are kept
+KEPT = 3  # starts that are searched to the end
+
+Values = Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Reached:
+    """A fit: weighted mean square on what it was fitted to [N^2]."""
+
+    model: Model
+    values: dict[str, float]
+    cost: float
+
+
+def best_fit(
+    study: Study, effects: Sequence[Effect], damper: Values, diagnosed: Values
+) -> Reached | None:
+    """The true structure on a log; None if its effects cannot act together in erdctl's model.
+
+    damper : the plant's own paper parameters, to start from
+    diagnosed : what the diagnosis found, a start for those effects that it holds
+    """
+    model = Model(tuple(effects))
+    try:
+        model.prepare(study.block.signals, {**_defaults(model), **damper})
+    except ValueError:
+        return None  # two laws for one place of the paper's model
+    rough = prepare(thinned(study.recording, SEARCH))
+    guesses = [_guesses(rough, e, damper, diagnosed, few=len(effects) > 1) for e in effects]
+    points = [_joined([damper, *point]) for point in product(*guesses)]
+    if all(name in diagnosed for name in model.quantities):
+        points.append(dict(diagnosed))
+    coarse = _ranked(rough, model, points, LOOK)[:KEPT]
+    fine = _ranked(rough, model, [c.values for c in coarse], SHARPEN)[0]
+    full = [fine.values]
+    if all(name in diagnosed for name in model.quantities):
+        full.append({n: diagnosed[n] for n in model.quantities})
+    return _ranked(study, model, full, SHARPEN)[0]
+
+
+def damper_values(key: Mapping[str, Any]) -> dict[str, float]:
+    """The paper's parameters of the plant in a key, by erdctl's names."""
+    return {f"{d}.{s}": float(key["damper"][d][s]) for d in DIRECTIONS for s in QUANTITIES}
+
+
+def _guesses(
+    study: Study, effect: Effect, damper: Values, diagnosed: Values, *, few: bool
+) -> list[dict[str, float]]:
+    """Starts for one effect; of a pair only those that do best alone, or there are too many."""
+    own = {effect.key(q.symbol) for q in effect.quantities}
+    out = [{effect.key(s): v for s, v in g.items()} for g in starts(effect, study)]
+    if few:
+        alone = _ranked(study, Model((effect,)), [_joined([damper, g]) for g in out], LOOK)
+        out = [{n: v for n, v in r.values.items() if n in own} for r in alone[:KEPT]]
+    if own <= set(diagnosed):
+        out.append({n: diagnosed[n] for n in own})
+    return out
+
+
+def _ranked(
+    study: Study, model: Model, points: Sequence[Values], evaluations: int
+) -> list[Reached]:
+    """Fits from every point, the best first."""
+    fits = [_fitted(study, model, point, evaluations) for point in points]
+    return sorted(fits, key=lambda r: r.cost)
+
+
+def _fitted(study: Study, model: Model, point: Values, evaluations: int) -> Reached:
+    block: Block = study.block
+    start = {n: v for n, v in {**_defaults(model), **point, **study.held}.items()
+             if n in model.quantities}  # fmt: skip
+    values, _, _ = fit(model, block, start=start, fixed=study.held, max_evaluations=evaluations)
+    residual = block.force - model.force(block.signals, values)
+    cost = float(np.average(residual**2, weights=block.weight))
+    return Reached(model, values, cost if np.isfinite(cost) else np.inf)
+
+
+def _defaults(model: Model) -> dict[str, float]:
+    return {n: q.start for n, q in model.quantities.items()}
+
+
+def _joined(parts: Sequence[Values]) -> dict[str, float]:
+    return {n: v for part in parts for n, v in part.items()}

@@ -1,0 +1,101 @@
+"""One concealed case on disk: its log, fresh records, and the key that stays shut until the end."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from erdctl.errors import ComputationProblem, UsageProblem
+from erdctl.io import documents
+
+FOLDERS = ("logs", "fresh", "keys", "diagnoses")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wish:
+    """What a user may ask of the cases; None leaves it to the seed. See `erdctl.plant.draw`."""
+
+    effects: tuple[str, ...] | None = None
+    level: float | None = None
+    kind: str | None = None
+    concealment: str | None = None
+    motion: str | None = None
+    colour: str | None = None
+
+
+@dataclass(frozen=True)
+class Sealed:
+    """A case that waits for its diagnosis; sha256 : of the bytes of the key file."""
+
+    number: int
+    seed: int
+    sha256: str
+    log: Path
+    fresh: Path
+    key: Path
+    diagnosis: Path
+
+
+def check(wish: Wish, seeds: Iterable[int]) -> None:
+    """Raise UsageProblem if any of the cases cannot be what is wished.
+
+    Everything that a wish may get wrong shows in the plan, which costs nothing; no process is
+    started for it.
+    """
+    from erdctl.plant.plan import draw_plan
+
+    if wish.level is not None and not (math.isfinite(wish.level) and wish.level > 0.0):
+        raise UsageProblem(f"--level is {wish.level:g}, expected misfit over noise above 0, e.g. 3")
+    if wish.kind == "null" and (wish.effects or wish.level is not None):
+        raise UsageProblem("--kind null hides nothing: leave --effects and --level out")
+    try:
+        for seed in seeds:
+            draw_plan(seed, **_options(wish))
+    except ValueError as problem:
+        raise UsageProblem(str(problem)) from None
+
+
+def seal(wish: Wish, seed: int, number: int, folder: Path) -> Sealed:
+    """Draw a case and write its log, its fresh records and its key.
+
+    The log's name and the order of its rows say nothing of what is hidden: names count up, and the
+    columns are those of the contract.
+    """
+    import pyarrow.parquet as pq
+
+    from erdctl import plant
+
+    case = plant.draw(seed, **_options(wish))
+    places = [folder / name for name in FOLDERS]
+    for place in places:
+        place.mkdir(parents=True, exist_ok=True)
+    name = f"case-{number:03d}"
+    logs, others, keys, diagnoses = places
+    key = documents.encode(plant.key(case))
+    sealed = Sealed(
+        number, seed, hashlib.sha256(key).hexdigest(), logs / f"{name}.parquet",
+        others / f"{name}.parquet", keys / f"{name}.json", diagnoses / f"{name}.json",
+    )  # fmt: skip
+    pq.write_table(plant.log(case), sealed.log)
+    pq.write_table(plant.fresh(case), sealed.fresh)
+    sealed.key.write_bytes(key)
+    return sealed
+
+
+def opened(sealed: Sealed) -> dict[str, Any]:
+    """The key; refused if it is not the one whose hash was shown."""
+    data = sealed.key.read_bytes()
+    if hashlib.sha256(data).hexdigest() != sealed.sha256:
+        raise ComputationProblem(f"{sealed.key}: the key has changed since its hash was printed")
+    key: dict[str, Any] = msgspec.json.decode(data)
+    return key
+
+
+def _options(wish: Wish) -> dict[str, Any]:
+    return asdict(wish)

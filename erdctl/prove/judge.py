@@ -1,0 +1,149 @@
+"""One case after it was sealed: the diagnosis sees its log alone, then the key is opened."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from erdctl import effects
+from erdctl.diagnose.diagnosis import Diagnosis, diagnose
+from erdctl.io import documents
+from erdctl.io.diagnosis import to_json
+from erdctl.io.logs import read_logs
+from erdctl.model import Model
+from erdctl.plant import CATALOGUE
+from erdctl.prove.best import best_fit, damper_values
+from erdctl.prove.case import Sealed, opened
+from erdctl.prove.score import Errors, Found, Hidden, Place, located, naming
+from erdctl.recording import Array, Recording
+from erdctl.signals import Signals
+
+
+@dataclass(frozen=True)
+class Result:
+    """One case, scored.
+
+    colour, motion : of the noise, and "exact" or "measured"
+    hidden : what the key says;  verdict, findings : what the diagnosis said without it
+    named : whether the first finding is right, None where nothing of the catalogue is hidden
+    matched, spurious, redundant : see `score.Naming`
+    located : None where the misfit lives everywhere
+    flags : what the plant says makes the case unfair or undecidable
+    """
+
+    number: int
+    seed: int
+    key_sha256: str
+    kind: str
+    concealment: str
+    colour: str
+    motion: str
+    level: float
+    flags: tuple[str, ...]
+    hidden: tuple[Hidden, ...]
+    verdict: str
+    findings: tuple[Found, ...]
+    named: bool | None
+    matched: int
+    spurious: int
+    redundant: int
+    located: bool | None
+    fresh: Errors
+
+
+@dataclass(frozen=True)
+class Failed:
+    """A case that could not be scored; it counts against the proof, and its seed is printed."""
+
+    number: int
+    seed: int
+    message: str
+
+
+def judge(sealed: Sealed) -> Result:
+    """Diagnose, write the diagnosis down, and only then open the key."""
+    found = examine(sealed.log)
+    document = to_json(found)
+    sealed.diagnosis.write_bytes(documents.encode(document))
+    key = opened(sealed)
+    return scored(sealed, document, key, _errors(sealed, found, key))
+
+
+def examine(log: Path) -> Diagnosis:
+    """What `erdctl diagnose LOG` does, given nothing but the file."""
+    recording = _read(log)
+    return diagnose(recording, effects.catalogue())
+
+
+def scored(
+    sealed: Sealed, document: Mapping[str, Any], key: Mapping[str, Any], fresh: Errors
+) -> Result:
+    """A diagnosis' document against the key."""
+    hidden = tuple(
+        Hidden(e["name"], float(e["alone"]), tuple(e["equivalent"])) for e in key["effects"]
+    )
+    known = all(e["catalogued"] for e in key["effects"])
+    findings = tuple(Found(f["effect"], tuple(f["equivalent"])) for f in document["findings"])
+    match = naming(findings, hidden)
+    return Result(
+        number=sealed.number,
+        seed=sealed.seed,
+        key_sha256=sealed.sha256,
+        kind=key["kind"],
+        concealment=key["concealment"],
+        colour=key["force_noise"]["colour"],
+        motion="exact" if key["motion_noise"]["kind"] == "exact" else "measured",
+        level=float(key["level"]),
+        flags=tuple(key["flags"]),
+        hidden=hidden,
+        verdict=document["verdict"],
+        findings=findings,
+        named=match.first if hidden and known else None,
+        matched=match.matched,
+        spurious=match.spurious,
+        redundant=match.redundant,
+        located=located(places(document), key["regions"]),
+        fresh=fresh,
+    )
+
+
+def places(document: Mapping[str, Any]) -> list[Place]:
+    """Everywhere that a diagnosis points at, once."""
+    where = [entry["where"] for entry in (*document["mismatch"], *document["findings"])]
+    found = [Place(w["variable"], w["low"], w["high"]) for w in where if w is not None]
+    return list(dict.fromkeys(found))
+
+
+def _errors(sealed: Sealed, found: Diagnosis, key: Mapping[str, Any]) -> Errors:
+    """Errors on records that are new to every model, and free of noise."""
+    fresh = _read(sealed.fresh)
+    true = fresh.force
+    assert true is not None
+    signals = Signals.of(fresh)
+
+    def rms(model: Model, values: Mapping[str, float]) -> float:
+        missed: Array = true - model.force(signals, values)
+        return float(np.sqrt(np.mean(missed**2)))
+
+    base, corrected = found.choice.base, found.choice.best
+    hidden = [e["name"] for e in key["effects"]]
+    best = None
+    if hidden and all(name in CATALOGUE for name in hidden):
+        truth = [effects.get(name) for name in hidden]
+        reached = best_fit(found.study, truth, damper_values(key), corrected.values)
+        best = None if reached is None else rms(reached.model, reached.values)
+    return Errors(
+        paper=rms(base.model, base.values),
+        corrected=rms(corrected.model, corrected.values),
+        best=best,
+        span=float(np.ptp(true)),
+    )
+
+
+def _read(path: Path) -> Recording:
+    """A log as the commands read it; remarks on it go nowhere, as nobody reads 200 of them."""
+    return read_logs([str(path)], need_force=True, report=lambda line: None).recording

@@ -1,0 +1,116 @@
+"""Many cases in worker processes. A case's hash is handed out before its diagnosis is begun."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+from erdctl.errors import ComputationProblem
+from erdctl.prove.case import Sealed, Wish, seal
+from erdctl.prove.judge import Failed, Result, judge
+
+Outcome = Result | Failed
+
+
+def cores() -> int:
+    """Cores that this process may use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity else os.cpu_count() or 1
+
+
+def prove(
+    wish: Wish,
+    seeds: Sequence[int],
+    folder: Path,
+    *,
+    jobs: int,
+    on_sealed: Callable[[Sealed], None] = lambda sealed: None,
+    on_outcome: Callable[[Outcome], None] = lambda outcome: None,
+) -> tuple[Outcome, ...]:
+    """Outcomes of the cases of some seeds, in their order; the same for any number of jobs.
+
+    on_sealed : called with each case before its diagnosis starts
+    on_outcome : called with each outcome, in the order of the seeds
+    Raises ComputationProblem if a worker dies.
+    """
+    done: dict[int, Outcome] = {}
+    told = 0
+    # Fresh processes, not forks: a fork inherits locks of threads that it does not inherit. Also
+    # for one job: linear algebra rounds otherwise with several threads.
+    pool = ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_one_thread)
+    try:
+        for outcome in _outcomes(pool, wish, seeds, folder, jobs, on_sealed):
+            done[outcome.number] = outcome
+            while told + 1 in done:
+                told += 1
+                on_outcome(done[told])
+    except BrokenProcessPool:
+        raise ComputationProblem(
+            "a worker process was killed, perhaps for want of memory; try --jobs 1"
+        ) from None
+    finally:
+        pool.shutdown(cancel_futures=True)
+    return tuple(done[number] for number in sorted(done))
+
+
+def _outcomes(
+    pool: ProcessPoolExecutor,
+    wish: Wish,
+    seeds: Sequence[int],
+    folder: Path,
+    jobs: int,
+    on_sealed: Callable[[Sealed], None],
+) -> Iterator[Outcome]:
+    """Outcomes as they come: one case in hand for each job, sealed and then judged."""
+    waiting = iter(enumerate(seeds, start=1))
+    sealing: dict[Future[Sealed], tuple[int, int]] = {}
+    judging: dict[Future[Result], Sealed] = {}
+
+    def begin() -> None:
+        for number, seed in waiting:
+            sealing[pool.submit(seal, wish, seed, number, folder)] = (number, seed)
+            return
+
+    for _ in range(jobs):
+        begin()
+    while sealing or judging:
+        pending: list[Future[Any]] = [*sealing, *judging]
+        ready, _ = wait(pending, return_when=FIRST_COMPLETED)
+        for future in [f for f in sealing if f in ready]:
+            number, seed = sealing.pop(future)
+            error = _error(future)
+            if error is None:
+                sealed = future.result()
+                on_sealed(sealed)
+                judging[pool.submit(judge, sealed)] = sealed
+            else:
+                yield Failed(number, seed, error)
+                begin()
+        for finished in [f for f in judging if f in ready]:
+            sealed = judging.pop(finished)
+            error = _error(finished)
+            yield Failed(sealed.number, sealed.seed, error) if error else finished.result()
+            begin()
+
+
+def _error(future: Future[Sealed] | Future[Result]) -> str | None:
+    """What went wrong in a worker: one case must not cost the other hundred."""
+    error = future.exception()
+    if isinstance(error, BrokenProcessPool):
+        raise error
+    return None if error is None else f"{type(error).__name__}: {error}"
+
+
+def _one_thread() -> None:
+    """The cases are the parallelism; threads below them would fight for the same cores."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C ends a worker without a traceback
+    import scipy.linalg  # noqa: F401  # a library can be limited only once it is loaded
+    from threadpoolctl import threadpool_limits
+
+    threadpool_limits(1)

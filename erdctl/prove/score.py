@@ -1,0 +1,145 @@
+"""What a case's key says of its diagnosis: named, located, how much of the error removed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from erdctl.plant.regions import MOST_WIDTH, Region, overlap
+
+OVERLAP = 0.3  # intersection over union from which a region is the true one
+EXTRA = 2  # names beside the first that a finding may hold: at most three in all
+BANDS = (2.0, 1.0, 0.2)  # misfit over noise, lower edges, the strongest first
+BAND_NAMES = (">= 2", "1 to 2", "0.2 to 1", "< 0.2")
+
+
+@dataclass(frozen=True)
+class Hidden:
+    """One hidden effect; level : misfit that it leaves alone, over noise."""
+
+    effect: str
+    level: float
+    equivalent: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Found:
+    """One finding, as the diagnosis' document has it."""
+
+    effect: str
+    equivalent: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Place:
+    """An interval of one variable that the diagnosis points at."""
+
+    variable: str
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Errors:
+    """Root mean square errors on the fresh records [N], and what they are held against.
+
+    best : of the true structure refitted on the log, None where erdctl has no such structure
+    span : range of the true force [N]
+    """
+
+    paper: float
+    corrected: float
+    best: float | None
+    span: float
+
+    @property
+    def removed(self) -> float | None:
+        """Part of the error removed, of what the true structure would remove.
+
+        Check: paper 5 N, corrected 1.4 N, best 1 N gives 3.6 / 4 = 0.9.
+        """
+        if self.best is None or self.best >= self.paper:
+            return None
+        return (self.paper - self.corrected) / (self.paper - self.best)
+
+    def nrmse(self, rms: float | None) -> float | None:
+        """An error over the range of the true force."""
+        return None if rms is None else rms / self.span
+
+
+@dataclass(frozen=True)
+class Naming:
+    """How findings and truth match.
+
+    first : whether the first finding is right;  matched : hidden effects that have their finding
+    spurious : findings that match nothing hidden
+    redundant : findings that match something hidden which another finding has matched already
+    """
+
+    first: bool
+    matched: int
+    spurious: int
+    redundant: int
+
+
+def band(level: float) -> str:
+    """Name of the band of a level.  Check: 2.0 is in ">= 2", 1.99 in "1 to 2"."""
+    for name, edge in zip(BAND_NAMES, BANDS, strict=False):
+        if level >= edge:
+            return name
+    return BAND_NAMES[-1]
+
+
+def matches(found: Found, hidden: Hidden) -> bool:
+    """Whether a finding names a hidden effect.
+
+    By its own name, by one that is the same to a force channel at the rod, or as one of at most
+    three names that the diagnosis says it cannot tell apart.
+    """
+    if found.effect == hidden.effect or found.effect in hidden.equivalent:
+        return True
+    return hidden.effect in found.equivalent and len(found.equivalent) <= EXTRA
+
+
+def naming(findings: Sequence[Found], hidden: Sequence[Hidden]) -> Naming:
+    """Findings against truth; one finding stands for one hidden effect at most."""
+    useful = [any(matches(f, h) for h in hidden) for f in findings]
+    matched = _paired(findings, hidden)
+    return Naming(
+        first=bool(useful) and useful[0],
+        matched=matched,
+        spurious=useful.count(False),
+        redundant=useful.count(True) - matched,
+    )
+
+
+def _paired(findings: Sequence[Found], hidden: Sequence[Hidden]) -> int:
+    """Most hidden effects that can have a finding each."""
+    if not hidden:
+        return 0
+    first, rest = hidden[0], hidden[1:]
+    best = _paired(findings, rest)
+    for k, finding in enumerate(findings):
+        if matches(finding, first):
+            best = max(best, 1 + _paired([*findings[:k], *findings[k + 1 :]], rest))
+    return best
+
+
+def located(places: Sequence[Place], regions: Sequence[Mapping[str, Any]]) -> bool | None:
+    """Whether a reported place is a true one; None if the misfit lives everywhere.
+
+    The key gives each region's width as a part of the variable's range, which says how wide a
+    reported place is: one that covers most of the range points at nothing.
+    """
+    if not regions:
+        return None
+    return any(_points_at(place, Region(**r)) for place in places for r in regions)
+
+
+def _points_at(place: Place, region: Region) -> bool:
+    if place.variable != region.variable:
+        return False
+    span = (region.high - region.low) / region.width
+    narrow = place.high - place.low <= MOST_WIDTH * span
+    return narrow and overlap(region, (place.low, place.high)) >= OVERLAP

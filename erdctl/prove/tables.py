@@ -1,0 +1,105 @@
+"""The scoreboard: a line for each case, and the tables at the end, as text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from erdctl.prove.judge import Failed
+from erdctl.prove.run import Outcome
+from erdctl.prove.score import BAND_NAMES
+from erdctl.prove.summary import Group, Rate, Summary, hidden_text, said_text
+
+Table = tuple[str, Sequence[str], Sequence[Sequence[str]]]
+
+
+def line(outcome: Outcome) -> str:
+    """One case in one line, the seed and the key's hash first."""
+    if isinstance(outcome, Failed):
+        return f"seed {outcome.seed}  FAILED  {outcome.message}"
+    r, e = outcome, outcome.fresh
+    errors = " ".join(_digits(e.nrmse(rms), 4) for rms in (e.paper, e.corrected, e.best))
+    return "  ".join(
+        [
+            f"seed {r.seed}", r.key_sha256[:12], f"{r.kind}: {hidden_text(r)}",
+            f"said: {said_text(r)}", f"named {_yes(r.named)}", r.verdict,
+            f"located {_yes(r.located)}", f"nrmse {errors}",
+        ]
+    )  # fmt: skip
+
+
+def tables(s: Summary) -> Iterator[Table]:
+    """Every table that has rows: title, header, rows."""
+    for title, header, rows in _every(s):
+        if rows:
+            yield title, header, rows
+
+
+def _every(s: Summary) -> Iterator[Table]:
+    single = ["misfit over noise", "cases", "named first", "wrong name", "explained", "located",
+              "spurious a case", "error removed"]  # fmt: skip
+    yield "Singles, by the misfit that the paper's model leaves", single, [
+        [g.label, str(g.cases), _rate(g.named), _rate(g.wrong), _rate(g.explained),
+         _rate(g.located), _digits(g.spurious, 2), _removed(g)]
+        for g in s.bands
+    ]  # fmt: skip
+    yield "Named first, by effect and misfit over noise", ["", *BAND_NAMES], _by_effect(s)
+    yield "Pairs", ["", "cases", "both found", "first right", "explained", "located",
+                    "spurious a case", "error removed"], [
+        [g.label, str(g.cases), _rate(g.all_found), _rate(g.named), _rate(g.explained),
+         _rate(g.located), _digits(g.spurious, 2), _removed(g)]
+        for g in (s.pairs,) if g.cases
+    ]  # fmt: skip
+    yield (
+        "Nothing hidden, by the colour of the noise",
+        ["", "cases", "adequate"],
+        [[g.label, str(g.cases), _rate(g.adequate)] for g in s.nulls if g.cases],
+    )
+    yield "Outside the catalogue", [
+        "", "cases", "unexplained", "a wrong name as the whole story", "adequate", "located"
+    ], [
+        [g.label, str(g.cases), _rate(g.unexplained), _rate(g.explained), _rate(g.adequate),
+         _rate(g.located)]
+        for g in (s.unknowns,) if g.cases
+    ]  # fmt: skip
+    split = ["", "cases", "named first", "all found", "adequate", "explained", "unexplained",
+             "located", "spurious a case"]  # fmt: skip
+    for title, groups in (
+        ("By kind and motion: as it was, or xdot from a noisy, quantised x", s.motions),
+        ("Singles, by concealment", s.concealments),
+        ("Everything", (s.whole,)),
+    ):
+        yield title, split, [
+            [g.label, str(g.cases), _rate(g.named), _rate(g.all_found), _rate(g.adequate),
+             _rate(g.explained), _rate(g.unexplained), _rate(g.located), _digits(g.spurious, 2)]
+            for g in groups if g.cases
+        ]  # fmt: skip
+    yield (
+        "Confusions",
+        ["hidden", "said", "cases", "seeds"],
+        [[c.hidden, c.said, str(len(c.seeds)), " ".join(map(str, c.seeds))] for c in s.confusions],
+    )
+    yield "Misses; one alone: the same options with --cases 1 --seed SEED", [
+        "hidden", "seed", "said", "why"
+    ], [[m.hidden, str(m.seed), m.said, ", ".join(m.why)] for m in s.misses]  # fmt: skip
+
+
+def _by_effect(s: Summary) -> list[list[str]]:
+    cells = {(row.effect, row.band): _rate(row.named) for row in s.effects}
+    names = dict.fromkeys(row.effect for row in s.effects)
+    return [[name, *(cells.get((name, b), "-") for b in BAND_NAMES)] for name in names]
+
+
+def _rate(rate: Rate) -> str:
+    return "-" if rate.share is None else f"{100 * rate.share:.0f} % ({rate.hits}/{rate.of})"
+
+
+def _removed(g: Group) -> str:
+    return "-" if g.removed is None else f"{100 * g.removed:.0f} % ({g.removed_of})"
+
+
+def _digits(value: float | None, digits: int) -> str:
+    return "-" if value is None else f"{value:.{digits}f}"
+
+
+def _yes(value: bool | None) -> str:
+    return {True: "yes", False: "no", None: "-"}[value]

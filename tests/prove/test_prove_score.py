@@ -1,0 +1,121 @@
+"""Scores, checked by hand on made-up findings and keys."""
+
+from __future__ import annotations
+
+import pytest
+from results import REGION, document, key, sealed
+
+from erdctl.prove.judge import places, scored
+from erdctl.prove.score import (
+    Errors,
+    Found,
+    Hidden,
+    Naming,
+    Place,
+    band,
+    located,
+    matches,
+    naming,
+)
+
+MOUNT = Hidden("mount", 3.0, ("fluid",))
+ERRORS = Errors(5.0, 1.4, 1.0, 100.0)
+
+
+@pytest.mark.parametrize(
+    ("level", "name"),
+    [(10.0, ">= 2"), (2.0, ">= 2"), (1.99, "1 to 2"), (1.0, "1 to 2"), (0.2, "0.2 to 1"),
+     (0.19, "< 0.2")],
+)  # fmt: skip
+def test_bands(level: float, name: str) -> None:
+    assert band(level) == name
+
+
+@pytest.mark.parametrize(
+    ("found", "right"),
+    [
+        (Found("mount"), True),
+        (Found("fluid"), True),  # the same to a force channel at the rod
+        (Found("rub", ("mount",)), True),
+        (Found("rub", ("drift", "mount")), True),  # three names
+        (Found("rub", ("drift", "mount", "skew")), False),  # four: says too little
+        (Found("mount", ("drift", "rub", "skew")), True),  # the first name is right all the same
+        (Found("rub"), False),
+        (Found("rub", ("fluid",)), False),  # the truth itself must be in the list
+    ],
+)
+def test_what_counts_as_named(found: Found, right: bool) -> None:
+    assert matches(found, MOUNT) is right
+
+
+@pytest.mark.parametrize(
+    ("names", "hidden", "expected"),
+    [
+        (["a", "b"], ["a", "b"], Naming(first=True, matched=2, spurious=0, redundant=0)),
+        (["b", "a"], ["a", "b"], Naming(first=True, matched=2, spurious=0, redundant=0)),
+        (["c", "a"], ["a"], Naming(first=False, matched=1, spurious=1, redundant=0)),
+        (["a", "c", "d"], ["a"], Naming(first=True, matched=1, spurious=2, redundant=0)),
+        (["a"], ["a", "b"], Naming(first=True, matched=1, spurious=0, redundant=0)),
+        ([], ["a"], Naming(first=False, matched=0, spurious=0, redundant=0)),
+        (["a"], [], Naming(first=False, matched=0, spurious=1, redundant=0)),
+    ],
+)
+def test_findings_against_truth(names: list[str], hidden: list[str], expected: Naming) -> None:
+    assert naming([Found(n) for n in names], [Hidden(h, 3.0) for h in hidden]) == expected
+
+
+def test_one_finding_stands_for_one_effect() -> None:
+    both = [Hidden("a", 3.0), Hidden("b", 3.0)]
+    assert naming([Found("a", ("b",))], both).matched == 1
+    # The first finding could be either; the second can only be a.
+    assert naming([Found("a", ("b",)), Found("a")], both).matched == 2
+    twice = naming([Found("mount"), Found("fluid")], [MOUNT])
+    assert twice == Naming(first=True, matched=1, spurious=0, redundant=1)
+
+
+@pytest.mark.parametrize(
+    ("place", "right"),
+    [
+        (Place("xdot", -0.01, 0.01), True),
+        (Place("xdot", 0.0, 0.01), True),  # 0.01 of 0.02 is a half
+        (Place("xdot", 0.006, 0.02), False),  # 0.004 of 0.03 is 0.13
+        (Place("xdot", -0.03, 0.03), True),  # 0.02 of 0.06 is a third
+        (Place("xdot", -0.035, 0.035), False),  # 0.02 of 0.07 is 0.29
+        (Place("x", -0.01, 0.01), False),
+    ],
+)
+def test_overlap_with_the_true_region(place: Place, right: bool) -> None:
+    assert located([place], [REGION]) is right
+
+
+def test_a_place_that_covers_most_of_the_range_points_at_nothing() -> None:
+    wide = {**REGION, "width": 0.5}  # the range is 0.04
+    assert located([Place("xdot", -0.012, 0.012)], [wide]) is True  # 0.6 of it
+    assert located([Place("xdot", -0.013, 0.013)], [wide]) is False
+    assert located([Place("xdot", -0.01, 0.01)], []) is None
+    assert located([], [REGION]) is False
+
+
+def test_the_part_of_the_error_removed() -> None:
+    assert ERRORS.removed == pytest.approx(0.9)
+    assert ERRORS.nrmse(ERRORS.corrected) == pytest.approx(0.014)
+    assert Errors(5.0, 6.0, 1.0, 100.0).removed == pytest.approx(-0.25)
+    assert Errors(5.0, 1.0, None, 100.0).removed is None
+    assert Errors(5.0, 5.0, 5.0, 100.0).removed is None  # nothing there to remove
+
+
+def test_a_single() -> None:
+    where = {"variable": "xdot", "low": 0.0, "high": 0.01}
+    said = document("explained", ("rub", "drift"), places=[where])
+    r = scored(sealed(), said, key(("drift", 1.5), regions=[REGION]), ERRORS)
+    assert (r.named, r.matched, r.spurious, r.located) == (True, 1, 0, True)
+    assert (r.verdict, r.motion, r.colour) == ("explained", "exact", "white")
+    assert places(said) == [Place("xdot", 0.0, 0.01)]
+
+
+def test_nothing_and_strangers_have_no_name() -> None:
+    null = scored(sealed(), document("explained", ("rub",)), key(kind="null"), ERRORS)
+    assert (null.named, null.spurious, null.located) == (None, 1, None)
+    stranger = key(("stranger", 4.0), kind="unknown", motion_noise={"kind": "savgol"})
+    r = scored(sealed(), document("unexplained"), stranger, ERRORS)
+    assert (r.named, r.spurious, r.motion) == (None, 0, "measured")

@@ -1,0 +1,109 @@
+"""Rates, confusions and misses, counted by hand."""
+
+from __future__ import annotations
+
+import json
+
+import msgspec
+from results import result
+
+from erdctl.prove.case import Wish
+from erdctl.prove.document import SCHEMA, from_json, proof_of, to_json
+from erdctl.prove.judge import Failed, Result
+from erdctl.prove.score import Errors, Found, Hidden
+from erdctl.prove.summary import Rate, reasons, summarise
+from erdctl.prove.tables import line, tables
+
+WRONG = {"findings": (Found("drift"),), "named": False, "matched": 0, "spurious": 1}
+RESULTS: tuple[Result, ...] = (
+    result(1),
+    result(2, **WRONG, located=False, fresh=Errors(5.0, 4.0, 1.0, 100.0)),  # a quarter removed
+    result(3, verdict="unexplained", motion="measured", fresh=Errors(5.0, 1.0, 1.0, 100.0)),
+    result(4, hidden=(Hidden("rub", 0.5),), level=0.5, verdict="adequate", findings=(),
+           named=False, matched=0, located=None),
+    result(5, kind="pair", hidden=(Hidden("rub", 3.0), Hidden("skew", 2.5))),
+    result(6, kind="null", hidden=(), level=0.0, colour="pink", verdict="adequate", findings=(),
+           named=None, matched=0, located=None, fresh=Errors(0.1, 0.1, None, 100.0)),
+    result(7, kind="null", hidden=(), level=0.0, findings=(Found("drift"),), named=None,
+           matched=0, spurious=1, located=None, fresh=Errors(0.1, 0.2, None, 100.0)),
+    result(8, kind="unknown", hidden=(Hidden("stranger", 4.0),), named=None, matched=0,
+           spurious=1, fresh=Errors(5.0, 4.0, None, 100.0)),
+)  # fmt: skip
+FAILED = (Failed(9, 9, "ValueError: no"),)
+
+
+def test_bands() -> None:
+    strong, weak = summarise(RESULTS).bands
+    assert (strong.label, strong.cases) == (">= 2", 3)
+    assert strong.named == Rate(2, 3)
+    assert strong.wrong == Rate(1, 3)
+    assert strong.explained == Rate(2, 3)
+    assert strong.located == Rate(2, 3)
+    assert strong.spurious == 1 / 3
+    assert (strong.removed, strong.removed_of) == (0.9, 3)  # of 0.25, 0.9 and 1
+    assert (weak.label, weak.named, weak.wrong) == ("0.2 to 1", Rate(0, 1), Rate(0, 1))
+    assert weak.removed is None  # too weak to count
+
+
+def test_other_groups() -> None:
+    s = summarise(RESULTS, FAILED)
+    assert s.pairs.all_found == Rate(0, 1)
+    assert s.pairs.named == Rate(1, 1)
+    assert [(g.label, g.adequate) for g in s.nulls] == [
+        ("pink", Rate(1, 1)), ("white", Rate(0, 1)), ("all", Rate(1, 2))
+    ]  # fmt: skip
+    assert s.unknowns.unexplained == Rate(0, 1)
+    assert s.unknowns.explained == Rate(1, 1)
+    assert s.whole.spurious == 3 / 8
+    assert s.whole.located == Rate(4, 5)
+    assert [(e.effect, e.band, e.named) for e in s.effects] == [
+        ("rub", ">= 2", Rate(2, 3)), ("rub", "0.2 to 1", Rate(0, 1))
+    ]  # fmt: skip
+    assert [(g.label, g.cases) for g in s.motions][:2] == [("single, exact", 3),
+                                                           ("single, measured", 1)]  # fmt: skip
+    assert s.failed == 1
+
+
+def test_confusions_and_misses() -> None:
+    s = summarise(RESULTS, FAILED)
+    assert [(c.hidden, c.said, c.seeds) for c in s.confusions] == [
+        ("nothing", "drift", (7,)), ("rub", "drift", (2,)), ("stranger", "rub", (8,))
+    ]  # fmt: skip
+    assert {m.seed: m.why for m in s.misses} == {
+        2: ("wrong name first", "1 spurious", "not located"),
+        3: ("verdict unexplained",),
+        4: ("not named", "verdict adequate"),
+        5: ("1 of 2 found",),
+        7: ("verdict explained", "1 spurious"),
+        8: ("verdict explained", "1 spurious"),
+        9: ("failed: ValueError: no",),
+    }
+    assert reasons(RESULTS[0]) == ()
+
+
+def test_a_line_names_seed_and_hash_first() -> None:
+    assert line(RESULTS[0]) == (
+        "seed 1  abababababab  single: rub 3  said: rub  named yes  explained  located yes"
+        "  nrmse 0.0500 0.0140 0.0100"
+    )
+    assert line(FAILED[0]) == "seed 9  FAILED  ValueError: no"
+
+
+def test_every_row_of_a_table_has_its_header() -> None:
+    found = list(tables(summarise(RESULTS, FAILED)))
+    assert len(found) == 10
+    for _, header, rows in found:
+        assert {len(header)} == {len(row) for row in rows}
+    assert list(tables(summarise([]))) == []
+
+
+def test_the_document_goes_there_and_back() -> None:
+    proof = proof_of(Wish(effects=("rub",), level=3.0), range(1, 10), [*RESULTS, *FAILED])
+    document = json.loads(msgspec.json.encode(to_json(proof)))
+    assert document["schema"] == SCHEMA
+    assert from_json(document) == proof
+    assert (document["seed"], document["cases"]) == (1, 9)
+    assert document["results"][0]["fresh"]["removed"] == 0.9
+    assert document["results"][0]["fresh"]["nrmse_paper"] == 0.05
+    assert document["summary"]["bands"][0]["named"] == {"hits": 2, "of": 3}
+    assert document["failed"][0]["seed"] == 9
