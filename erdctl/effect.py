@@ -34,7 +34,7 @@ class Slot(Enum):
     MOTION    (s, p) -> Signals           motion of the piston from that of the rod
     CONTROL   (s, p) -> (n,) duty         what reaches the electrodes
     FIELD     (field, s, p) -> (n,)       normalised yield force, from v^beta
-    LAG       (s, p) -> (n,)              factor of T_d
+    LAG       (s, p) -> (n,)              factor of T_d while the yield force falls
     SIGN      (s, p) -> (n,) in -1..1     in place of sign(xdot)
     YIELD     (force, s, p) -> (n,)       what becomes of the signed yield force
     VISCOUS   (s, p) -> (n,) [m/s]        in place of xdot

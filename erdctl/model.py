@@ -56,7 +56,7 @@ class Model:
     @cached_property
     def separable(self) -> bool:
         """Whether the force is linear in the amplitudes: no effect feeds the force back."""
-        return not (self.of(Slot.SERIES) or self.of(Slot.FEEDBACK))
+        return not any(self.of(slot) for slot in (Slot.SERIES, Slot.FEEDBACK, Slot.LAG))
 
     def of(self, slot: Slot) -> list[Effect]:
         """The effects of one slot in the order in which they act."""
@@ -89,11 +89,11 @@ class Model:
         scale: Factors = {}
         for effect in self.of(Slot.SCALE):
             scale = multiplied(scale, effect.act(s, effect.local(values)))
-        stretch = np.ones(len(s)) if self.of(Slot.LAG) else None
+        falls = np.ones(len(s)) if self.of(Slot.LAG) else None
         for effect in self.of(Slot.LAG):
-            stretch = stretch * effect.act(s, effect.local(values))
-        if stretch is not None and (stretch == 1.0).all():
-            stretch = None  # off takes the same path as absent
+            falls = falls * effect.act(s, effect.local(values))
+        if falls is not None and (falls == 1.0).all():
+            falls = None  # off takes the same path as absent
         return Prepared(
             effects=self.effects,
             signals=s,
@@ -101,7 +101,7 @@ class Model:
             viscous=self._replaced(Slot.VISCOUS, s, values, s.xdot),
             sign=self._replaced(Slot.SIGN, s, values, s.sign),
             fields=self._fields(s, values),
-            stretch=stretch,
+            falls=falls,
             scale=scale,
             values=values,
         )

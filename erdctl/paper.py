@@ -84,14 +84,15 @@ def yield_force(
     T_c: float,
     T_r: float,
     *,
-    stretch: Array | None = None,
+    falls: Array | None = None,
 ) -> Array:
     """The state F_ER of Eq. 12, solved exactly for a control held from sample to sample.
 
         T_d dF/dt + F = u,   u = compression or release, whichever way the piston moves
 
     compression, release : (n,) steady value u for either direction [N];  T_c, T_r : time constants
-    for either direction [s], 0 for none;  stretch : (n,) factor of both, sample by sample
+    for either direction [s], 0 for none;  falls : (n,) factor of both while the force falls, with
+    which the solution is no longer linear in u
     Returns (n,) F_ER [N].
 
     A step in which the piston turns is solved in two parts, before and after the turn, so the
@@ -105,25 +106,30 @@ def yield_force(
     if T_c == 0.0 and T_r == 0.0:
         return target
     turn, before = signals.turns
+    if falls is not None:
+        from erdctl.recurrences import forming
+
+        part = np.zeros(len(up))
+        part[turn] = before
+        return forming(
+            compression, release, up, part, signals.step, signals.starts,
+            max(T_c, 1e-12), max(T_r, 1e-12), falls,
+        )  # fmt: skip
     step = signals.common_step
     exponent: Array | float
     floor = 1e-12  # s; with one time constant 0 that direction follows within any real step
-    if step is not None and T_c == T_r and stretch is None:
+    if step is not None and T_c == T_r:
         exponent = step / T_c
         source = target * -np.expm1(-exponent)
     else:
         step_all = signals.step if step is None else np.where(signals.step > 0, step, 0.0)
         exponent = step_all / signals.per_direction(max(T_c, floor), max(T_r, floor))
-        if stretch is not None:
-            exponent = exponent / stretch
         source = target * -np.expm1(-exponent)
     if turn.size:
         forward = up[turn]
         T_before = np.maximum(np.where(forward, T_c, T_r), floor)
         T_after = np.maximum(np.where(forward, T_r, T_c), floor)
         dt = signals.step[turn]
-        if stretch is not None:
-            dt = dt / stretch[turn]
         e_before, e_after = before * dt / T_before, (1.0 - before) * dt / T_after
         u_before = np.where(forward, compression[turn], release[turn])
         u_after = np.where(forward, release[turn], compression[turn])

@@ -134,3 +134,41 @@ def fading(
             gone = -np.expm1(-step[i] / tau)
             h = max(h * (1.0 - gone) + power * tau * gone, 0.0)
     return f_v, f_y
+
+
+@njit(cache=True)
+def forming(
+    u_c: Array, u_r: Array, compressing: npt.NDArray[np.bool_], before: Array, step: Array,
+    starts: Index, T_c: float, T_r: float, falls: Array,
+) -> Array:  # fmt: skip
+    """Eq. 12 with another time constant while the state falls.
+
+        T dF/dt + F = u,   T = T_d while |u| >= |F|, falls T_d while |u| < |F|
+
+    u_c, u_r : (n,) steady value in either direction [N];  T_c, T_r : T_d [s] > 0
+    compressing : (n,) direction;  before : (n,) part of a step that passes before the turn in it
+    step, falls : (n,) [s], [1];  starts : (r + 1,).  Returns (n,) [N], steady as a record begins.
+    Check: u = 1 then 0 N, T_d = 10 ms, falls = 2: exp(-1) = 0.3679 N after 20 ms.
+    """
+    out = np.empty(len(u_c))
+    for r in range(len(starts) - 1):
+        if starts[r] == starts[r + 1]:
+            continue
+        up = compressing[starts[r]]
+        y = u_c[starts[r]] if up else u_r[starts[r]]
+        for i in range(starts[r], starts[r + 1]):
+            out[i] = y
+            if i + 1 == starts[r + 1]:
+                break
+            turning = compressing[i + 1] != compressing[i]
+            for leg in range(2 if turning else 1):
+                up = compressing[i] if leg == 0 else compressing[i + 1]
+                span = step[i]
+                if turning:
+                    span *= before[i] if leg == 0 else 1.0 - before[i]
+                u = u_c[i] if up else u_r[i]
+                T = T_c if up else T_r
+                if abs(u) < abs(y):
+                    T *= falls[i]
+                y = u + (y - u) * np.exp(-span / T)
+    return out

@@ -22,7 +22,7 @@ class Prepared:
 
     gas, viscous, sign : (n,) shapes in place of x, xdot and sign(xdot)
     fields : (n,) normalised steady yield force for either direction
-    stretch : (n,) factor of T_d, or None;  scale : (n,) factors of groups
+    falls : (n,) factor of T_d while the yield force falls, or None;  scale : (n,) factors of groups
     """
 
     effects: tuple[Effect, ...]
@@ -31,7 +31,7 @@ class Prepared:
     viscous: Array
     sign: Array
     fields: tuple[Array, Array]
-    stretch: Array | None
+    falls: Array | None
     scale: Factors
     values: Values
 
@@ -93,7 +93,7 @@ class Prepared:
     def yield_state(self, compression: Array, release: Array) -> Array:
         """(n,) F_ER of Eq. 12 for given steady values in either direction."""
         T_c, T_r = pair(self.values, "T_d")
-        return paper.yield_force(self.signals, compression, release, T_c, T_r, stretch=self.stretch)
+        return paper.yield_force(self.signals, compression, release, T_c, T_r, falls=self.falls)
 
     def terms(self) -> Sequence[tuple[str, Array]]:
         """Name and (n,) unit response of every amplitude that an effect adds."""
@@ -137,10 +137,10 @@ class Prepared:
         u_c, u_r = (f * s_ for f, s_ in zip(self.fields, pair(values, "sigma"), strict=True))
         k = pair(values, "k_nom") if inner else (0.0, 0.0)
         T = [max(T_d, 1e-9) for T_d in pair(values, "T_d")]
-        stretch = ones if self.stretch is None else self.stretch
+        falls = ones if self.falls is None else self.falls
         viscous = np.array(pair(values, "c_vis"))[:, None] * viscous
         force, v = march(
-            self.gas, s.xdot, s.step, stretch, s.starts, s.compressing, u_c, u_r,
+            self.gas, s.xdot, s.step, falls, s.starts, s.compressing, u_c, u_r,
             gain["gas"], gain["viscous"], gain["yield"], grid, viscous, sign, friction,
             k[0], k[1], T[0], T[1], compliance,
         )  # fmt: skip

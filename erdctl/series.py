@@ -80,7 +80,7 @@ def _moved(
 
 @njit(cache=True)
 def march(
-    x: Array, xdot: Array, step: Array, stretch: Array, starts: Index,
+    x: Array, xdot: Array, step: Array, falls: Array, starts: Index,
     compressing: npt.NDArray[np.bool_],
     u_c: Array, u_r: Array, g_gas: Array, g_visc: Array, g_yield: Array,
     grid: Array, viscous: Array, sign: Array, friction: Array,
@@ -123,8 +123,8 @@ def march(
                         x_end = x[i - 1] + mean * span
                     else:
                         mean, span = 0.5 * b, dt - before
-                T = (T_c if up else T_r) * stretch[i - 1]
                 u = u_c[i - 1] if up else u_r[i - 1]
+                T = (T_c if up else T_r) * (falls[i - 1] if abs(u) < abs(y) else 1.0)
                 y = u + (y - u) * np.exp(-span / T)
                 F, v = _moved(
                     F, mean, end, span, s, x_end, y * g_yield[i], k_c * g_gas[i], k_r * g_gas[i],

@@ -93,12 +93,10 @@ def diagnose(
     else:
         verdict = Verdict.EXPLAINED if best.effects else Verdict.ADEQUATE
     findings = _findings(study, choice)
-    misfit = best.model.force(study.block.signals, best.values) - choice.base.model.force(
-        study.block.signals, choice.base.values
-    )
+    energy = (best.residual - choice.base.residual) ** 2
     if left:
-        misfit = misfit + remainder.predicted
-    mismatch = locate(study, misfit) if verdict is not Verdict.ADEQUATE else []
+        energy += remainder.excess
+    mismatch = locate(study, energy) if verdict is not Verdict.ADEQUATE else []
     return Diagnosis(
         verdict=verdict,
         noise_rms=noise,
@@ -150,7 +148,7 @@ def _findings(study: Study, choice: Choice) -> tuple[Finding, ...]:
     for effect in best.effects:
         without = choice.without[effect.name]
         absent = without.model.force(study.block.signals, without.values)
-        regions = locate(study, with_all - absent)
+        regions = locate(study, (with_all - absent) ** 2)
         found.append(
             Finding(
                 effect=effect,

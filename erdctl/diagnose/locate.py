@@ -58,10 +58,10 @@ def variables(signals: Signals, force: Array) -> dict[Variable, Array]:
     }
 
 
-def locate(study: Study, misfit: Array) -> list[Region]:
-    """Regions in which a misfit (n,) [N] gathers, the sharpest first; none if it is everywhere."""
+def locate(study: Study, square: Array) -> list[Region]:
+    """Regions in which a squared misfit (n,) [N^2] gathers, the sharpest first; none if nowhere."""
     weight = study.block.weight
-    energy = weight * misfit**2
+    energy = weight * square
     total = float(energy.sum())
     if total <= 0.0:
         return []

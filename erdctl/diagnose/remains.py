@@ -1,8 +1,10 @@
-"""What is left in a residual that a flexible regression can still predict on unseen groups.
+"""What is left in a residual that motion and control can still predict: its value, or its size.
 
-Measurement noise, white or coloured, cannot be predicted from motion and control; physics left out
-can. So the part of the residual that is predicted on groups the regression has not seen is misfit,
-whatever its form and whether or not the catalogue knows it.
+Measurement noise, white or coloured, can neither be predicted from motion and control nor is it
+louder in some states of the damper than in others; physics left out is one or the other. So what a
+flexible regression predicts of the residual on stretches that it has not seen is misfit, and so is
+what makes the residual louder than it is in its quietest states, whatever the form and whether or
+not the catalogue knows it.
 """
 
 from __future__ import annotations
@@ -12,80 +14,159 @@ from dataclasses import dataclass
 import numpy as np
 
 from erdctl.diagnose.study import Study
-from erdctl.recording import Array
+from erdctl.recording import Array, Index
 from erdctl.signals import Signals
 
 FOLDS = 5
-MOST = 20_000  # samples that the regression learns from
-REAL = 3.0  # how many times its scatter the predicted part must be
+MOST = 12_000  # samples that a regression learns from
+REAL = 3.0  # how many times its scatter a difference must be
+STRETCH = 0.8  # s, left out at a time; noise remembers less
+QUIET = 0.2  # part of the samples, those where the least is to be expected, that shows the noise
+LOUDER = 1.2  # times the noise that the loud half must be at least
 
 
 @dataclass(frozen=True, eq=False)
 class Remainder:
-    """The predictable part of a residual.
+    """The misfit in a residual.
 
-    predicted : (n,) [N], by regressions that have not seen the sample's group
-    share : part of the mean square that is predicted, 0 if none;  clear : that over its scatter
-    noise_rms, misfit_rms : of the unpredictable and of the predictable part [N]
+    predicted : (n,) the part whose value is predicted, by regressions that have not seen it [N]
+    excess : (n,) mean square beyond noise, predicted or only expected in size [N^2]
+    noise_rms, misfit_rms : of what is noise, and of the rest [N];  real : whether there is a rest
     """
 
     predicted: Array
-    share: float
-    clear: float
+    excess: Array
     noise_rms: float
     misfit_rms: float
-
-    @property
-    def real(self) -> bool:
-        """Whether anything is left beyond noise."""
-        return self.clear > REAL and self.share > 0.01
+    real: bool
 
 
 def examine(study: Study, residual: Array, seed: int = 0) -> Remainder:
-    """The predictable part of a residual (n,) [N]."""
-    from sklearn.ensemble import HistGradientBoostingRegressor
-    from threadpoolctl import threadpool_limits
-
-    inputs = features(study.block.signals)
-    weight = study.block.weight
+    """The misfit in a residual (n,) [N]."""
     rng = np.random.default_rng(seed)
-    fold_of = rng.permutation(study.count) % min(FOLDS, study.count)
-    fold = fold_of[study.group]
+    s, weight = study.block.signals, study.block.weight
+    inputs, since = features(s)
+    # Slow states (heat, wear) show over time, which a regression must not have from next door:
+    # noise has a memory too. So those are left out by groups, and states of motion by stretches.
+    splits = (
+        (np.column_stack([inputs, since]), study.group),
+        (inputs, stretches(s)),
+    )
     predicted = np.zeros_like(residual)
-    used = np.flatnonzero(weight > 0)
-    keep = used[:: max(1, len(used) // MOST)]
-    for k in range(int(fold_of.max()) + 1):
-        learn, tell = keep[fold[keep] != k], np.flatnonzero(fold == k)
-        machine = HistGradientBoostingRegressor(
-            max_iter=60, learning_rate=0.12, max_leaf_nodes=24, min_samples_leaf=60,
-            l2_regularization=10.0, early_stopping=False, random_state=seed,
-        )  # fmt: skip
-        # Its threads wait for each other in busy loops: on a shared machine that takes minutes.
-        with threadpool_limits(1):
-            machine.fit(inputs[learn], residual[learn])
-            predicted[tell] = machine.predict(inputs[tell])
-    # A regression also learns noise; scaled by what holds on unseen groups, that costs nothing.
-    cross = study.per_group(residual * predicted)
-    power = study.per_group(predicted**2)
-    scale = float(np.clip(cross.sum() / max(power.sum(), 1e-300), 0.0, 1.0))
-    predicted *= scale
-    before = study.per_group(residual**2)
-    after = study.per_group((residual - predicted) ** 2)
-    ratio = np.log(np.maximum(before, 1e-300) / np.maximum(after, 1e-300))
-    scatter = float(ratio.std(ddof=1)) / np.sqrt(len(ratio)) if len(ratio) > 1 else np.inf
+    best = 0.0
+    for columns, group in splits:
+        part, share = _predicted(study, columns, group, residual, rng)
+        if share > best:
+            predicted, best = part, share
+    rest = residual - predicted
     total = float(study.weight_of.sum())
-    share = max(0.0, 1.0 - float(after.sum() / max(before.sum(), 1e-300)))
+    square = float(np.dot(weight, residual**2)) / total
+    expected, noise = _expected(study, splits[0][0], rest, rng)
+    noise = min(noise, float(np.dot(weight, rest**2)) / total)
+    misfit = max(square - noise, 0.0)
     return Remainder(
         predicted=predicted,
-        share=share,
-        clear=float(ratio.mean()) / scatter if scatter > 0 else 0.0,
-        noise_rms=float(np.sqrt(after.sum() / total)),
-        misfit_rms=float(np.sqrt(share * before.sum() / total)),
+        excess=predicted**2 + np.maximum(expected - noise, 0.0),
+        noise_rms=float(np.sqrt(noise)),
+        misfit_rms=float(np.sqrt(misfit)),
+        real=misfit > 0.0,
     )
 
 
-def features(s: Signals) -> Array:
-    """(n, m) what a damper's force may depend on: motion, control, time, energy, a little past."""
+def _predicted(
+    study: Study, inputs: Array, group: Index, residual: Array, rng: np.random.Generator
+) -> tuple[Array, float]:
+    """The predicted part of a residual (n,) and its share of the square; zeros if there is none."""
+    weight = study.block.weight
+    told = _regression(weight, inputs, group, residual, rng)
+    # A regression also learns noise; scaled by what holds on unseen groups, that costs nothing.
+    cross, power = np.dot(weight, residual * told), np.dot(weight, told**2)
+    told *= float(np.clip(cross / max(power, 1e-300), 0.0, 1.0))
+    before, after = study.per_group(residual**2), study.per_group((residual - told) ** 2)
+    share = 1.0 - float(after.sum() / max(before.sum(), 1e-300))
+    ratio = np.log(np.maximum(before, 1e-300) / np.maximum(after, 1e-300))
+    if share <= 0.01 or _clear(ratio) <= REAL:
+        return np.zeros_like(residual), 0.0
+    return told, share
+
+
+def _expected(
+    study: Study, inputs: Array, rest: Array, rng: np.random.Generator
+) -> tuple[Array, float]:
+    """The mean square to be expected at each sample (n,), and that of the noise alone.
+
+    A regression of the logarithm of the square tells where it is large; how large, is the mean over
+    samples of which about the same is expected, that the regression has not seen.
+    """
+    weight, square = study.block.weight, rest**2
+    mean = float(np.dot(weight, square) / weight.sum())
+    even = np.full_like(rest, mean)
+    if mean <= 0.0:
+        return even, mean
+    order = _regression(weight, inputs, study.group, np.log(square + 1e-3 * mean), rng)
+    use = weight > 0
+    edges = np.quantile(order[use], np.linspace(0, 1, round(1 / QUIET) + 1)[1:-1])
+    cell = np.searchsorted(edges, order)
+    count = np.bincount(cell, weight, len(edges) + 1)
+    level = np.bincount(cell, square * weight, len(edges) + 1) / np.maximum(count, 1e-300)
+    middle = float(np.median(order[use]))
+    ratio = []
+    for g in range(study.count):
+        inside = (study.group == g) & use
+        quiet, loud = inside & (order <= middle), inside & (order > middle)
+        if min(np.count_nonzero(quiet), np.count_nonzero(loud)) > 20:
+            ratio.append(float(np.log(square[loud].mean() / max(square[quiet].mean(), 1e-300))))
+    contrast = np.array(ratio)
+    if len(ratio) < 3 or _clear(contrast) <= REAL or contrast.mean() < 2.0 * np.log(LOUDER):
+        return even, mean
+    return level[cell], float(level[0])
+
+
+def _clear(values: Array) -> float:
+    """Mean of one value per group over the standard error of the mean."""
+    n = len(values)
+    scatter = float(values.std(ddof=1)) / np.sqrt(n) if n > 1 else np.inf
+    return float(values.mean()) / scatter if scatter > 0 else 0.0
+
+
+def _regression(
+    weight: Array, inputs: Array, group: Index, target: Array, rng: np.random.Generator
+) -> Array:
+    """(n,) target as predicted from inputs (n, m) by regressions that have not seen its group."""
+    from sklearn.ensemble import HistGradientBoostingRegressor
+    from threadpoolctl import threadpool_limits
+
+    count = int(group.max()) + 1
+    fold = (rng.permutation(count) % min(FOLDS, count))[group]
+    used = np.flatnonzero(weight > 0)
+    keep = used[:: max(1, len(used) // MOST)]
+    out = np.zeros_like(target)
+    for k in range(int(fold.max()) + 1):
+        learn, tell = keep[fold[keep] != k], np.flatnonzero(fold == k)
+        machine = HistGradientBoostingRegressor(
+            max_iter=60, learning_rate=0.12, max_leaf_nodes=24, min_samples_leaf=60,
+            l2_regularization=10.0, early_stopping=False, random_state=0,
+        )  # fmt: skip
+        # Its threads wait for each other in busy loops: on a shared machine that takes minutes.
+        with threadpool_limits(1):
+            machine.fit(inputs[learn], target[learn])
+            out[tell] = machine.predict(inputs[tell])
+    return out
+
+
+def stretches(s: Signals) -> Index:
+    """(n,) number of the stretch of STRETCH seconds of a record that a sample lies in."""
+    start = np.repeat(s.starts[:-1], np.diff(s.starts))
+    part = ((s.t - s.t[start]) / STRETCH).astype(np.intp)
+    new = np.concatenate([[False], (np.diff(part) != 0) | (np.diff(start) != 0)])
+    return np.cumsum(new).astype(np.intp)
+
+
+def features(s: Signals) -> tuple[Array, Array]:
+    """(n, m) motion, control and a little past; (n, 1) time in the record.
+
+    All that a damper's force may depend on, as far as it is in a log.
+    """
     step = s.typical_step or 1.0
     past = [max(1, round(lag / step)) for lag in (0.01, 0.05)]
     start = np.repeat(s.starts[:-1], np.diff(s.starts))
@@ -93,9 +174,9 @@ def features(s: Signals) -> Array:
     columns = [
         s.x, s.xdot, s.xddot, s.duty, s.sign,
         np.minimum(s.since_reversal, 10.0), np.minimum(s.since_duty_step, 10.0),
-        np.minimum(s.path_since_reversal, 1.0), s.t - s.t[start], s.sign * np.sqrt(s.duty),
+        np.minimum(s.path_since_reversal, 1.0), s.sign * np.sqrt(s.duty),
     ]  # fmt: skip
     for lag in past:
         before = np.maximum(index - lag, start)
         columns += [s.xdot[before], s.duty[before]]
-    return np.column_stack(columns)
+    return np.column_stack(columns), (s.t - s.t[start])[:, None]

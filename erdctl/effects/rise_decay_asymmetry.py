@@ -1,9 +1,11 @@
-"""Time constant that differs between rising and falling field.
+"""Time constant that differs between rising and falling yield force.
 
-    T_d -> r T_d after a downward step of the duty, T_d after an upward one
+    T dF_ER/dt + F_ER = u,   T = T_d while |u| >= |F_ER|,   T = r T_d while |u| < |F_ER|
 
-r : ratio [1], r > 0, off at 1;  before the first step of a record it counts as rising
-Valid for a duty logged as commanded, held between its steps: noise on it would count as steps.
+r : ratio [1], r > 0, off at 1
+Valid where one ratio holds for both directions of motion.
+Chains form at one rate and dissolve at another, whatever makes the yield force rise or fall: a step
+of the duty, or a reversal towards the direction with the smaller steady force.
 Check: r = 2, T_d = 43 ms: 86 ms after a step from 0.3 to 0, F_ER has fallen to exp(-1) = 0.3679.
 Source: J.-H. Koo, F. D. Goncalves, M. Ahmadian, A comprehensive analysis of the response time of MR
 dampers, Smart Mater. Struct. 15 (2006) 351-358.
@@ -20,23 +22,18 @@ from erdctl.signals import Signals
 
 
 def rise_decay_asymmetry(s: Signals, p: Values) -> Array:
-    """(n,) factor of T_d [1]."""
-    change = np.diff(s.duty, prepend=s.duty[:1])
-    change[s.starts[:-1]] = 0.0
-    mark = np.where(change != 0.0, np.arange(len(s)), 0)
-    mark[s.starts[:-1]] = s.starts[:-1]
-    falling = change[np.maximum.accumulate(mark)] < 0.0
-    return np.where(falling, p["r"], 1.0)
+    """(n,) factor of T_d while the yield force falls [1]."""
+    return np.full(len(s), p["r"])
 
 
 EFFECT = Effect(
     name="rise_decay_asymmetry",
     stage=Stage.FIELD,
     slot=Slot.LAG,
-    title="T_d differs between rising and falling field",
-    equation="T_d -> r T_d while the field decays",
+    title="T_d differs between rising and falling yield force",
+    equation="T_d -> r T_d while |F_ER| > |u|",
     source="Koo, Goncalves and Ahmadian, Smart Mater. Struct. 15 (2006) 351-358",
-    validity="a duty that is logged as commanded and held between its steps",
+    validity="one ratio for both directions of motion",
     requires=(Requirement.FIELD, Requirement.STEPS),
     shows=Variable.SINCE_DUTY_STEP,
     quantities=(

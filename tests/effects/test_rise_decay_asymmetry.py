@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from made import act, force, signals
+from made import force, signals
+
+from erdctl import effects
+from erdctl.model import Model
 
 
 def test_check_value() -> None:
@@ -15,7 +18,22 @@ def test_check_value() -> None:
     assert found[186] / found[100] == pytest.approx(np.exp(-1))
 
 
-def test_follows_the_last_step_in_each_record() -> None:
-    duty = [0.3, 0.1, 0.1, 0.2, 0.2, 0.1, 0.1, 0.1]
-    factor = act("rise_decay_asymmetry", signals(np.ones(8), duty=duty, starts=[0, 6, 8]), {"r": 3})
-    assert factor == pytest.approx([1, 3, 3, 1, 1, 3, 1, 1])
+def test_falls_at_a_reversal_too() -> None:
+    """Release has the smaller yield force: after the turn it is left at the slower rate."""
+    xdot = np.where(np.arange(201) <= 100, 0.1, -0.1)
+    s = signals(xdot, duty=np.full(201, 1.0), step=0.001)
+    model = Model((effects.get("rise_decay_asymmetry"),))
+    values = {n: 0.0 for n in model.quantities} | {
+        "compression.sigma": 10.0, "release.sigma": 4.0, "compression.beta": 1.0,
+        "release.beta": 1.0, "compression.T_d": 0.02, "release.T_d": 0.02,
+        "rise_decay_asymmetry.r": 3.0,
+    }  # fmt: skip
+    found = -model.force(s, values)[161] - 4.0
+    assert found == pytest.approx(6.0 * np.exp(-60.5 / 60.0))
+
+
+def test_rise_is_left_alone() -> None:
+    duty = np.where(np.arange(101) < 50, 0.1, 0.4)
+    s = signals(np.full(101, 0.1), duty=duty, step=0.001)
+    with_it = force("rise_decay_asymmetry", s, {"r": 5.0})
+    assert with_it == pytest.approx(force("rise_decay_asymmetry", s, {"r": 1.0}))
