@@ -26,6 +26,7 @@ def effect(slot: Slot, apply: Any, name: str = "probe") -> Effect:
     )  # fmt: skip
 
 
+NOT_LINEAR = (Slot.SERIES, Slot.FEEDBACK, Slot.LAG)  # the force acts on itself
 SLOTS: dict[Slot, Any] = {
     Slot.MOTION: lambda s, p: s.with_motion((1 + p["p"]) * s.x, (1 + p["p"]) * s.xdot),
     Slot.CONTROL: lambda s, p: s.duty * (1 + p["p"]),
@@ -56,7 +57,7 @@ def test_every_slot_is_exact_when_off_and_acts_when_on(slot: Slot, s: Signals) -
     assert not np.allclose(model.force(s, TRUTH | {"probe.p": 0.5}), plain)
 
 
-@pytest.mark.parametrize("slot", [s for s in Slot if s not in (Slot.SERIES, Slot.FEEDBACK)])
+@pytest.mark.parametrize("slot", [s for s in Slot if s not in NOT_LINEAR])
 def test_columns_times_amplitudes_is_the_force(slot: Slot, s: Signals) -> None:
     model = Model((effect(slot, SLOTS[slot]),))
     values = TRUTH | {"probe.p": 0.7}
@@ -77,7 +78,7 @@ def test_two_laws_for_one_place_are_refused(s: Signals) -> None:
         Model(laws).force(s, TRUTH | {"a.p": 0.0, "b.p": 0.0})
 
 
-@pytest.mark.parametrize("slot", [Slot.SERIES, Slot.FEEDBACK])
+@pytest.mark.parametrize("slot", NOT_LINEAR)
 def test_feedback_has_no_columns(slot: Slot, s: Signals) -> None:
     with pytest.raises(ValueError, match="not linear"):
         Model((effect(slot, SLOTS[slot]),)).columns(s, TRUTH | {"probe.p": 0.1})
