@@ -22,7 +22,7 @@ from erdctl.model import Model
 from erdctl.paper import QUANTITIES
 from erdctl.recording import DIRECTIONS
 
-SEARCH = 8_000  # samples of the search; the best starts are then fitted to all
+SEARCH = 6_000  # samples of the search; the best starts are then fitted to all
 LOOK = 6  # evaluations that rank a start
 SHARPEN = 60  # evaluations for those that are kept
 KEPT = 3  # starts that are searched to the end
@@ -39,19 +39,13 @@ class Reached:
     cost: float
 
 
-def best_fit(
-    study: Study, effects: Sequence[Effect], damper: Values, diagnosed: Values
-) -> Reached | None:
-    """The true structure on a log; None if its effects cannot act together in erdctl's model.
+def best_fit(study: Study, effects: Sequence[Effect], damper: Values, diagnosed: Values) -> Reached:
+    """The true structure on a log.
 
     damper : the plant's own paper parameters, to start from
     diagnosed : what the diagnosis found, a start for those effects that it holds
     """
     model = Model(tuple(effects))
-    try:
-        model.prepare(study.block.signals, {**_defaults(model), **damper})
-    except ValueError:
-        return None  # two laws for one place of the paper's model
     rough = prepare(thinned(study.recording, SEARCH))
     guesses = [_guesses(rough, e, damper, diagnosed, few=len(effects) > 1) for e in effects]
     points = [_joined([damper, *point]) for point in product(*guesses)]

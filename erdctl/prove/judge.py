@@ -135,7 +135,7 @@ def _errors(sealed: Sealed, found: Diagnosis, key: Mapping[str, Any]) -> Errors:
     if hidden and all(name in CATALOGUE for name in hidden):
         truth = [effects.get(name) for name in hidden]
         reached = best_fit(found.study, truth, damper_values(key), corrected.values)
-        best = None if reached is None else rms(reached.model, reached.values)
+        best = rms(reached.model, reached.values)
     return Errors(
         paper=rms(base.model, base.values),
         corrected=rms(corrected.model, corrected.values),

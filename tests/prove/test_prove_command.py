@@ -1,0 +1,104 @@
+"""`erdctl prove` as a user calls it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pyarrow.parquet as pq
+import pytest
+
+from erdctl.plant import key
+from erdctl.plant.draw import draw
+from erdctl.prove.case import Wish
+from erdctl.prove.document import from_json
+from erdctl.prove.judge import Failed
+from erdctl.prove.run import prove
+
+ERDCTL = [sys.executable, "-m", "erdctl", "prove"]
+SEED = 214  # this and the next have short campaigns
+
+
+def run(*arguments: object, code: int = 0) -> subprocess.CompletedProcess[str]:
+    done = subprocess.run([*ERDCTL, *map(str, arguments)], capture_output=True, text=True)
+    assert done.returncode == code, done.stderr
+    assert "Traceback" not in done.stderr
+    return done
+
+
+def test_two_cases_from_seed_to_scoreboard(tmp_path: Path) -> None:
+    """One test, as under xdist every process that had a part of it would run the cases anew."""
+    kept, out = tmp_path / "kept", tmp_path / "proof.json"
+    done = run("--seed", SEED, "--cases", 2, "--kind", "null", "--jobs", 2, "--keep", kept,
+               "-o", out, "--json")  # fmt: skip
+    document = json.loads(done.stdout)
+    assert document == json.loads(out.read_text())
+    proof = from_json(document)
+    assert [r.seed for r in proof.results] == [SEED, SEED + 1]
+
+    lines = done.stderr.splitlines()
+    for result in proof.results:
+        data = (kept / "keys" / f"case-{result.number:03d}.json").read_bytes()
+        assert result.key_sha256 == hashlib.sha256(data).hexdigest()
+        assert json.loads(data)["seed"] == key(draw(result.seed, kind="null"))["seed"]
+        (shown,) = [
+            i for i, line in enumerate(lines) if line.endswith(f"sha256 {result.key_sha256}")
+        ]
+        (scored,) = [i for i, line in enumerate(lines) if line.startswith(f"seed {result.seed} ")]
+        assert shown < scored
+        table = pq.read_table(kept / "logs" / f"case-{result.number:03d}.parquet")
+        assert table.column_names == ["t", "x", "xdot", "duty", "force", "record"]
+        found = json.loads((kept / "diagnoses" / f"case-{result.number:03d}.json").read_text())
+        assert found["verdict"] == result.verdict
+    assert "Nothing hidden, by the colour of the noise" in done.stderr
+
+    sealed = []
+    first, _ = proof.results
+    again = prove(
+        Wish(kind="null"), [SEED], tmp_path / "again", jobs=1,
+        on_sealed=lambda s: sealed.append((s.sha256, s.diagnosis.exists())),
+    )  # fmt: skip
+    assert again == (first,)
+    assert sealed == [(first.key_sha256, False)]
+
+
+def test_a_case_that_fails_does_not_take_the_others_with_it(tmp_path: Path) -> None:
+    told: list[int] = []
+    outcomes = prove(
+        Wish(kind="triple"), [3, 4], tmp_path, jobs=1, on_outcome=lambda o: told.append(o.number)
+    )
+    assert [(o.number, o.seed) for o in outcomes] == [(1, 3), (2, 4)]
+    assert told == [1, 2]
+    assert all(isinstance(o, Failed) and "kind is 'triple'" in o.message for o in outcomes)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--effects", "phlogiston"],
+        ["--kind", "triple"],
+        ["--level", "0"],
+        ["--motion", "still"],
+        ["--concealment", "buried"],
+        ["--colour", "mauve"],
+        ["--kind", "null", "--effects", "backlash"],
+        ["-o", "/no/such/folder/proof.json"],
+    ],
+)
+def test_wrong_usage_is_one_line(arguments: list[str]) -> None:
+    assert len(run(*arguments, code=2).stderr.splitlines()) == 1
+
+
+def test_a_directory_that_holds_something_is_not_written_into(tmp_path: Path) -> None:
+    (tmp_path / "mine").touch()
+    assert "not empty" in run("--keep", tmp_path, code=2).stderr
+
+
+def test_help_has_examples_and_exit_codes() -> None:
+    text = run("--help").stdout
+    assert "Examples:" in text
+    assert "erdctl prove --cases 200" in text
+    assert "Exit codes" in text
