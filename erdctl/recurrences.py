@@ -151,6 +151,8 @@ def forming(
     Check: u = 1 then 0 N, T_d = 10 ms, falls = 2: exp(-1) = 0.3679 N after 20 ms.
     """
     out = np.empty(len(u_c))
+    # Steps are mostly alike, and an exponential costs more than all the rest.
+    exponents, fades = np.full(4, -1.0), np.ones(4)
     for r in range(len(starts) - 1):
         if starts[r] == starts[r + 1]:
             continue
@@ -168,7 +170,12 @@ def forming(
                     span *= before[i] if leg == 0 else 1.0 - before[i]
                 u = u_c[i] if up else u_r[i]
                 T = T_c if up else T_r
+                kind = 0 if up else 1
                 if abs(u) < abs(y):
                     T *= falls[i]
-                y = u + (y - u) * np.exp(-span / T)
+                    kind += 2
+                e = span / T
+                if e != exponents[kind]:
+                    exponents[kind], fades[kind] = e, np.exp(-e)
+                y = u + (y - u) * fades[kind]
     return out

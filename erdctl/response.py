@@ -125,7 +125,7 @@ class Prepared:
         Forces that do not depend on speed alone act on the recorded motion, outside the spring. A
         gas law in place of x is moved by the spring as x is: their slopes differ by little there.
         """
-        from erdctl.series import march, speed_grid
+        from erdctl.series import along, march, speed_grid
 
         s, inner = self.signals, spring.carries is None
         grid = speed_grid(float(np.abs(s.xdot).max()))
@@ -145,12 +145,10 @@ class Prepared:
             k[0], k[1], T[0], T[1], compliance,
         )  # fmt: skip
 
-        def along(law: Array) -> Array:
-            speed = np.abs(v)
-            there = np.where(v > 0, np.interp(speed, grid, law[0]), np.interp(speed, grid, law[1]))
-            return np.where(v == 0, 0.0, there)
-
-        out = {"viscous": along(viscous) * gain["viscous"], "other": along(friction)}
+        out = {
+            "viscous": along(v, grid, viscous) * gain["viscous"],
+            "other": along(v, grid, friction),
+        }
         if inner:
             gas = (self.gas - compliance * force) * s.with_motion(s.x, v).per_direction(*k)
             out["gas"] = gas * gain["gas"]

@@ -15,6 +15,8 @@ Source: return mapping of elasto-viscoplasticity, Simo and Hughes, Computational
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 import numpy.typing as npt
 from numba import njit
@@ -25,6 +27,7 @@ NODES = 192  # of the speed grid: laws between nodes are straight lines
 SLOWEST = 0.25  # of the speed in a step that the end of it may have in the rule below
 
 
+@lru_cache(maxsize=64)
 def speed_grid(fastest: float) -> Array:
     """(NODES,) speeds [m/s] on which laws are tabulated, well beyond the fastest recorded one."""
     return np.geomspace(1e-7, 4.0 * max(fastest, 1e-3), NODES)
@@ -134,3 +137,17 @@ def march(
                     up = v > 0.0
             force[i], speed[i] = F, v
     return force, speed
+
+
+@njit(cache=True)
+def along(v: Array, grid: Array, law: Array) -> Array:
+    """(n,) value of a law (2, m) on a grid of speeds at the speeds v (n,); 0 at rest."""
+    out = np.zeros(len(v))
+    for i in range(len(v)):
+        if v[i] == 0.0:
+            continue
+        branch, speed = (0 if v[i] > 0.0 else 1), abs(v[i])
+        j = min(max(np.searchsorted(grid, speed), 1), len(grid) - 1)
+        w = min(max((speed - grid[j - 1]) / (grid[j] - grid[j - 1]), 0.0), 1.0)
+        out[i] = law[branch, j - 1] * (1.0 - w) + law[branch, j] * w
+    return out

@@ -69,13 +69,14 @@ class Signals:
         still = self.xdot == 0
         if not still.any():
             return up
-        for a, b in pairwise(self.starts.tolist()):
-            moving = np.flatnonzero(~still[a:b])
-            if moving.size == 0:
-                up[a:b] = True
-            elif moving.size < b - a:
-                last = np.maximum(np.searchsorted(moving, np.arange(b - a), side="right") - 1, 0)
-                up[a:b] = up[a:b][moving[last]]
+        index = np.arange(len(self))
+        lengths = np.diff(self.starts)
+        first, end = np.repeat(self.starts[:-1], lengths), np.repeat(self.starts[1:], lengths)
+        last = np.maximum.accumulate(np.where(still, -1, index))
+        ahead = np.minimum.accumulate(np.where(still, len(self), index)[::-1])[::-1]
+        to = np.where(last >= first, last, ahead)
+        never = (last < first) & (ahead >= end)
+        up = np.where(never, True, up[np.minimum(to, len(self) - 1)])
         return up
 
     @cached_property

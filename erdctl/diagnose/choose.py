@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from erdctl.diagnose.remains import examine
 from erdctl.diagnose.screen import Prospect, Screen
 from erdctl.diagnose.study import Study
 from erdctl.diagnose.trial import Trial, attempt, fresh_start
@@ -51,7 +52,8 @@ def compare(study: Study, worse: Trial, better: Trial) -> Comparison:
     mean = float(ratio.mean())
     scatter = float(ratio.std(ddof=1)) / np.sqrt(n) if n > 1 else np.inf
     gain = 1.0 - better.score(study) / worse.score(study)
-    return Comparison(gain, mean / scatter if scatter > 0 else np.sign(mean) * np.inf)
+    clear = mean / scatter if scatter > 0 else float(np.sign(mean)) * np.inf
+    return Comparison(gain, float(clear))
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,28 +72,38 @@ class Choice:
     rivals: Mapping[str, tuple[tuple[str, Trial], ...]]
 
 
-def confirm(study: Study, found: Choice) -> Choice:
-    """The same choice refitted on another study, usually all samples, from where it was found."""
+def confirm(study: Study, found: Choice, progress: Progress) -> Choice:
+    """The same choice refitted on another study, usually all samples, from where it was found.
+
+    What a part of the samples spoke for and all of them do not is dropped.
+    """
 
     def again(trial: Trial) -> Trial:
+        progress("all samples", ", ".join(e.name for e in trial.effects) or "the paper's model")
         return attempt(study, trial.effects, [trial.values])
 
-    return Choice(
-        base=again(found.base),
-        best=again(found.best),
-        singles=found.singles,
-        without={name: again(trial) for name, trial in found.without.items()},
-        rivals=found.rivals,
-    )
+    seen = {frozenset(e.name for e in t.effects): again(t) for t in (found.base, found.best)}
+    without = {name: again(trial) for name, trial in found.without.items()}
+    seen |= {frozenset(e.name for e in t.effects): t for t in without.values()}
+    best = seen[frozenset(e.name for e in found.best.effects)]
+    best = _prune(study, best, seen, progress)
+    names = [e.name for e in best.effects]
+    without = {n: seen[frozenset(names) - {n}] for n in names}
+    rivals = {n: found.rivals[n] for n in names}
+    return Choice(seen[frozenset()], best, found.singles, without, rivals)
 
 
-def choose(study: Study, candidates: Sequence[Effect], most: int, progress: Progress) -> Choice:
+def choose(
+    study: Study, candidates: Sequence[Effect], most: int, progress: Progress, seed: int = 0
+) -> Choice:
     """Search for the effects, at most `most`, that the recording shows."""
     base = attempt(study, (), [fresh_start(0.05, 0.4), fresh_start(0.01, 1.0)])
     best, pool = base, [base]
     seen: dict[frozenset[str], Trial] = {frozenset(): base}
     singles: list[Trial] = []
     for depth in range(most):
+        if depth and not examine(study, best.residual, seed).real:
+            break  # more effects would have nothing to explain
         grown = []
         for parent in pool:
             taken = frozenset(e.name for e in parent.effects)
@@ -115,11 +127,19 @@ def choose(study: Study, candidates: Sequence[Effect], most: int, progress: Prog
         # Also hypotheses that gain nothing alone: one may be worth something beside another.
         pool = (better or grown)[:BEAM]
     best = _prune(study, best, seen, progress)
-    without, rivals = {}, {}
+    rivals: dict[str, tuple[tuple[str, Trial], ...]] = {}
+    for effect in best.effects:
+        found = _rivals(study, best, effect, candidates, singles, seen, progress)
+        name = effect.name
+        if found and found[0][1].score(study) < best.score(study):
+            # The likeliest has the name.
+            name, first = found[0]
+            found, best = [(effect.name, best), *found[1:]], first
+        rivals[name] = tuple(found[:2])
+    without = {}
     for effect in best.effects:
         rest = tuple(e for e in best.effects if e is not effect)
         without[effect.name] = _refit(study, best, rest, seen)
-        rivals[effect.name] = _rivals(study, best, effect, candidates, singles, seen, progress)
     return Choice(base, best, tuple(singles), without, rivals)
 
 
@@ -143,12 +163,22 @@ def _prospects(
         if prospect is not None:
             found.append(prospect)
     found.sort(key=lambda p: -p.gain)
+    found = _unlike(found)
     bar = HOPE * found[0].gain if found else 0.0
     # What feeds the force back can be worth nothing near the present fit and all of it elsewhere.
     return [
         p for i, p in enumerate(found)
         if i < ALWAYS or p.gain > bar or p.effect.slot in (Slot.SERIES, Slot.FEEDBACK)
     ]  # fmt: skip
+
+
+def _unlike(prospects: Sequence[Prospect]) -> list[Prospect]:
+    """Of those that no force data can tell apart the first; the others are tried as its rivals."""
+    kept: list[Prospect] = []
+    for p in prospects:
+        if not any(p.effect.name in k.effect.equivalents for k in kept):
+            kept.append(p)
+    return kept
 
 
 def _extend(study: Study, parent: Trial, prospect: Prospect) -> Trial | None:
@@ -204,7 +234,7 @@ def _rivals(
     singles: Sequence[Trial],
     seen: dict[frozenset[str], Trial],
     progress: Progress,
-) -> tuple[tuple[str, Trial], ...]:
+) -> list[tuple[str, Trial]]:
     """Effects that explain as much in the place of one: no worse by more than scatter."""
     rest = tuple(e for e in best.effects if e is not effect)
     order = sorted(singles, key=lambda t: t.score(study))
@@ -228,4 +258,4 @@ def _rivals(
         if against.clear < TIE or against.gain < LEAST:
             found.append((rival.name, seen[key]))
     found.sort(key=lambda f: f[1].score(study))
-    return tuple(found[:2])
+    return found

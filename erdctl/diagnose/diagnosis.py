@@ -80,9 +80,8 @@ def diagnose(
     study = prepare(recording)
     missing = untestable(study, candidates)
     testable = [e for e in candidates if e.name not in missing]
-    choice = choose(prepare(thinned(recording, SEARCH)), testable, most, progress)
-    progress("all samples", "")
-    choice = confirm(study, choice)
+    choice = choose(prepare(thinned(recording, SEARCH)), testable, most, progress, seed)
+    choice = confirm(study, choice, progress)
     best = choice.best
     progress("what remains", "")
     remainder = examine(study, best.residual, seed)
