@@ -32,6 +32,7 @@ class Group:
 
     named : first finding right;  wrong : first finding wrong
     all_found : every hidden effect has its finding;  spurious : findings a case that match nothing
+    right : verdict as it should be for what is hidden
     removed : median part of the error removed, of what the true structure would remove
     """
 
@@ -43,6 +44,7 @@ class Group:
     adequate: Rate
     explained: Rate
     unexplained: Rate
+    right: Rate
     located: Rate
     spurious: float | None
     removed: float | None
@@ -151,6 +153,7 @@ def group(label: str, results: Sequence[Result]) -> Group:
         adequate=verdicts("adequate"),
         explained=verdicts("explained"),
         unexplained=verdicts("unexplained"),
+        right=Rate(sum(r.verdict == due(r) for r in results), len(results)),
         located=Rate(places.count(True), len(places)),
         spurious=mean(r.spurious for r in results) if results else None,
         removed=median(parts) if parts else None,
@@ -158,15 +161,19 @@ def group(label: str, results: Sequence[Result]) -> Group:
     )
 
 
+def due(r: Result) -> str:
+    """The verdict that a case deserves."""
+    return {"null": "adequate", "unknown": "unexplained"}.get(r.kind, "explained")
+
+
 def reasons(r: Result) -> tuple[str, ...]:
     """What is wrong with a case; nothing if it came out as it should."""
     out = []
-    wanted = {"null": "adequate", "unknown": "unexplained"}.get(r.kind, "explained")
     if r.named is False:
         out.append("wrong name first" if r.findings else "not named")
     if r.named is not None and r.matched < len(r.hidden) and r.matched:
         out.append(f"{r.matched} of {len(r.hidden)} found")
-    if r.verdict != wanted:
+    if r.verdict != due(r):
         out.append(f"verdict {r.verdict}")
     if r.spurious:
         out.append(f"{r.spurious} spurious")

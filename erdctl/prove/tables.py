@@ -61,16 +61,16 @@ def _every(s: Summary) -> Iterator[Table]:
          _rate(g.located)]
         for g in (s.unknowns,) if g.cases
     ]  # fmt: skip
-    split = ["", "cases", "named first", "all found", "adequate", "explained", "unexplained",
-             "located", "spurious a case"]  # fmt: skip
+    split = ["", "cases", "named first", "all found", "right verdict", "located",
+             "spurious a case"]  # fmt: skip
     for title, groups in (
         ("By kind and motion: as it was, or xdot from a noisy, quantised x", s.motions),
         ("Singles, by concealment", s.concealments),
         ("Everything", (s.whole,)),
     ):
         yield title, split, [
-            [g.label, str(g.cases), _rate(g.named), _rate(g.all_found), _rate(g.adequate),
-             _rate(g.explained), _rate(g.unexplained), _rate(g.located), _digits(g.spurious, 2)]
+            [g.label, str(g.cases), _rate(g.named), _rate(g.all_found), _rate(g.right),
+             _rate(g.located), _digits(g.spurious, 2)]
             for g in groups if g.cases
         ]  # fmt: skip
     yield (

@@ -55,6 +55,7 @@ def test_other_groups() -> None:
     assert s.unknowns.unexplained == Rate(0, 1)
     assert s.unknowns.explained == Rate(1, 1)
     assert s.whole.spurious == 3 / 8
+    assert s.whole.right == Rate(4, 8)  # 1, 2, 5 and 6
     assert s.whole.located == Rate(4, 5)
     assert [(e.effect, e.band, e.named) for e in s.effects] == [
         ("rub", ">= 2", Rate(2, 3)), ("rub", "0.2 to 1", Rate(0, 1))
