@@ -88,7 +88,7 @@ def manifest(
             {"name": s.name, "sha256": s.sha256, "rows": s.rows} for s in sequence.recording.sources
         ],
         "samples": len(sequence.recording),
-        "sequence": "static inverse (Eqs. 27, 31, 35)" if sequence.static else "lag compensated",
+        "sequence": _kind(sequence),
         "schedule": faults,
         "emulation": [
             {
@@ -96,6 +96,7 @@ def manifest(
                 "fault": str(r.fault),
                 "nrmse_compensated": r.compensated,
                 "nrmse_paper": r.paper,
+                **({} if r.plain is None else {"nrmse_plain": r.plain}),
                 "out_of_reach": r.out_of_reach,
                 "missing_rms": {"value": r.missing_rms, "unit": "N"},
                 "missing_max": {"value": r.missing_max, "unit": "N"},
@@ -103,4 +104,25 @@ def manifest(
             for channel, plan in sequence.plans.items()
             for r in plan.reaches
         ],
+        "correction": [
+            {
+                "channel": channel,
+                "effects": list(c.effects),
+                "effects_of_the_force_channel": list(c.left_out),
+                "nrmse": c.nrmse,
+                "nrmse_plain": c.plain,
+                "error_removed": c.removed,
+                "fell_back": c.fell_back,
+            }
+            for channel, c in ((k, p.correction) for k, p in sequence.plans.items())
+            if c is not None
+        ],
     }
+
+
+def _kind(sequence: Sequence) -> str:
+    if sequence.static:
+        return "static inverse (Eqs. 27, 31, 35)"
+    if any(p.correction and not p.correction.fell_back for p in sequence.plans.values()):
+        return "iterated with the corrected model"
+    return "lag compensated"

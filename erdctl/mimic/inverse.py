@@ -1,4 +1,4 @@
-"""Fault emulation, Sec. 6: the PWM sequence with which a healthy damper acts as a faulty one.
+"""The duty for a wanted yield force: the paper's static inverse, and one that looks ahead.
 
 The paper inverts the static model (Eqs. 24-35). With multipliers g of the gas, viscous and yield
 force (Eqs. 20, 22, 23) all three of its formulas are one:
@@ -7,7 +7,7 @@ force (Eqs. 20, 22, 23) all three of its formulas are one:
             + g_yield v^beta ]^(1/beta)                                       (27, 31, 35)
 
 (the paper's delta is its sigma). Where the bracket is negative no duty can mimic the fault: the
-yield force cannot push, so the duty is zero and the rest is reported as out of reach.
+yield force cannot push, so the duty is zero.
 
 Eq. 12 makes the force follow this v_f late. The compensated sequence looks one update ahead
 instead: it asks for the steady yield force u with which F_ER meets its target at the end of the
@@ -16,7 +16,7 @@ update, F(t + h) = exp(-h/T_d) F(t) + (1 - exp(-h/T_d)) u, within the limits of 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,157 +24,87 @@ import numpy.typing as npt
 
 from erdctl.amplifier import Amplifier
 from erdctl.effect import Slot
-from erdctl.faults import Fault, FaultFactors, effectiveness, factors
+from erdctl.faults import FaultFactors
 from erdctl.model import Model
 from erdctl.paper import field_law
-from erdctl.parameters import Parameters
-from erdctl.recording import DIRECTIONS, Array, Recording
+from erdctl.recording import DIRECTIONS, Array
 from erdctl.response import Prepared
-from erdctl.score import nrmse
 from erdctl.signals import Signals
 
-SMOOTH_SIGN = 0.05  # below this |sign law| a yield force cannot be told from none
-GRID = np.linspace(0.0, 1.0, 4001)
-
-
-@dataclass(frozen=True)
-class Reach:
-    """How well one fault can be mimicked while it is active.
-
-    compensated, paper : NRMSE of the expected force to the ideal faulty force, over its range
-    out_of_reach : part of the time in which no duty gives the ideal force
-    missing_rms, missing_max : force that is missing then [N]
-    """
-
-    fault: Fault
-    samples: int
-    compensated: float
-    paper: float
-    out_of_reach: float
-    missing_rms: float
-    missing_max: float
-
-
-@dataclass(frozen=True, eq=False)
-class Plan:
-    """A PWM sequence for one damper.
-
-    duty, duty_paper : (n,) compensated sequence, and the paper's static inverse
-    ideal, expected, expected_paper : (n,) ideal faulty force and what the sequences will give [N]
-    out_of_reach : (n,) no duty gives the ideal force
-    limited : part of the time in which the amplifier's limits, not the physics, hold the duty
-    """
-
-    duty: Array
-    duty_paper: Array
-    ideal: Array
-    expected: Array
-    expected_paper: Array
-    out_of_reach: npt.NDArray[np.bool_]
-    limited: float
-    reaches: tuple[Reach, ...]
-
-
-def mimic(
-    parameters: Parameters, recording: Recording, faults: Sequence[Fault], amplifier: Amplifier
-) -> Plan:
-    """Plan the duty sequence with which the damper mimics `faults` over a recording's motion.
-
-    The recording's duty is the healthy control.
-    """
-    model, values = parameters.model, parameters.values
-    signals = Signals.of(recording)
-    healthy = model.prepare(signals, values)
-    g = factors(faults, signals.t, signals.xdot, signals.starts)
-    groups = {"gas": g.gas, "viscous": g.viscous, "yield": g.yield_}
-    parts = healthy.parts(values)
-    ideal = healthy.force(values, groups)
-    rest = sum((f for name, f in parts.items() if name != "yield"), start=np.zeros(len(signals)))
-    active = np.abs(healthy.sign) > SMOOTH_SIGN
-    sign = np.where(active, healthy.sign, 1.0)
-    target = np.where(active, (ideal - rest) / sign, 0.0)
-    laws = (YieldLaw.of(model, values, DIRECTIONS[0]), YieldLaw.of(model, values, DIRECTIONS[1]))
-    wanted = static_duty(healthy, parts, g, laws)
-    duty_paper = follow(wanted, signals, amplifier)
-    duty = _compensate(target, healthy, values, laws, amplifier)
-
-    def expected(v: Array) -> Array:
-        return model.force(signals.with_duty(v), values)
-
-    force, force_paper = expected(duty), expected(duty_paper)
-    out = active & (target < 0.0)
-    reaches = []
-    for fault in faults:
-        on = effectiveness(fault, signals.t, signals.xdot, signals.starts) < 1.0
-        if not on.any():
-            continue
-        gap = np.where(out, np.abs(ideal - rest), 0.0)[on]
-        reaches.append(
-            Reach(
-                fault=fault,
-                samples=int(on.sum()),
-                compensated=nrmse(ideal[on], force[on]).nrmse,
-                paper=nrmse(ideal[on], force_paper[on]).nrmse,
-                out_of_reach=float(out[on].mean()),
-                missing_rms=float(np.sqrt(np.mean(gap**2))),
-                missing_max=float(gap.max()),
-            )
-        )
-    return Plan(
-        duty=duty,
-        duty_paper=duty_paper,
-        ideal=ideal,
-        expected=force,
-        expected_paper=force_paper,
-        out_of_reach=out,
-        limited=float(np.mean(wanted > amplifier.duty_max)),
-        reaches=tuple(reaches),
-    )
+NODES = np.linspace(0.0, 1.0, 1501) ** 6  # of a tabulated law, which is steepest where it sets in
 
 
 @dataclass(frozen=True)
 class YieldLaw:
     """Steady yield force of one direction against duty, and its inverse.
 
-    sigma, beta : of the paper's law;  table : (len(GRID),) normalised force on GRID where effects
-    change that law, else None
+    sigma, beta : of the paper's law
+    grid, table : (m,) duties and normalised forces where effects change that law, else None
     """
 
     sigma: float
     beta: float
-    table: Array | None
+    grid: Array | None = None
+    table: Array | None = None
 
     @classmethod
     def of(cls, model: Model, values: Mapping[str, float], direction: str) -> YieldLaw:
         """The law of a model in one direction."""
         sigma, beta = values[f"{direction}.sigma"], values[f"{direction}.beta"]
-        effects = model.of(Slot.FIELD)
-        if not effects:
-            return cls(sigma, beta, None)
-        zero = np.zeros_like(GRID)
-        grid = Signals(GRID, zero, zero, GRID, zero, np.array([0, len(GRID)]))
-        field = field_law(GRID, beta)
-        for effect in effects:
-            field = effect.act(field, grid, effect.local(values))
+        control, laws = model.of(Slot.CONTROL), model.of(Slot.FIELD)
+        if not control and not laws:
+            return cls(sigma, beta)
+
+        def steady(duties: Array) -> Array:
+            # Each duty has a record of its own, in which delays and ramps have long been over.
+            duty, zero = np.repeat(duties, 2), np.zeros(2 * len(duties))
+            step = np.tile([1.0, 0.0], len(duties))
+            held = Signals(1.0 - step, zero, zero, duty, step, np.arange(0, len(duty) + 1, 2))
+            for effect in control:
+                held = held.with_duty(effect.act(held, effect.local(values)))
+            field = field_law(held.duty, beta)
+            for effect in laws:
+                field = effect.act(field, held, effect.local(values))
+            return field[::2]
+
+        low, high = 0.0, 1.0  # between them the force sets in
+        for _ in range(5):
+            grid = np.linspace(low, high, 65)
+            some = np.flatnonzero(steady(grid) > 0.0)
+            first = int(some[0]) if some.size else 64
+            low, high = float(grid[max(first - 1, 0)]), float(grid[first])
+        grid = low + (1.0 - low) * NODES
         # A law may level off: the lowest duty that gives a force is the one to use.
-        return cls(sigma, beta, np.maximum.accumulate(field))
+        return cls(sigma, beta, grid, np.maximum.accumulate(steady(grid)))
 
     def duty(self, force: float | Array) -> Array:
         """Duty for a force [N] >= 0, above 1 if no duty gives it; below 0 counts as 0."""
         wanted = np.maximum(force, 0.0) / self.sigma if self.sigma > 0 else np.zeros_like(force)
-        if self.table is None:
+        if self.table is None or self.grid is None:
             return np.asarray(wanted ** (1.0 / self.beta))
-        within = np.interp(wanted, self.table, GRID)
+        # Below a threshold all duties give no force, and none is as good as any.
+        within = np.where(wanted > 0.0, np.interp(wanted, self.table, self.grid), 0.0)
         return np.where(wanted > self.table[-1], 1.0 + wanted, within)
 
     def force(self, duty: float) -> float:
         """Force [N] of a duty."""
-        if self.table is None:
+        if self.table is None or self.grid is None:
             return self.sigma * float(duty**self.beta)
-        return self.sigma * float(np.interp(duty, GRID, self.table))
+        return self.sigma * float(np.interp(duty, self.grid, self.table))
+
+    def forces(self, duty: Array) -> Array:
+        """Forces [N] of duties (n,)."""
+        if self.table is None or self.grid is None:
+            return np.asarray(self.sigma * duty**self.beta)
+        return np.asarray(self.sigma * np.interp(duty, self.grid, self.table))
 
 
 Laws = tuple[YieldLaw, YieldLaw]
+
+
+def laws_of(model: Model, values: Mapping[str, float]) -> Laws:
+    """The yield laws of compression and release."""
+    return (YieldLaw.of(model, values, DIRECTIONS[0]), YieldLaw.of(model, values, DIRECTIONS[1]))
 
 
 def static_duty(
@@ -222,7 +152,7 @@ def follow(wanted: Array, signals: Signals, amplifier: Amplifier) -> Array:
     return out
 
 
-def _compensate(
+def compensate(
     target: Array, healthy: Prepared, values: Mapping[str, float], laws: Laws, amplifier: Amplifier
 ) -> Array:
     """The duty with which F_ER (n,) meets its target one update ahead, update by update."""
