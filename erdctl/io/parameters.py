@@ -96,13 +96,31 @@ def parse_parameters(data: bytes, name: str) -> Parameters:
         for symbol, quantity in known.items():
             full = effect.key(symbol)
             estimates[full] = _estimate(extra.parameters[symbol], quantity, full, name)
-    return Parameters(
+    found = Parameters(
         model=Model(tuple(chosen)),
         estimates=estimates,
         provenance=document.provenance,
         fits=document.fits,
         warnings=tuple(document.warnings),
     )
+    if len(chosen) > 1:
+        _check_together(found, name)
+    return found
+
+
+def _check_together(parameters: Parameters, name: str) -> None:
+    """Refuse effects that no model can hold at once, before a command begins with them."""
+    import numpy as np
+
+    from erdctl.signals import Signals
+
+    t, still = np.array([0.0, 1e-3]), np.zeros(2)
+    moment = Signals(t, still, still + 1e-3, still, np.array([1e-3, 0.0]), np.array([0, 2]))
+    try:
+        parameters.model.force(moment, parameters.values)
+    except ValueError as error:
+        names = ", ".join(e.name for e in parameters.model.effects)
+        raise InputProblem(f"effects {names} together: {error}", file=name) from error
 
 
 def _estimate(given: Value | float, quantity: Quantity, full: str, name: str) -> Estimate:
