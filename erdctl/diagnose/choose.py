@@ -51,7 +51,7 @@ def compare(study: Study, worse: Trial, better: Trial) -> Comparison:
     n = len(ratio)
     mean = float(ratio.mean())
     scatter = float(ratio.std(ddof=1)) / np.sqrt(n) if n > 1 else np.inf
-    gain = 1.0 - better.score(study) / worse.score(study)
+    gain = 1.0 - better.score / worse.score
     clear = mean / scatter if scatter > 0 else float(np.sign(mean)) * np.inf
     return Comparison(gain, float(clear))
 
@@ -102,7 +102,7 @@ def choose(
     seen: dict[frozenset[str], Trial] = {frozenset(): base}
     singles: list[Trial] = []
     for depth in range(most):
-        if depth and not examine(study, best.residual, seed).real:
+        if depth and not examine(best.study, best.residual, seed).real:
             break  # more effects would have nothing to explain
         grown = []
         for parent in pool:
@@ -118,7 +118,7 @@ def choose(
                     grown.append(trial)
         if not depth:
             singles = grown
-        grown.sort(key=lambda t: (t.score(study), len(t.model.shape)))
+        grown.sort(key=lambda t: (t.score, len(t.model.shape)))
         better = [t for t in grown if compare(study, best, t).real]
         if better:
             best = better[0]
@@ -131,7 +131,7 @@ def choose(
     for effect in best.effects:
         found = _rivals(study, best, effect, candidates, singles, seen, progress)
         name = effect.name
-        if found and found[0][1].score(study) < best.score(study):
+        if found and found[0][1].score < best.score:
             # The likeliest has the name.
             name, first = found[0]
             found, best = [(effect.name, best), *found[1:]], first
@@ -219,7 +219,7 @@ def _prune(
             progress("second pass", effect.name)
             rest = tuple(e for e in best.effects if e is not effect)
             lesser.append(_refit(study, best, rest, seen))
-        nearest = min(lesser, key=lambda t: t.score(study))
+        nearest = min(lesser, key=lambda t: t.score)
         if compare(study, nearest, best).real:
             return best
         best = nearest
@@ -237,7 +237,7 @@ def _rivals(
 ) -> list[tuple[str, Trial]]:
     """Effects that explain as much in the place of one: no worse by more than scatter."""
     rest = tuple(e for e in best.effects if e is not effect)
-    order = sorted(singles, key=lambda t: t.score(study))
+    order = sorted(singles, key=lambda t: t.score)
     likely = [t.effects[0] for t in order[:6]]
     likely += [c for c in candidates if c.name in effect.equivalents]
     names = {e.name for e in best.effects}
@@ -257,5 +257,5 @@ def _rivals(
         against = compare(study, seen[key], best)
         if against.clear < TIE or against.gain < LEAST:
             found.append((rival.name, seen[key]))
-    found.sort(key=lambda f: f[1].score(study))
+    found.sort(key=lambda f: f[1].score)
     return found

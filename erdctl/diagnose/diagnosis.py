@@ -9,7 +9,7 @@ from enum import StrEnum
 import numpy as np
 
 from erdctl.assess import Fit, assess
-from erdctl.blocks import Block, thinned
+from erdctl.blocks import thinned
 from erdctl.diagnose.choose import Choice, Comparison, Progress, choose, compare, confirm
 from erdctl.diagnose.distinguish import Test, telling_apart
 from erdctl.diagnose.locate import Region, locate
@@ -84,7 +84,7 @@ def diagnose(
     choice = confirm(study, choice, progress)
     best = choice.best
     progress("what remains", "")
-    remainder = examine(study, best.residual, seed)
+    remainder = examine(best.study, best.residual, seed)
     noise = remainder.noise_rms
     left = remainder.real and remainder.misfit_rms > LEFT * noise
     if left:
@@ -95,7 +95,7 @@ def diagnose(
     energy = (best.residual - choice.base.residual) ** 2
     if left:
         energy += remainder.excess
-    mismatch = locate(study, energy) if verdict is not Verdict.ADEQUATE else []
+    mismatch = locate(best.study, energy) if verdict is not Verdict.ADEQUATE else []
     return Diagnosis(
         verdict=verdict,
         noise_rms=noise,
@@ -141,13 +141,13 @@ def _findings(study: Study, choice: Choice) -> tuple[Finding, ...]:
     scale = float(np.ptp(study.block.force))
     found = []
     with_all = best.model.force(study.block.signals, best.values)
-    ranking = sorted(choice.singles, key=lambda t: t.score(study))
+    ranking = sorted(choice.singles, key=lambda t: t.score)
     chosen = {e.name for e in best.effects}
     runner = next((t.effects[0].name for t in ranking if t.effects[0].name not in chosen), None)
     for effect in best.effects:
         without = choice.without[effect.name]
         absent = without.model.force(study.block.signals, without.values)
-        regions = locate(study, (with_all - absent) ** 2)
+        regions = locate(best.study, (with_all - absent) ** 2)
         found.append(
             Finding(
                 effect=effect,
@@ -155,8 +155,8 @@ def _findings(study: Study, choice: Choice) -> tuple[Finding, ...]:
                 test=telling_apart(study, best, choice.rivals[effect.name]),
                 gain=compare(study, without, best),
                 where=regions[0] if regions else None,
-                before=float(np.sqrt(without.score(study))) / scale,
-                after=float(np.sqrt(best.score(study))) / scale,
+                before=float(np.sqrt(without.score)) / scale,
+                after=float(np.sqrt(best.score)) / scale,
                 runner_up=runner,
             )
         )
@@ -166,8 +166,9 @@ def _findings(study: Study, choice: Choice) -> tuple[Finding, ...]:
 def _errors(study: Study, trial: Trial) -> Fit:
     model = trial.model
     at_bound = [n for n, q in model.quantities.items() if not q.low < trial.values[n] < q.high]
-    block = Block(study.block.signals, study.block.force, study.block.weight)
-    return assess(model, [block], trial.values, fixed={*study.held, *at_bound}, threads=1)
+    return assess(
+        model, [trial.study.block], trial.values, fixed={*study.held, *at_bound}, threads=1
+    )
 
 
 def _validate(recording: Recording, trial: Trial) -> Validation:

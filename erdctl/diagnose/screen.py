@@ -45,7 +45,7 @@ class Screen:
 
     def __init__(self, study: Study, parent: Trial) -> None:
         self.study, self.parent = study, parent
-        self.root = np.sqrt(study.block.weight)
+        self.root = np.sqrt(parent.study.block.weight)
         signals = study.block.signals
         free = [
             n for n, q in parent.model.quantities.items()

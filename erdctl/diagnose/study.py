@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from erdctl.blocks import Block, whole
+from erdctl.effect import Slot, Values
 from erdctl.excitation import Need, unmet
+from erdctl.model import Model
 from erdctl.recording import Array, Index, Recording
 from erdctl.signals import Signals
 
 GROUPS = 24  # stretches left out in turn, if the log has fewer records than that
 SHORTEST = 0.8  # s; of such a stretch: longer than noise remembers
+SEEN = 1e-3  # part of a doubtful sample in another that makes that one doubtful
 UNCERTAIN = 3.0  # standard deviations of xdot's noise within which its sign is not known
 
 
@@ -46,6 +49,23 @@ class Study:
         """(g,) weighted sum of (n,) values in each group."""
         sums = np.bincount(self.group, values * self.block.weight, self.count)
         return sums.astype(np.float64)
+
+
+def sure(study: Study, model: Model, values: Values) -> Study:
+    """The study without the samples that a force channel fills from doubtful ones.
+
+    A channel that is late shows the turn of a record late, too: with its uncertain direction, and
+    drawn out over the samples between which the force jumps.
+    """
+    channel = model.of(Slot.CHANNEL)
+    if not channel:
+        return study
+    s = study.block.signals
+    doubt, sign = uncertain(s).astype(np.float64), s.sign
+    for effect in channel:
+        doubt, sign = (effect.act(column, s, effect.local(values)) for column in (doubt, sign))
+    weight = np.where((doubt > SEEN) | (np.abs(sign) < 1.0 - SEEN), 0.0, study.block.weight)
+    return replace(study, block=study.block._replace(weight=weight))
 
 
 def prepare(recording: Recording) -> Study:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from erdctl.assess import jacobian
-from erdctl.diagnose.study import Study
+from erdctl.diagnose.study import Study, sure
 from erdctl.effect import Effect
 from erdctl.fit import fit
 from erdctl.model import Model
@@ -23,10 +23,12 @@ KEPT = 0.05
 class Trial:
     """A fitted model.
 
+    study : what it was fitted to, but for samples of which its channel makes nothing certain
     residual : (n,) [N];  own : (g,) mean square of each group in the fit
     unseen : (g,) mean square of each group when the fit leaves it out
     """
 
+    study: Study
     model: Model
     values: dict[str, float]
     residual: Array
@@ -39,9 +41,10 @@ class Trial:
         """The effects beyond the paper's model."""
         return self.model.effects
 
-    def score(self, study: Study) -> float:
-        """Mean square over what was not seen."""
-        return float(np.average(self.unseen, weights=study.weight_of))
+    @property
+    def score(self) -> float:
+        """Mean square over what was not seen [N^2]."""
+        return float(np.average(self.unseen, weights=self.study.weight_of))
 
 
 def attempt(
@@ -52,25 +55,32 @@ def attempt(
 ) -> Trial:
     """Fit from every start and judge the best by leaving groups out."""
     model = Model(tuple(effects))
-    best: tuple[float, dict[str, float], Array] | None = None
-    evaluations = 0
-    for start in starts:
-        full = {**{n: q.start for n, q in model.quantities.items()}, **start, **study.held}
-        values, count, _ = fit(
-            model, study.block, start=full, fixed=study.held, max_evaluations=max_evaluations
-        )
+    found = [_fitted(study, model, start, max_evaluations) for start in starts]
+    values, residual, _ = min(found, key=lambda f: _cost(study, f[1]))
+    evaluations = sum(count for _, _, count in found)
+    part = sure(study, model, values)
+    if part is not study:
+        values, residual, count = _fitted(part, model, values, max_evaluations)
+        part = sure(study, model, values)
         evaluations += count
-        residual = study.block.force - model.force(study.block.signals, values)
-        cost = float(np.dot(study.block.weight, residual * residual))
-        cost = cost if np.isfinite(cost) else np.inf
-        if best is None or cost < best[0]:
-            best = (cost, values, residual)
-    assert best is not None
-    _, values, residual = best
-    own = study.per_group(residual**2) / np.maximum(study.weight_of, 1e-300)
-    return Trial(
-        model, values, residual, own, leave_out(study, model, values, residual), evaluations
+    own = part.per_group(residual**2) / np.maximum(part.weight_of, 1e-300)
+    unseen = leave_out(part, model, values, residual)
+    return Trial(part, model, values, residual, own, unseen, evaluations)
+
+
+def _fitted(
+    study: Study, model: Model, start: Mapping[str, float], max_evaluations: int
+) -> tuple[dict[str, float], Array, int]:
+    full = {**{n: q.start for n, q in model.quantities.items()}, **start, **study.held}
+    values, count, _ = fit(
+        model, study.block, start=full, fixed=study.held, max_evaluations=max_evaluations
     )
+    return values, study.block.force - model.force(study.block.signals, values), count
+
+
+def _cost(study: Study, residual: Array) -> float:
+    cost = float(np.dot(study.block.weight, residual * residual))
+    return cost if np.isfinite(cost) else np.inf
 
 
 def leave_out(study: Study, model: Model, values: Mapping[str, float], residual: Array) -> Array:

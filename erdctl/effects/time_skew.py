@@ -33,6 +33,14 @@ def time_skew(column: Array, s: Signals, p: Values) -> Array:
     return out
 
 
+def delays(s: Signals) -> list[dict[str, float]]:
+    """Starts of a search: the cost has a dip of its own for every jump that meets another."""
+    step = s.typical_step or 1e-3
+    longest = 0.2 * float(np.diff(s.t[[s.starts[:-1], s.starts[1:] - 1]], axis=0).min())
+    sizes = np.geomspace(step, max(min(longest, 0.3), 2.0 * step), 12).tolist()
+    return [{"tau": way * size} for size in sizes for way in (1.0, -1.0)]
+
+
 EFFECT = Effect(
     name="time_skew",
     stage=Stage.MOTION,
@@ -50,4 +58,5 @@ EFFECT = Effect(
         ),
     ),
     apply=time_skew,
+    guesses=delays,
 )  # fmt: skip
