@@ -76,8 +76,7 @@ class Signals:
         ahead = np.minimum.accumulate(np.where(still, len(self), index)[::-1])[::-1]
         to = np.where(last >= first, last, ahead)
         never = (last < first) & (ahead >= end)
-        up = np.where(never, True, up[np.minimum(to, len(self) - 1)])
-        return up
+        return np.where(never, True, up[np.minimum(to, len(self) - 1)])
 
     @cached_property
     def turns(self) -> tuple[Index, Array]:

@@ -16,9 +16,11 @@ from erdctl.diagnose.screen import Prospect, Screen
 from erdctl.diagnose.study import Study
 from erdctl.diagnose.trial import Trial, attempt, fresh_start
 from erdctl.effect import Effect, Slot
+from erdctl.recording import Array
 
 BEAM = 3  # hypotheses that are extended side by side
-CLEAR = 3.0  # how many times its scatter a gain must be
+CLEAR = 3.5  # how many times its scatter a gain must be, over stretches of a second
+STEADY = 1.5  # the same, over groups left out
 TIE = 2.0  # below that many times their scatter two hypotheses cannot be told apart
 LEAST = 0.004  # relative gain in unseen mean square below which nothing is worth a name
 HOPE = 0.4  # of the most promising effect's gain: worth a full trial
@@ -32,28 +34,39 @@ Progress = Callable[[str, str], None]
 class Comparison:
     """How much better one hypothesis is than another on what neither has seen.
 
-    gain : relative reduction of the unseen mean square;  clear : gain over its scatter between
-    groups, from the logarithms of their ratios, so that no single group decides
+    gain : relative reduction of the unseen mean square
+    clear, steady : mean over its standard error of the logarithm of that reduction, over stretches
+        of a second and over the groups that were left out; what acts in few places is clear by
+        many stretches there, and steady only if they lie in several groups
     """
 
     gain: float
     clear: float
+    steady: float
 
     @property
     def real(self) -> bool:
         """Whether the gain is more than scatter."""
-        return self.clear > CLEAR and self.gain > LEAST
+        return self.clear > CLEAR and self.steady > STEADY and self.gain > LEAST
 
 
 def compare(study: Study, worse: Trial, better: Trial) -> Comparison:
     """The gain of one trial over another."""
-    ratio = np.log(np.maximum(worse.unseen, 1e-300) / np.maximum(better.unseen, 1e-300))
-    n = len(ratio)
-    mean = float(ratio.mean())
-    scatter = float(ratio.std(ddof=1)) / np.sqrt(n) if n > 1 else np.inf
+    (before, _), (after, weight) = (t.study.per_stretch(t.unseen**2) for t in (worse, better))
+    use = (before > 0) & (after > 0) & (weight > 0)
+    ratio = np.log(before[use] / after[use])
+    group = study.group_of[use]
+    count = np.maximum(np.bincount(group), 1)
+    by_group = (np.bincount(group, ratio) / count)[np.bincount(group) > 0]
     gain = 1.0 - better.score / worse.score
-    clear = mean / scatter if scatter > 0 else float(np.sign(mean)) * np.inf
-    return Comparison(gain, float(clear))
+    return Comparison(gain, _over_scatter(ratio), _over_scatter(by_group))
+
+
+def _over_scatter(values: Array) -> float:
+    n = len(values)
+    scatter = float(values.std(ddof=1)) / np.sqrt(n) if n > 1 else np.inf
+    mean = float(values.mean()) if n else 0.0
+    return float(mean / scatter if scatter > 0 else np.sign(mean) * np.inf)
 
 
 @dataclass(frozen=True, eq=False)
@@ -219,10 +232,10 @@ def _prune(
             progress("second pass", effect.name)
             rest = tuple(e for e in best.effects if e is not effect)
             lesser.append(_refit(study, best, rest, seen))
-        nearest = min(lesser, key=lambda t: t.score)
-        if compare(study, nearest, best).real:
+        useless = [t for t in lesser if not compare(study, t, best).real]
+        if not useless:
             return best
-        best = nearest
+        best = min(useless, key=lambda t: t.score)
     return best
 
 

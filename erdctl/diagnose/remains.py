@@ -20,7 +20,6 @@ from erdctl.signals import Signals
 FOLDS = 5
 MOST = 12_000  # samples that a regression learns from
 REAL = 3.0  # how many times its scatter a difference must be
-STRETCH = 0.8  # s, left out at a time; noise remembers less
 QUIET = 0.2  # part of the samples, those where the least is to be expected, that shows the noise
 LOUDER = 1.2  # times the noise that the loud half must be at least
 
@@ -50,7 +49,7 @@ def examine(study: Study, residual: Array, seed: int = 0) -> Remainder:
     # noise has a memory too. So those are left out by groups, and states of motion by stretches.
     splits = (
         (np.column_stack([inputs, since]), study.group),
-        (inputs, stretches(s)),
+        (inputs, study.stretch),
     )
     predicted = np.zeros_like(residual)
     best = 0.0
@@ -152,14 +151,6 @@ def _regression(
             machine.fit(inputs[learn], target[learn])
             out[tell] = machine.predict(inputs[tell])
     return out
-
-
-def stretches(s: Signals) -> Index:
-    """(n,) number of the stretch of STRETCH seconds of a record that a sample lies in."""
-    start = np.repeat(s.starts[:-1], np.diff(s.starts))
-    part = ((s.t - s.t[start]) / STRETCH).astype(np.intp)
-    new = np.concatenate([[False], (np.diff(part) != 0) | (np.diff(start) != 0)])
-    return np.cumsum(new).astype(np.intp)
 
 
 def features(s: Signals) -> tuple[Array, Array]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from erdctl.recording import Array, Index, Recording
 from erdctl.signals import Signals
 
 GROUPS = 24  # stretches left out in turn, if the log has fewer records than that
-SHORTEST = 0.8  # s; of such a stretch: longer than noise remembers
+SHORTEST = 0.8  # s; of what is judged by itself: longer than noise remembers
 SEEN = 1e-3  # part of a doubtful sample in another that makes that one doubtful
 UNCERTAIN = 3.0  # standard deviations of xdot's noise within which its sign is not known
 
@@ -25,13 +26,15 @@ class Study:
     """A recording prepared for fits.
 
     block : signals, force, weights (0 where a record settles or the direction is uncertain)
-    group : (n,) which left-out stretch a sample belongs to;  held : paper parameters that the log
-    cannot identify, and their values
+    group : (n,) which left-out part a sample belongs to
+    stretch : (n,) which piece of that, of about SHORTEST, by which hypotheses are compared
+    held : paper parameters that the log cannot identify, and their values
     """
 
     recording: Recording
     block: Block
     group: Index
+    stretch: Index
     held: dict[str, float]
     needs: dict[str, Need]
 
@@ -49,6 +52,18 @@ class Study:
         """(g,) weighted sum of (n,) values in each group."""
         sums = np.bincount(self.group, values * self.block.weight, self.count)
         return sums.astype(np.float64)
+
+    def per_stretch(self, values: Array) -> tuple[Array, Array]:
+        """(k,) weighted mean of (n,) values in each stretch, and (k,) weight of that."""
+        weight = np.bincount(self.stretch, self.block.weight).astype(np.float64)
+        sums = np.bincount(self.stretch, values * self.block.weight)
+        return sums / np.maximum(weight, 1e-300), weight
+
+    @cached_property
+    def group_of(self) -> Index:
+        """(k,) group of each stretch."""
+        first = np.flatnonzero(np.diff(self.stretch, prepend=-1))
+        return self.group[first]
 
 
 def sure(study: Study, model: Model, values: Values) -> Study:
@@ -78,7 +93,8 @@ def prepare(recording: Recording) -> Study:
     }
     block = whole(recording)
     block.weight[uncertain(block.signals)] = 0.0
-    return Study(recording, block, groups(recording), held, needs)
+    group = groups(recording)
+    return Study(recording, block, group, stretches(recording, group), held, needs)
 
 
 def groups(recording: Recording) -> Index:
@@ -93,6 +109,19 @@ def groups(recording: Recording) -> Index:
         pieces = max(1, min(share, int(length / SHORTEST)))
         n = part.stop - part.start
         out[part] = first + np.arange(n) * pieces // n
+        first += pieces
+    return out
+
+
+def stretches(recording: Recording, group: Index) -> Index:
+    """(n,) stretches of about SHORTEST seconds, each within one group."""
+    out = np.empty(len(recording), dtype=np.intp)
+    first = 0
+    ends = np.flatnonzero(np.diff(group)) + 1
+    for a, b in pairwise([0, *ends.tolist(), len(recording)]):
+        span = float(recording.t[b - 1] - recording.t[a])
+        pieces = max(1, int(span / SHORTEST))
+        out[a:b] = first + np.arange(b - a) * pieces // (b - a)
         first += pieces
     return out
 

@@ -24,15 +24,13 @@ class Trial:
     """A fitted model.
 
     study : what it was fitted to, but for samples of which its channel makes nothing certain
-    residual : (n,) [N];  own : (g,) mean square of each group in the fit
-    unseen : (g,) mean square of each group when the fit leaves it out
+    residual : (n,) [N];  unseen : (n,) the same, by a fit that leaves out the sample's group
     """
 
     study: Study
     model: Model
     values: dict[str, float]
     residual: Array
-    own: Array
     unseen: Array
     evaluations: int
 
@@ -44,7 +42,7 @@ class Trial:
     @property
     def score(self) -> float:
         """Mean square over what was not seen [N^2]."""
-        return float(np.average(self.unseen, weights=self.study.weight_of))
+        return float(np.average(self.unseen**2, weights=self.study.block.weight))
 
 
 def attempt(
@@ -63,9 +61,8 @@ def attempt(
         values, residual, count = _fitted(part, model, values, max_evaluations)
         part = sure(study, model, values)
         evaluations += count
-    own = part.per_group(residual**2) / np.maximum(part.weight_of, 1e-300)
     unseen = leave_out(part, model, values, residual)
-    return Trial(part, model, values, residual, own, unseen, evaluations)
+    return Trial(part, model, values, residual, unseen, evaluations)
 
 
 def _fitted(
@@ -84,7 +81,7 @@ def _cost(study: Study, residual: Array) -> float:
 
 
 def leave_out(study: Study, model: Model, values: Mapping[str, float], residual: Array) -> Array:
-    """(g,) mean square error on each group by a fit without it.
+    """(n,) error on each group by a fit without it [N].
 
         d = (N - N_g)^-1 J_g' W r_g,   theta without g = theta - d,   r_g without = r_g + J_g d
 
@@ -104,7 +101,7 @@ def leave_out(study: Study, model: Model, values: Mapping[str, float], residual:
     J = J / scale[:, None]
     weighted = J * study.block.weight
     whole = (1.0 + KEPT) * (weighted @ J.T)
-    out = np.empty(study.count)
+    out = np.empty_like(residual)
     order = np.argsort(study.group, kind="stable")
     bounds = np.searchsorted(study.group[order], np.arange(study.count + 1))
     for g in range(study.count):
@@ -113,8 +110,7 @@ def leave_out(study: Study, model: Model, values: Mapping[str, float], residual:
         weight = study.block.weight[rows]
         own = (part * weight) @ part.T
         step = np.linalg.lstsq(whole - own, (part * weight) @ r, rcond=1e-10)[0]
-        unseen = r + step @ part
-        out[g] = np.dot(weight, unseen**2) / max(float(weight.sum()), 1e-300)
+        out[rows] = r + step @ part
     return out
 
 

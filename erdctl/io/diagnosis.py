@@ -108,7 +108,8 @@ def _finding(f: Finding, corrected: Parameters) -> dict[str, Any]:
         "where": None if f.where is None else _where(f.where),
         "evidence": {
             "gain_unseen": f.gain.gain,
-            "gain_over_scatter": float(f.gain.clear),
+            "gain_over_scatter": f.gain.clear,
+            "gain_over_scatter_of_groups": f.gain.steady,
             "runner_up": f.runner_up,
         },
         "heldout": {"nrmse_before": f.before, "nrmse_after": f.after},
