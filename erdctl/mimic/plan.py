@@ -102,7 +102,7 @@ def mimic(
                 nrmse=nrmse(found.ideal[some], made[some]).nrmse,
                 plain=nrmse(found.ideal[some], made_plain[some]).nrmse,
                 steps=steps,
-                fell_back=duty is by_paper,
+                fell_back=bool(model.effects) and duty is by_paper,
             )
         if model.effects:
             out, missing = _unreached(found, made, force(np.zeros(len(signals))))
