@@ -92,7 +92,10 @@ def mimic(
             task = _task(model, values, signals, found, amplifier)
             duty, steps = task.improved(min(by_paper, found.compensated, key=task.miss))
         plain = errors(force(by_paper))
-        duty = _no_worse(duty, by_paper, plain, errors, acting, signals, amplifier, force)
+        duty = _no_worse(
+            duty, by_paper, found.ideal, [at for _, at in acting],
+            lambda v: follow(v, signals, amplifier), force,
+        )  # fmt: skip
         made, made_plain = force(duty), force(by_paper)
         if acting:
             some = np.logical_or.reduce([at for _, at in acting])
@@ -177,24 +180,31 @@ def _invert(
 def _no_worse(
     duty: Array,
     plain: Array,
-    bar: Sequence[float],
-    errors: Callable[[Array], list[float]],
-    acting: Sequence[tuple[Fault, Flags]],
-    signals: Signals,
-    amplifier: Amplifier,
+    ideal: Array,
+    acting: Sequence[Flags],
+    carried_out: Callable[[Array], Array],
     force: Callable[[Array], Array],
 ) -> Array:
     """The duty (n,), with the plain one where that does better for a fault, or the plain one.
 
-    bar : errors of the plain sequence, fault by fault
+    ideal : (n,) force [N];  acting : (n,) for each fault
+    carried_out : what the amplifier makes of a duty;  force : what the damper makes of it
     """
+    if not acting:
+        return duty
+    some = np.logical_or.reduce(acting)
+
+    def errors(v: Array) -> list[float]:
+        made = force(v)
+        return [nrmse(ideal[at], made[at]).nrmse for at in (some, *acting)]
+
+    whole, *bar = errors(plain)
     for _ in range(2):
-        found = errors(force(duty))
-        worse = [a > b + UNSEEN for a, b in zip(found, bar, strict=True)]
-        if not any(worse):
-            return duty if any(a < b for a, b in zip(found, bar, strict=True)) else plain
-        there = np.logical_or.reduce([at for (_, at), w in zip(acting, worse, strict=True) if w])
-        duty = follow(np.where(there, plain, duty), signals, amplifier)
+        found, *each = errors(duty)
+        worse = [at for at, a, b in zip(acting, each, bar, strict=True) if a > b + UNSEEN]
+        if not worse:
+            return duty if found < whole else plain
+        duty = carried_out(np.where(np.logical_or.reduce(worse), plain, duty))
     return plain
 
 
