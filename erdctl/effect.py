@@ -101,6 +101,9 @@ class Effect:
     requires : what a log must contain;  shows : where the misfit gathers when it is left out
     guesses : (s) -> starts of a search by symbol, where one start would not do (several dips of the
         cost, or a scale that depends on the motion)
+    free_play : (p) -> play [m] in the joint of a compliance in series with the whole damper, which
+        takes it over from `apply`: a play bears no force, so that what is stretched unloads first
+    beside : effects that commonly come with it, and without which it may be worth nothing
     equivalents : effects that force data can hardly tell from this one, whatever the log
     order : effects of one slot act in this order
     """
@@ -120,6 +123,8 @@ class Effect:
     guesses: Callable[[Any], Sequence[Values]] | None = field(default=None, repr=False)
     of_speed: bool = False
     carries: tuple[str, ...] | None = None
+    free_play: Callable[[Values], float] | None = field(default=None, repr=False)
+    beside: tuple[str, ...] = ()
     equivalents: tuple[str, ...] = ()
     order: int = 0
 

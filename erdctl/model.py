@@ -82,8 +82,12 @@ class Model:
     def prepare(self, signals: Signals, values: Values) -> Prepared:
         """All that does not depend on the amplitudes, computed once."""
         s = signals
+        jointed, gap = self._jointed(values), 0.0
         for effect in self.of(Slot.MOTION):
-            s = effect.act(s, effect.local(values))
+            if jointed and effect.free_play is not None:
+                gap += effect.free_play(effect.local(values))
+            else:
+                s = effect.act(s, effect.local(values))
         for effect in self.of(Slot.CONTROL):
             s = s.with_duty(effect.act(s, effect.local(values)))
         scale: Factors = {}
@@ -103,8 +107,14 @@ class Model:
             fields=self._fields(s, values),
             falls=falls,
             scale=scale,
+            gap=gap,
             values=values,
         )
+
+    def _jointed(self, values: Values) -> bool:
+        """Whether a compliance in series with the whole damper acts, whose joint may have play."""
+        springs = [e for e in self.of(Slot.SERIES) if e.carries is None]
+        return any(float(e.act(e.local(values))) > 0.0 for e in springs)
 
     def _replaced(self, slot: Slot, s: Signals, values: Values, plain: Array) -> Array:
         effects = self.of(slot)

@@ -23,6 +23,7 @@ class Prepared:
     gas, viscous, sign : (n,) shapes in place of x, xdot and sign(xdot)
     fields : (n,) normalised steady yield force for either direction
     falls : (n,) factor of T_d while the yield force falls, or None;  scale : (n,) factors of groups
+    gap : free play [m] in the joint of a compliance in series
     """
 
     effects: tuple[Effect, ...]
@@ -33,6 +34,7 @@ class Prepared:
     fields: tuple[Array, Array]
     falls: Array | None
     scale: Factors
+    gap: float
     values: Values
 
     def force(self, values: Values, factors: Factors | None = None) -> Array:
@@ -139,10 +141,10 @@ class Prepared:
         T = [max(T_d, 1e-9) for T_d in pair(values, "T_d")]
         falls = ones if self.falls is None else self.falls
         viscous = np.array(pair(values, "c_vis"))[:, None] * viscous
-        force, v = march(
+        force, stretch, v = march(
             self.gas, s.xdot, s.step, falls, s.starts, s.compressing, u_c, u_r,
             gain["gas"], gain["viscous"], gain["yield"], grid, viscous, sign, friction,
-            k[0], k[1], T[0], T[1], compliance,
+            k[0], k[1], T[0], T[1], compliance, self.gap,
         )  # fmt: skip
 
         out = {
@@ -150,7 +152,7 @@ class Prepared:
             "other": along(v, grid, friction),
         }
         if inner:
-            gas = (self.gas - compliance * force) * s.with_motion(s.x, v).per_direction(*k)
+            gas = (self.gas - stretch) * s.with_motion(s.x, v).per_direction(*k)
             out["gas"] = gas * gain["gas"]
             # The yield force is what the rest leaves: at rest, whatever holds the piston.
             out["yield"] = force - out["gas"] - out["viscous"] - out["other"]

@@ -1,6 +1,10 @@
 """A spring in series with the damper, or with its fluid: the force feeds back on the motion.
 
-    v = xdot - s dF/dt,   x_p = x - s F,   F = gas(x_p) + viscous(v) + F_ER sign(v) + friction(v)
+    de/dt = xdot - v,   s F = e beyond -g/2..g/2, 0 within,   x_p = x - e
+    F = gas(x_p) + viscous(v) + F_ER sign(v) + friction(v)
+
+e is the spring's stretch and g free play in its joint, which bears no force: after a reversal the
+spring unloads, the play is crossed, and it loads again.
 
 Implicit in v: each sample solves one equation that is monotone in v, with a stick branch (v = 0,
 the spring alone moves) where the yield force holds. The rod's travel in a step is the mean of its
@@ -34,51 +38,59 @@ def speed_grid(fastest: float) -> Array:
 
 
 @njit(cache=True)
+def _held(e: float, half: float, s: float) -> float:
+    """Force of the spring at a stretch e, with a free play of 2 half."""
+    return (max(e - half, 0.0) + min(e + half, 0.0)) / s
+
+
+@njit(cache=True)
 def _moved(
-    F: float, mean: float, end: float, dt: float, s: float, x: float, Y: float, k_c: float,
-    k_r: float, g_visc: float, grid: Array, viscous: Array, sign: Array, friction: Array,
+    e: float, mean: float, end: float, dt: float, s: float, x: float, Y: float, k_c: float,
+    k_r: float, g_visc: float, half: float, grid: Array, viscous: Array, sign: Array,
+    friction: Array,
 ) -> tuple[float, float]:  # fmt: skip
-    """Force and speed behind the spring at the end of a leg that the rod passes in one direction.
+    """Stretch of the spring and speed behind it at the end of a leg in one direction of the rod.
 
     mean, end : speed of the rod [m/s], over the leg of dt [s] and as it ends;  x : deflection then
     Y : magnitude of the yield force then;  k_c, k_r : gas stiffness
     """
     m = len(grid)
-    q = dt / s
-    E = F + mean * q
+    e += mean * dt
     ahead = min(max(end / mean, SLOWEST), 2.0) if mean * end > 0.0 else 1.0
     for branch in range(2):
         k = k_c if branch == 0 else k_r
         way = 1.0 if branch == 0 else -1.0
-        # H(v) = gas + viscous + yield + friction - F, F = E - q v / lead; increasing in v.
-        lead = ahead if mean * way > 0.0 else 1.0
-        rest = k * (x - s * E) - E
-        slope = q / lead * (1.0 + k * s)
+        # H(v) = gas + viscous + yield + friction - F at a stretch of e - v span; increasing in v.
+        span = dt / (ahead if mean * way > 0.0 else 1.0)
+        rest = k * (x - e) - _held(e, half, s)
         if (rest + Y * sign[branch, 0] + friction[branch, 0]) * way >= 0.0:
             continue
         low, high = 0, m - 1
         while high - low > 1:
             mid = (low + high) // 2
+            at = e - way * grid[mid] * span
             h = (
-                rest + slope * way * grid[mid] + viscous[branch, mid] * g_visc
+                k * (x - at) - _held(at, half, s) + viscous[branch, mid] * g_visc
                 + Y * sign[branch, mid] + friction[branch, mid]
             )  # fmt: skip
             if h * way < 0.0:
                 low = mid
             else:
                 high = mid
+        at = e - way * grid[low] * span
         a = (
-            rest + slope * way * grid[low] + viscous[branch, low] * g_visc
+            k * (x - at) - _held(at, half, s) + viscous[branch, low] * g_visc
             + Y * sign[branch, low] + friction[branch, low]
         )  # fmt: skip
+        at = e - way * grid[high] * span
         b = (
-            rest + slope * way * grid[high] + viscous[branch, high] * g_visc
+            k * (x - at) - _held(at, half, s) + viscous[branch, high] * g_visc
             + Y * sign[branch, high] + friction[branch, high]
         )  # fmt: skip
         part = -a / (b - a) if b != a else 0.0
         v = way * (grid[low] + part * (grid[high] - grid[low]))
-        return E - q / lead * v, v
-    return E, 0.0
+        return e - v * span, v
+    return e, 0.0
 
 
 @njit(cache=True)
@@ -87,19 +99,19 @@ def march(
     compressing: npt.NDArray[np.bool_],
     u_c: Array, u_r: Array, g_gas: Array, g_visc: Array, g_yield: Array,
     grid: Array, viscous: Array, sign: Array, friction: Array,
-    k_c: float, k_r: float, T_c: float, T_r: float, s: float,
-) -> tuple[Array, Array]:  # fmt: skip
-    """Force of the spring (n,) [N] and speed behind it (n,) [m/s].
+    k_c: float, k_r: float, T_c: float, T_r: float, s: float, gap: float,
+) -> tuple[Array, Array, Array]:  # fmt: skip
+    """Force of the spring (n,) [N], its stretch (n,) [m] and the speed behind it (n,) [m/s].
 
     u_c, u_r : (n,) steady yield force in either direction;  g_ : (n,) factors of the groups
     viscous, sign, friction : (2, m) laws on `grid`, for compression and release
-    k_c, k_r : gas stiffness behind the spring;  s : compliance [m/N] > 0
+    k_c, k_r : gas stiffness behind the spring;  s : compliance [m/N] > 0;  gap : free play [m]
 
     A step in which the rod turns is made of two legs, before and after: by the mean speed of the
     whole of it the piston would turn up to a step late, however stiff the spring.
     """
-    n, m = len(x), len(grid)
-    force, speed = np.empty(n), np.empty(n)
+    n, m, half = len(x), len(grid), 0.5 * gap
+    force, stretch, speed = np.empty(n), np.empty(n), np.empty(n)
     for r in range(len(starts) - 1):
         first = starts[r]
         up = compressing[first]
@@ -112,7 +124,8 @@ def march(
         moving = law[j - 1] * (1.0 - w) + law[j] * w if xdot[first] != 0.0 else 0.0
         k = (k_c if up else k_r) * g_gas[first]
         F = (k * x[first] + moving) / (1.0 + k * s)
-        force[first], speed[first] = F, xdot[first]
+        e = s * F + (half if F > 0.0 else -half if F < 0.0 else 0.0)
+        force[first], stretch[first], speed[first] = F, e, xdot[first]
         for i in range(first + 1, starts[r + 1]):
             a, b, dt = xdot[i - 1], xdot[i], step[i - 1]
             turning = a * b < 0.0
@@ -129,14 +142,14 @@ def march(
                 u = u_c[i - 1] if up else u_r[i - 1]
                 T = (T_c if up else T_r) * (falls[i - 1] if abs(u) < abs(y) else 1.0)
                 y = u + (y - u) * np.exp(-span / T)
-                F, v = _moved(
-                    F, mean, end, span, s, x_end, y * g_yield[i], k_c * g_gas[i], k_r * g_gas[i],
-                    g_visc[i], grid, viscous, sign, friction,
+                e, v = _moved(
+                    e, mean, end, span, s, x_end, y * g_yield[i], k_c * g_gas[i], k_r * g_gas[i],
+                    g_visc[i], half, grid, viscous, sign, friction,
                 )  # fmt: skip
                 if v != 0.0:
                     up = v > 0.0
-            force[i], speed[i] = F, v
-    return force, speed
+            force[i], stretch[i], speed[i] = _held(e, half, s), e, v
+    return force, stretch, speed
 
 
 @njit(cache=True)

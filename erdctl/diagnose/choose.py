@@ -6,15 +6,16 @@ one hypothesis replaces another only if it is better by more than the scatter be
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
 from erdctl.diagnose.remains import examine
-from erdctl.diagnose.screen import Prospect, Screen
+from erdctl.diagnose.screen import Prospect, Screen, starts
 from erdctl.diagnose.study import Study
-from erdctl.diagnose.trial import Trial, attempt, fresh_start
+from erdctl.diagnose.trial import Trial, attempt, fresh_start, ranked
 from erdctl.effect import Effect, Slot
 from erdctl.recording import Array
 
@@ -25,6 +26,7 @@ TIE = 2.0  # below that many times their scatter two hypotheses cannot be told a
 LEAST = 0.004  # relative gain in unseen mean square below which nothing is worth a name
 HOPE = 0.4  # of the most promising effect's gain: worth a full trial
 ALWAYS = 4  # effects that get one in any case
+FEW = 5  # starts of each of several effects that are tried together
 DISTINCT = (Slot.SIGN, Slot.VISCOUS, Slot.GAS, Slot.SERIES)  # one effect at most in each
 
 Progress = Callable[[str, str], None]
@@ -139,6 +141,13 @@ def choose(
             break
         # Also hypotheses that gain nothing alone: one may be worth something beside another.
         pool = (better or grown)[:BEAM]
+    if examine(best.study, best.residual, seed).real:
+        for together in _companies(candidates):
+            progress("together", ", ".join(e.name for e in together))
+            trial = _jointly(study, base, together)
+            if trial is not None and compare(study, best, trial).real:
+                best = trial
+                seen[frozenset(e.name for e in together)] = trial
     best = _prune(study, best, seen, progress)
     rivals: dict[str, tuple[tuple[str, Trial], ...]] = {}
     for effect in best.effects:
@@ -200,6 +209,33 @@ def _extend(study: Study, parent: Trial, prospect: Prospect) -> Trial | None:
         # Without the lag that stands in for the compliance.
         starts.append({**parent.values, **fresh_start(0.005, 0.4), **prospect.starts[0]})
     return _try(study, (*parent.effects, prospect.effect), starts)
+
+
+def _companies(candidates: Sequence[Effect]) -> Iterator[tuple[Effect, ...]]:
+    """Effects with those that commonly come with them."""
+    by_name = {e.name: e for e in candidates}
+    for effect in candidates:
+        others = [by_name[name] for name in effect.beside if name in by_name]
+        if others:
+            yield (effect, *others)
+
+
+def _jointly(study: Study, base: Trial, effects: tuple[Effect, ...]) -> Trial | None:
+    """A trial of effects that may be worth nothing one by one, from the best of many starts."""
+    grids = []
+    for effect in effects:
+        guesses = starts(effect, study)
+        few = guesses[:: -(-len(guesses) // FEW)]
+        grids.append([{effect.key(s): v for s, v in g.items()} for g in few])
+    points = [{**base.values, **_merged(point)} for point in product(*grids)]
+    try:
+        return attempt(study, effects, ranked(study, effects, points)[:BEAM])
+    except ValueError:
+        return None  # effects that cannot act together
+
+
+def _merged(parts: Iterable[Mapping[str, float]]) -> dict[str, float]:
+    return {name: value for part in parts for name, value in part.items()}
 
 
 def _try(

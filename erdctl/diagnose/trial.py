@@ -17,6 +17,7 @@ from erdctl.recording import DIRECTIONS, Array
 # A group is left out but for this part of the weight of all data. What only one group shows (a lag,
 # if it alone has duty steps) is otherwise unknown without it, and the step goes to infinity.
 KEPT = 0.05
+GLANCE = 4  # steps of a search that only ranks its start
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +64,16 @@ def attempt(
         evaluations += count
     unseen = leave_out(part, model, values, residual)
     return Trial(part, model, values, residual, unseen, evaluations)
+
+
+def ranked(
+    study: Study, effects: Sequence[Effect], points: Sequence[Mapping[str, float]]
+) -> list[dict[str, float]]:
+    """Starts after a short search from each, the most promising first."""
+    model = Model(tuple(effects))
+    found = [_fitted(study, model, point, GLANCE) for point in points]
+    found.sort(key=lambda f: _cost(study, f[1]))
+    return [values for values, _, _ in found]
 
 
 def _fitted(

@@ -7,6 +7,8 @@ x, x_p : (n,) stroke of the rod and of the piston [m];  g : free play [m], g >= 
 A record begins on the flank of its first motion. Where contact closes between two samples, the
 motion of the nearer one sets in in part, so that the force is continuous in g.
 Valid for a joint without damping of its own, with a clamp much stiffer than the damper.
+With a compliance in series the joint is its: after a reversal the spring unloads, then the play is
+crossed without force, then it loads again (`erdctl.series`).
 The play is followed along the integral of xdot: noise in x does not open the joint.
 Check: x = 0, 1, 2, 1, 0 mm from the lower flank, g = 2 mm gives x_p - x_p0 = 0, 1, 2, 2, 2 mm.
 Source: M. Nordin, P.-O. Gutman, Controlling mechanical systems with backlash: a survey,
@@ -30,6 +32,11 @@ def backlash(s: Signals, p: Values) -> Signals:
     return s.with_motion(s.x - lost, s.xdot * engaged, engaged)
 
 
+def free_play(p: Values) -> float:
+    """Play in the joint, for a spring in series with it to take over [m]."""
+    return p["g"]
+
+
 EFFECT = Effect(
     name="backlash",
     stage=Stage.MOTION,
@@ -47,4 +54,6 @@ EFFECT = Effect(
         ),
     ),
     apply=backlash,
+    free_play=free_play,
+    beside=("mount_compliance", "coulomb_friction"),
 )  # fmt: skip
