@@ -10,14 +10,11 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 
-import numpy as np
-
 from erdctl.diagnose.remains import examine
 from erdctl.diagnose.screen import Prospect, Screen, starts
 from erdctl.diagnose.study import Study
 from erdctl.diagnose.trial import Trial, attempt, fresh_start, ranked
 from erdctl.effect import Effect, Slot
-from erdctl.recording import Array
 
 BEAM = 3  # hypotheses that are extended side by side
 CLEAR = 3.5  # how many times its scatter a gain must be, over stretches of a second
@@ -26,6 +23,7 @@ TIE = 2.0  # below that many times their scatter two hypotheses cannot be told a
 LEAST = 0.004  # relative gain in unseen mean square below which nothing is worth a name
 HOPE = 0.4  # of the most promising effect's gain: worth a full trial
 ALWAYS = 4  # effects that get one in any case
+CONFIRM = 12  # steps of a search from where another has ended
 FEW = 5  # starts of each of several effects that are tried together
 DISTINCT = (Slot.SIGN, Slot.VISCOUS, Slot.GAS, Slot.SERIES)  # one effect at most in each
 
@@ -37,9 +35,7 @@ class Comparison:
     """How much better one hypothesis is than another on what neither has seen.
 
     gain : relative reduction of the unseen mean square
-    clear, steady : mean over its standard error of the logarithm of that reduction, over stretches
-        of a second and over the groups that were left out; what acts in few places is clear by
-        many stretches there, and steady only if they lie in several groups
+    clear, steady : see `Study.clearly`, on errors of fits that have left the group out
     """
 
     gain: float
@@ -54,21 +50,10 @@ class Comparison:
 
 def compare(study: Study, worse: Trial, better: Trial) -> Comparison:
     """The gain of one trial over another."""
-    (before, _), (after, weight) = (t.study.per_stretch(t.unseen**2) for t in (worse, better))
-    use = (before > 0) & (after > 0) & (weight > 0)
-    ratio = np.log(before[use] / after[use])
-    group = study.group_of[use]
-    count = np.maximum(np.bincount(group), 1)
-    by_group = (np.bincount(group, ratio) / count)[np.bincount(group) > 0]
-    gain = 1.0 - better.score / worse.score
-    return Comparison(gain, _over_scatter(ratio), _over_scatter(by_group))
-
-
-def _over_scatter(values: Array) -> float:
-    n = len(values)
-    scatter = float(values.std(ddof=1)) / np.sqrt(n) if n > 1 else np.inf
-    mean = float(values.mean()) if n else 0.0
-    return float(mean / scatter if scatter > 0 else np.sign(mean) * np.inf)
+    # Where a channel makes samples doubtful for one of them, both go without.
+    common = worse.study if worse.study is not study else better.study
+    clear, steady = common.clearly(worse.unseen, better.unseen)
+    return Comparison(1.0 - better.score / worse.score, clear, steady)
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +80,7 @@ def confirm(study: Study, found: Choice, progress: Progress) -> Choice:
 
     def again(trial: Trial) -> Trial:
         progress("all samples", ", ".join(e.name for e in trial.effects) or "the paper's model")
-        return attempt(study, trial.effects, [trial.values])
+        return attempt(study, trial.effects, [trial.values], max_evaluations=CONFIRM)
 
     seen = {frozenset(e.name for e in t.effects): again(t) for t in (found.base, found.best)}
     without = {name: again(trial) for name, trial in found.without.items()}
@@ -117,7 +102,7 @@ def choose(
     seen: dict[frozenset[str], Trial] = {frozenset(): base}
     singles: list[Trial] = []
     for depth in range(most):
-        if depth and not examine(best.study, best.residual, seed).real:
+        if depth and not examine(best.study, best.residual, seed).hint:
             break  # more effects would have nothing to explain
         grown = []
         for parent in pool:
@@ -153,10 +138,11 @@ def choose(
     for effect in best.effects:
         found = _rivals(study, best, effect, candidates, singles, seen, progress)
         name = effect.name
-        if found and found[0][1].score < best.score:
-            # The likeliest has the name.
-            name, first = found[0]
-            found, best = [(effect.name, best), *found[1:]], first
+        likelier = [f for f in found if _likelier(study, f[1], best)]
+        if likelier:
+            name, first = likelier[0]
+            found = [(effect.name, best), *(f for f in found if f[1] is not first)]
+            best = first
         rivals[name] = tuple(found[:2])
     without = {}
     for effect in best.effects:
@@ -238,6 +224,14 @@ def _merged(parts: Iterable[Mapping[str, float]]) -> dict[str, float]:
     return {name: value for part in parts for name, value in part.items()}
 
 
+def _likelier(study: Study, rival: Trial, best: Trial) -> bool:
+    """Whether a rival should have the name: it is as good with less, or better with no more."""
+    extra = len(rival.model.quantities) - len(best.model.quantities)
+    if extra < 0:
+        return not compare(study, rival, best).real
+    return extra == 0 and rival.score < best.score
+
+
 def _try(
     study: Study, effects: Sequence[Effect], starts: Sequence[Mapping[str, float]]
 ) -> Trial | None:
@@ -304,7 +298,7 @@ def _rivals(
                 continue
             seen[key] = trial
         against = compare(study, seen[key], best)
-        if against.clear < TIE or against.gain < LEAST:
+        if against.clear < TIE or against.gain < LEAST or _likelier(study, seen[key], best):
             found.append((rival.name, seen[key]))
     found.sort(key=lambda f: f[1].score)
     return found

@@ -21,7 +21,7 @@ from erdctl.recording import Array, Recording
 from erdctl.score import Normalise, Validation, validate
 
 SEARCH = 12_000  # samples for the search among hypotheses; what it finds is fitted to all
-LEFT = 0.5  # misfit over noise up to which what remains counts as noise
+LEFT = 0.3  # misfit over noise up to which what remains counts as noise
 
 
 class Verdict(StrEnum):

@@ -13,13 +13,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from erdctl.diagnose.study import Study
+from erdctl.diagnose.study import Study, over_scatter
 from erdctl.recording import Array, Index
 from erdctl.signals import Signals
 
 FOLDS = 5
 MOST = 12_000  # samples that a regression learns from
-REAL = 3.0  # how many times its scatter a difference must be
+REAL = 3.5  # how many times its scatter a difference must be, over stretches of a second
+STEADY = 1.5  # the same, over groups
+CONTRAST = 3.0  # the same, of the loudness of one state of the damper against another
+TAILS = 1.1  # times the scale of the middle half of a residual
 QUIET = 0.2  # part of the samples, those where the least is to be expected, that shows the noise
 LOUDER = 1.2  # times the noise that the loud half must be at least
 
@@ -31,6 +34,7 @@ class Remainder:
     predicted : (n,) the part whose value is predicted, by regressions that have not seen it [N]
     excess : (n,) mean square beyond noise, predicted or only expected in size [N^2]
     noise_rms, misfit_rms : of what is noise, and of the rest [N];  real : whether there is a rest
+    hint : whether there is a sign of a rest, real or not, that makes a further search worth while
     """
 
     predicted: Array
@@ -38,6 +42,7 @@ class Remainder:
     noise_rms: float
     misfit_rms: float
     real: bool
+    hint: bool
 
 
 def examine(study: Study, residual: Array, seed: int = 0) -> Remainder:
@@ -52,11 +57,12 @@ def examine(study: Study, residual: Array, seed: int = 0) -> Remainder:
         (inputs, study.stretch),
     )
     predicted = np.zeros_like(residual)
-    best = 0.0
+    best, hint = 0.0, _tailed(residual[weight > 0])
     for columns, group in splits:
-        part, share = _predicted(study, columns, group, residual, rng)
-        if share > best:
-            predicted, best = part, share
+        told = _predicted(study, columns, group, residual, rng)
+        hint = hint or told.hint
+        if told.real and told.share > best:
+            predicted, best = told.values, told.share
     rest = residual - predicted
     total = float(study.weight_of.sum())
     square = float(np.dot(weight, residual**2)) / total
@@ -69,24 +75,46 @@ def examine(study: Study, residual: Array, seed: int = 0) -> Remainder:
         noise_rms=float(np.sqrt(noise)),
         misfit_rms=float(np.sqrt(misfit)),
         real=misfit > 0.0,
+        hint=hint or misfit > 0.0,
     )
+
+
+def _tailed(residual: Array) -> bool:
+    """Whether a residual has rare large values, as an effect leaves that acts in few places."""
+    scale = 1.4826 * float(np.median(np.abs(residual))) if residual.size else 0.0
+    return float(np.sqrt(np.mean(residual**2))) > TAILS * scale if scale > 0.0 else False
+
+
+@dataclass(frozen=True, eq=False)
+class _Told:
+    """The part of a residual that was predicted (n,), its share of the square, and its weight."""
+
+    values: Array
+    share: float
+    clear: float
+    steady: float
+
+    @property
+    def real(self) -> bool:
+        return self.share > 0.01 and self.clear > REAL and self.steady > STEADY
+
+    @property
+    def hint(self) -> bool:
+        return self.share > 0.003 and self.clear > 1.0
 
 
 def _predicted(
     study: Study, inputs: Array, group: Index, residual: Array, rng: np.random.Generator
-) -> tuple[Array, float]:
-    """The predicted part of a residual (n,) and its share of the square; zeros if there is none."""
+) -> _Told:
+    """The predicted part of a residual (n,)."""
     weight = study.block.weight
     told = _regression(weight, inputs, group, residual, rng)
     # A regression also learns noise; scaled by what holds on unseen groups, that costs nothing.
     cross, power = np.dot(weight, residual * told), np.dot(weight, told**2)
     told *= float(np.clip(cross / max(power, 1e-300), 0.0, 1.0))
-    before, after = study.per_group(residual**2), study.per_group((residual - told) ** 2)
-    share = 1.0 - float(after.sum() / max(before.sum(), 1e-300))
-    ratio = np.log(np.maximum(before, 1e-300) / np.maximum(after, 1e-300))
-    if share <= 0.01 or _clear(ratio) <= REAL:
-        return np.zeros_like(residual), 0.0
-    return told, share
+    clear, steady = study.clearly(residual, residual - told)
+    before, after = (np.dot(weight, r**2) for r in (residual, residual - told))
+    return _Told(told, 1.0 - float(after / max(before, 1e-300)), clear, steady)
 
 
 def _expected(
@@ -116,16 +144,13 @@ def _expected(
         if min(np.count_nonzero(quiet), np.count_nonzero(loud)) > 20:
             ratio.append(float(np.log(square[loud].mean() / max(square[quiet].mean(), 1e-300))))
     contrast = np.array(ratio)
-    if len(ratio) < 3 or _clear(contrast) <= REAL or contrast.mean() < 2.0 * np.log(LOUDER):
+    if (
+        len(ratio) < 3
+        or over_scatter(contrast) <= CONTRAST
+        or contrast.mean() < 2.0 * np.log(LOUDER)
+    ):
         return even, mean
     return level[cell], float(level[0])
-
-
-def _clear(values: Array) -> float:
-    """Mean of one value per group over the standard error of the mean."""
-    n = len(values)
-    scatter = float(values.std(ddof=1)) / np.sqrt(n) if n > 1 else np.inf
-    return float(values.mean()) / scatter if scatter > 0 else 0.0
 
 
 def _regression(
