@@ -33,7 +33,8 @@ class Slot(Enum):
 
     MOTION    (s, p) -> Signals           motion of the piston from that of the rod
     CONTROL   (s, p) -> (n,) duty         what reaches the electrodes
-    FIELD     (field, s, p) -> (n,)       normalised yield force, from v^beta
+    FIELD     (field, s, p, way) -> (n,)  normalised yield force, from v^beta, in the direction
+              `way`, compression or release
     LAG       (s, p) -> (n,)              factor of T_d while the yield force falls
     SIGN      (s, p) -> (n,) in -1..1     in place of sign(xdot)
     YIELD     (force, s, p) -> (n,)       what becomes of the signed yield force

@@ -124,14 +124,16 @@ class Model:
         return effects[0].act(s, effects[0].local(values)) if effects else plain
 
     def _fields(self, s: Signals, values: Values) -> tuple[Array, Array]:
+        laws = self.of(Slot.FIELD)
+
         def law(direction: int) -> Array:
             field = paper.field_law(s.duty, values[f"{DIRECTIONS[direction]}.beta"])
-            for effect in self.of(Slot.FIELD):
-                field = effect.act(field, s, effect.local(values))
+            for effect in laws:
+                field = effect.act(field, s, effect.local(values), DIRECTIONS[direction])
             return field
 
         compression = law(COMPRESSION)
-        same = values["compression.beta"] == values["release.beta"]
+        same = values["compression.beta"] == values["release.beta"] and not laws
         return compression, compression if same else law(RELEASE)
 
 

@@ -30,7 +30,7 @@ NOT_LINEAR = (Slot.SERIES, Slot.FEEDBACK, Slot.LAG)  # the force acts on itself
 SLOTS: dict[Slot, Any] = {
     Slot.MOTION: lambda s, p: s.with_motion((1 + p["p"]) * s.x, (1 + p["p"]) * s.xdot),
     Slot.CONTROL: lambda s, p: s.duty * (1 + p["p"]),
-    Slot.FIELD: lambda field, s, p: field * (1 + p["p"]),
+    Slot.FIELD: lambda field, s, p, way: field * (1 + p["p"]),
     Slot.LAG: lambda s, p: np.full(len(s), 1 + p["p"]),
     Slot.SIGN: lambda s, p: np.sign(s.xdot) * (1 + p["p"]),
     Slot.YIELD: lambda force, s, p: force * (1 + p["p"]),

@@ -1,9 +1,10 @@
 """Yield stress that levels off at high duty.
 
-    F_ER -> sigma tanh(a v^beta) / a
+    F_ER -> sigma tanh(a v^beta) / a,   a = a_c in compression, a_r in release
 
-v : (n,) duty cycle [1];  a : saturation [1], a >= 0, off at 0;  1/a is the level, in units of
-sigma, that the yield force approaches
+v : (n,) duty cycle [1];  a : saturation [1], a >= 0, off at 0
+1/a is the level, in units of sigma, that the yield force approaches. Where the dipoles of the fluid
+saturate at one duty v_s, a = v_s^-beta differs between directions as beta does.
 Valid for a yield stress that grows monotonically; beta takes up most of a weak saturation.
 Check: a = 2, v^beta = 0.5 gives tanh(1) / 2 = 0.3808 of sigma; 1 gives tanh(2) / 2 = 0.4820.
 Source: H. J. Choi et al., A yield stress scaling function for electrorheological fluids, Appl.
@@ -16,16 +17,22 @@ import numpy as np
 
 from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
 from erdctl.quantity import Quantity
-from erdctl.recording import Array
+from erdctl.recording import DIRECTIONS, Array
 from erdctl.signals import Signals
 
 
-def field_saturation(field: Array, s: Signals, p: Values) -> Array:
+def field_saturation(field: Array, s: Signals, p: Values, way: str) -> Array:
     """(n,) normalised steady yield force [1]."""
-    if p["a"] == 0.0:
+    a = p[f"a_{way[0]}"]
+    if a == 0.0:
         return field
-    level: Array = np.tanh(p["a"] * field) / p["a"]
+    level: Array = np.tanh(a * field) / a
     return level
+
+
+def alike(s: Signals) -> list[dict[str, float]]:
+    """Starts of a search: about the same in both directions."""
+    return [{"a_c": a, "a_r": a} for a in (0.1, 0.3, 1.0, 3.0, 10.0)]
 
 
 EFFECT = Effect(
@@ -39,10 +46,14 @@ EFFECT = Effect(
     requires=(Requirement.FIELD, Requirement.LEVELS),
     shows=Variable.DUTY,
     quantities=(
-        Quantity(
-            symbol="a", unit="1", title="saturation, sigma over the highest yield force",
-            low=0.0, high=100.0, start=1.0,
+        *(
+            Quantity(
+                symbol=f"a_{way[0]}", unit="1", low=0.0, high=100.0, start=1.0,
+                title=f"saturation in {way}, sigma over the highest yield force",
+            )
+            for way in DIRECTIONS
         ),
     ),
     apply=field_saturation,
+    guesses=alike,
 )  # fmt: skip

@@ -25,8 +25,8 @@ from erdctl.recording import Array
 from erdctl.signals import Signals
 
 
-def input_delay(field: Array, s: Signals, p: Values) -> Array:
-    """(n,) normalised steady yield force [1], its mean over each step."""
+def input_delay(field: Array, s: Signals, p: Values, way: str) -> Array:
+    """(n,) normalised steady yield force [1], its mean over each step; alike both ways."""
     if p["tau"] == 0.0:
         return field
     out = np.empty_like(field)

@@ -64,7 +64,7 @@ class YieldLaw:
                 held = held.with_duty(effect.act(held, effect.local(values)))
             field = field_law(held.duty, beta)
             for effect in laws:
-                field = effect.act(field, held, effect.local(values))
+                field = effect.act(field, held, effect.local(values), direction)
             return field[::2]
 
         low, high = 0.0, 1.0  # between them the force sets in

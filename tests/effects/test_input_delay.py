@@ -9,7 +9,7 @@ from made import act, force, signals
 
 def test_check_value() -> None:
     s = signals(np.ones(4))
-    field = act("input_delay", np.array([0.0, 1.0, 1.0, 1.0]), s, {"tau": 4e-3})
+    field = act("input_delay", np.array([0.0, 1.0, 1.0, 1.0]), s, {"tau": 4e-3}, "release")
     assert field[:3] == pytest.approx([0.0, 0.6, 1.0])
 
 
@@ -17,7 +17,7 @@ def test_uneven_sampling_and_records() -> None:
     """A step at 0.03 s arrives at 0.05 s, amid a step of 40 ms; the next record keeps its own."""
     t = np.array([0.0, 0.01, 0.03, 0.07, 0.08, 5.0, 5.01])
     s = signals(np.ones(7), t=t, starts=[0, 5, 7])
-    field = act("input_delay", np.array([2, 2, 6, 6, 6, 1, 1.0]), s, {"tau": 0.02})
+    field = act("input_delay", np.array([2, 2, 6, 6, 6, 1, 1.0]), s, {"tau": 0.02}, "release")
     assert field == pytest.approx([2, 2, 4, 6, 6, 1, 1])
 
 

@@ -23,7 +23,7 @@ def test_falls_at_a_reversal_too() -> None:
     xdot = np.where(np.arange(201) <= 100, 0.1, -0.1)
     s = signals(xdot, duty=np.full(201, 1.0), step=0.001)
     model = Model((effects.get("rise_decay_asymmetry"),))
-    values = {n: 0.0 for n in model.quantities} | {
+    values = dict.fromkeys(model.quantities, 0.0) | {
         "compression.sigma": 10.0, "release.sigma": 4.0, "compression.beta": 1.0,
         "release.beta": 1.0, "compression.T_d": 0.02, "release.T_d": 0.02,
         "rise_decay_asymmetry.r": 3.0,
