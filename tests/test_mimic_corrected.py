@@ -26,7 +26,8 @@ every = pytest.mark.parametrize("effect", CATALOGUE, ids=lambda e: e.name)
 TYPICAL = {
     "backlash.g": 2e-3, "deformation_fault.t_0": 2.0, "electrical_fault.t_0": 2.0,
     "oil_leakage.t_0": 2.0, "end_stop.x_stop": 8e-3, "end_stop.k_c": 2e3, "end_stop.k_r": 2e3,
-    "field_saturation.a_c": 3.0, "field_saturation.a_r": 3.0, "fluid_compressibility.s_f": 1e-4, "mount_compliance.s_m": 1e-4,
+    "field_saturation.a_c": 3.0, "field_saturation.a_r": 3.0,
+    "fluid_compressibility.s_f": 1e-4, "mount_compliance.s_m": 1e-4,
     "gas_polytropic.a": 10.0, "input_delay.tau": 0.02, "time_skew.tau": 0.02,
     "position_dependent_damping.b_1": 20.0, "position_dependent_damping.e_1": 20.0,
     "preyield_viscosity.v_y": 0.03, "yield_hysteresis.v_y": 0.03, "yield_hysteresis.kappa": 5.0,
