@@ -88,7 +88,7 @@ def over_scatter(values: Array) -> float:
     mean = float(values.mean()) if n else 0.0
     if mean == 0.0:
         return 0.0
-    return mean / scatter if scatter > 0 else float(np.copysign(np.inf, mean))
+    return float(mean / scatter) if scatter > 0 else float(np.copysign(np.inf, mean))
 
 
 def sure(study: Study, model: Model, values: Values) -> Study:
