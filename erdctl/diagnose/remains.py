@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from erdctl.diagnose.ripple import Ripple, ripple
 from erdctl.diagnose.study import Study, over_scatter
 from erdctl.recording import Array, Index
 from erdctl.signals import Signals
@@ -35,6 +36,7 @@ class Remainder:
     excess : (n,) mean square beyond noise, predicted or only expected in size [N^2]
     noise_rms, misfit_rms : of what is noise, and of the rest [N];  real : whether there is a rest
     hint : whether there is a sign of a rest, real or not, that makes a further search worth while
+    ripple : the line that turns over with the motion, if the rest holds one
     """
 
     predicted: Array
@@ -43,6 +45,7 @@ class Remainder:
     misfit_rms: float
     real: bool
     hint: bool
+    ripple: Ripple | None
 
 
 def examine(study: Study, residual: Array, seed: int = 0) -> Remainder:
@@ -67,15 +70,22 @@ def examine(study: Study, residual: Array, seed: int = 0) -> Remainder:
     total = float(study.weight_of.sum())
     square = float(np.dot(weight, residual**2)) / total
     expected, noise = _expected(study, splits[0][0], rest, rng)
-    noise = min(noise, float(np.dot(weight, rest**2)) / total)
+    swing = ripple(study, rest)
+    left = float(np.dot(weight, rest**2)) / total
+    excess = predicted**2 + np.maximum(expected - noise, 0.0)
+    if swing is not None:
+        excess += swing.share * left
+        left *= 1.0 - swing.share
+    noise = min(noise, left)
     misfit = max(square - noise, 0.0)
     return Remainder(
         predicted=predicted,
-        excess=predicted**2 + np.maximum(expected - noise, 0.0),
+        excess=excess,
         noise_rms=float(np.sqrt(noise)),
         misfit_rms=float(np.sqrt(misfit)),
         real=misfit > 0.0,
         hint=hint or misfit > 0.0,
+        ripple=swing,
     )
 
 

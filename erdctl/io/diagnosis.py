@@ -90,6 +90,11 @@ def remaining_text(found: Diagnosis) -> str:
         f"{left.misfit_rms:.3g} N rms beyond a noise of {left.noise_rms:.3g} N can be predicted"
         " from motion and duty, but by no effect in the catalogue"
     )
+    if left.ripple is not None:
+        words += (
+            f"; {100 * left.ripple.share:.0f} % of it swings at {left.ripple.frequency:.3g} Hz and"
+            " turns over with the motion, as a ripple of the yield force does"
+        )
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
 
 
