@@ -1,4 +1,4 @@
-"""Where a misfit lives: the variable and the interval that hold most of its energy."""
+"""Where a misfit lives: the variables and the intervals in which its energy exceeds its time."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from erdctl.effect import Variable
 from erdctl.recording import Array
 from erdctl.signals import Signals
 
-HELD = 0.75  # share of the energy that a region must hold
-BINS = 60
+HELD = 0.5  # share of the energy that a region must hold
+EXCESS = 0.2  # of that share over its share of the time
+CELLS = 200  # of equal time
 WIDE = 0.6  # of the time: a region that covers more says nothing
 
 UNITS = {
@@ -70,47 +71,36 @@ def locate(study: Study, square: Array) -> list[Region]:
         region = _interval(variable, values, energy / total, weight / weight.sum())
         if region is not None and region.time < WIDE:
             found.append(region)
-    return sorted(found, key=lambda r: r.time / r.share)
+    return sorted(found, key=lambda r: r.time - r.share)
 
 
 def _interval(variable: Variable, values: Array, energy: Array, time: Array) -> Region | None:
-    """The interval of least time that holds HELD of the energy."""
+    """The interval whose share of the energy exceeds its share of the time by most."""
     finite = np.isfinite(values) & (time > 0)
-    if not finite.any() or float(energy[finite].sum()) < HELD:
-        return None
     v, e, w = values[finite], energy[finite], time[finite]
+    if v.size == 0 or v.min() == v.max():
+        return None
     order = np.argsort(v, kind="stable")
     v, e, w = v[order], e[order], w[order]
-    if v[0] == v[-1]:
-        return None
-    # Edges at equal steps of value and at equal shares of time: fine in either sense.
-    edges = np.unique(
-        np.concatenate([
-            np.linspace(v[0], v[-1], BINS + 1),
-            v[np.searchsorted(np.cumsum(w), np.linspace(0, w.sum(), BINS + 1)[1:-1])],
-        ])
-    )  # fmt: skip
+    passed = np.cumsum(w)
+    edges = np.unique(v[np.searchsorted(passed, np.linspace(0.0, passed[-1], CELLS + 1)[1:-1])])
+    edges = np.unique(np.concatenate([[v[0]], edges, [v[-1]]]))
     at = np.searchsorted(v, edges, side="left")
     at[-1] = len(v)
     E = np.concatenate([[0.0], np.cumsum(e)])[at]
-    W = np.concatenate([[0.0], np.cumsum(w)])[at]
-    best: tuple[float, int, int] | None = None
-    j = 0
-    for i in range(len(edges) - 1):
-        j = max(j, i + 1)
-        while j < len(edges) - 1 and E[j] - E[i] < HELD:
-            j += 1
-        if E[j] - E[i] < HELD:
-            break
-        length = W[j] - W[i]
-        if best is None or length < best[0]:
-            best = (float(length), i, j)
-    if best is None:
+    W = np.concatenate([[0.0], passed])[at]
+    ahead = E - W
+    lowest = np.minimum.accumulate(ahead)
+    j = 1 + int(np.argmax(ahead[1:] - lowest[:-1]))
+    i = int(np.argmin(ahead[:j]))
+    share, spent = float(E[j] - E[i]), float(W[j] - W[i])
+    # Half way to what lies outside: levels of a duty have no width of their own.
+    a, b = int(at[i]), int(at[j])
+    low = float(v[0] if a == 0 else 0.5 * (v[a - 1] + v[a]))
+    high = float(v[-1] if b == len(v) else 0.5 * (v[b - 1] + v[b]))
+    if share < HELD or share - spent < EXCESS:
         return None
-    time_in, i, j = best
-    low, high = float(edges[i]), float(edges[j])
-    share = float(E[j] - E[i])
-    return Region(variable, low, high, share, time_in, describe(variable, low, high, share))
+    return Region(variable, low, high, share, spent, describe(variable, low, high, share))
 
 
 def describe(variable: Variable, low: float, high: float, share: float) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict
+from erdctl.diagnose.likeness import likeness
 from erdctl.diagnose.locate import Region
 from erdctl.io.parameters import provenance, to_document
 from erdctl.parameters import Estimate, Parameters
@@ -95,6 +96,9 @@ def remaining_text(found: Diagnosis) -> str:
             f"; {100 * left.ripple.share:.0f} % of it swings at {left.ripple.frequency:.3g} Hz and"
             " turns over with the motion, as a ripple of the yield force does"
         )
+    like = likeness(found.choice.best.study, left.predicted)
+    if like is not None:
+        words += f"; it is most like {like.form} (correlation {like.correlation:+.2f})"
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
 
 
