@@ -10,6 +10,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 
+import numpy as np
+
 from erdctl.diagnose.remains import examine
 from erdctl.diagnose.screen import Prospect, Screen, starts
 from erdctl.diagnose.study import Study
@@ -21,6 +23,7 @@ CLEAR = 3.5  # how many times its scatter a gain must be, over stretches of a se
 STEADY = 1.5  # the same, over groups left out
 TIE = 2.0  # below that many times their scatter two hypotheses cannot be told apart
 LEAST = 0.004  # relative gain in unseen mean square below which nothing is worth a name
+FINEST = 2e-4  # of the range of the force: less may be the rounding of a simulation
 HOPE = 0.4  # of the most promising effect's gain: worth a full trial
 ALWAYS = 4  # effects that get one in any case
 CONFIRM = 12  # steps of a search from where another has ended
@@ -36,16 +39,19 @@ class Comparison:
 
     gain : relative reduction of the unseen mean square
     clear, steady : see `Study.clearly`, on errors of fits that have left the group out
+    size : root of the reduction over the range of the force
     """
 
     gain: float
     clear: float
     steady: float
+    size: float
 
     @property
     def real(self) -> bool:
-        """Whether the gain is more than scatter."""
-        return self.clear > CLEAR and self.steady > STEADY and self.gain > LEAST
+        """Whether the gain is more than scatter, and worth a name."""
+        worth = self.gain > LEAST and self.size > FINEST
+        return worth and self.clear > CLEAR and self.steady > STEADY
 
 
 def compare(study: Study, worse: Trial, better: Trial) -> Comparison:
@@ -53,7 +59,10 @@ def compare(study: Study, worse: Trial, better: Trial) -> Comparison:
     # Where a channel makes samples doubtful for one of them, both go without.
     common = worse.study if worse.study is not study else better.study
     clear, steady = common.clearly(worse.unseen, better.unseen)
-    return Comparison(1.0 - better.score / worse.score, clear, steady)
+    less = worse.score - better.score
+    gain = less / worse.score if worse.score > 0.0 else 0.0
+    size = float(np.sqrt(max(less, 0.0))) / float(np.ptp(study.block.force))
+    return Comparison(gain, clear, steady, size)
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,17 +10,27 @@ import numpy as np
 
 from erdctl.assess import Fit, assess
 from erdctl.blocks import thinned
-from erdctl.diagnose.choose import Choice, Comparison, Progress, choose, compare, confirm
+from erdctl.diagnose.choose import (
+    FINEST,
+    Choice,
+    Comparison,
+    Progress,
+    choose,
+    compare,
+    confirm,
+)
 from erdctl.diagnose.distinguish import Test, telling_apart
 from erdctl.diagnose.locate import Region, locate
 from erdctl.diagnose.remains import Remainder, examine
-from erdctl.diagnose.study import Study, prepare
+from erdctl.diagnose.study import SHORTEST, Study, prepare
 from erdctl.diagnose.trial import Trial
 from erdctl.effect import Effect, Requirement
+from erdctl.errors import InputProblem
 from erdctl.recording import Array, Recording
 from erdctl.score import Normalise, Validation, validate
 
 SEARCH = 12_000  # samples for the search among hypotheses; what it finds is fitted to all
+PARTS = 5  # of a log that must be there to be left out in turn
 LEFT = 0.3  # misfit over noise up to which what remains counts as noise
 
 
@@ -78,6 +88,7 @@ def diagnose(
 ) -> Diagnosis:
     """Diagnose a recording with a measured force against a catalogue of effects."""
     study = prepare(recording)
+    _enough(study)
     missing = untestable(study, candidates)
     testable = [e for e in candidates if e.name not in missing]
     choice = choose(prepare(thinned(recording, SEARCH)), testable, most, progress, seed)
@@ -86,7 +97,8 @@ def diagnose(
     progress("what remains", "")
     remainder = examine(best.study, best.residual, seed)
     noise = remainder.noise_rms
-    left = remainder.real and remainder.misfit_rms > LEFT * noise
+    least = max(LEFT * noise, FINEST * float(np.ptp(study.block.force)))
+    left = remainder.real and remainder.misfit_rms > least
     if left:
         verdict = Verdict.UNEXPLAINED
     else:
@@ -109,6 +121,21 @@ def diagnose(
         remainder=remainder,
         untestable=missing,
     )
+
+
+def _enough(study: Study) -> None:
+    """Refuse a recording that can show nothing."""
+    weight, moving = study.block.weight, study.block.signals.xdot != 0.0
+    if np.ptp(study.block.force) == 0.0:
+        raise InputProblem("the force never changes: there is nothing to diagnose")
+    if not (moving & (weight > 0)).any():
+        raise InputProblem("the damper never moves: there is nothing to diagnose")
+    count = int(np.count_nonzero(study.weight_of))
+    if count < PARTS:
+        raise InputProblem(
+            f"too short to diagnose: {PARTS} parts of {SHORTEST:g} s or more are left out in turn,"
+            f" and this log has {count}; record at least {2 * PARTS * SHORTEST:g} s"
+        )
 
 
 def untestable(study: Study, candidates: Sequence[Effect]) -> dict[str, str]:
