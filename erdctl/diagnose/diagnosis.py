@@ -31,6 +31,7 @@ from erdctl.score import Normalise, Validation, validate
 
 SEARCH = 12_000  # samples for the search among hypotheses; what it finds is fitted to all
 PARTS = 5  # of a log that must be there to be left out in turn
+REST = 0.05  # of what the paper's model misses, in mean square, that counts where noise is louder
 LEFT = 0.3  # misfit over noise up to which what remains counts as noise
 
 
@@ -97,8 +98,7 @@ def diagnose(
     progress("what remains", "")
     remainder = examine(best.study, best.residual, seed)
     noise = remainder.noise_rms
-    least = max(LEFT * noise, FINEST * float(np.ptp(study.block.force)))
-    left = remainder.real and remainder.misfit_rms > least
+    left = remainder.real and _matters(study, choice, remainder)
     if left:
         verdict = Verdict.UNEXPLAINED
     else:
@@ -121,6 +121,14 @@ def diagnose(
         remainder=remainder,
         untestable=missing,
     )
+
+
+def _matters(study: Study, choice: Choice, remainder: Remainder) -> bool:
+    """Whether a rest is more than noise, rounding, and the last per cent of what was explained."""
+    misfit, noise = remainder.misfit_rms, remainder.noise_rms
+    missed = max(choice.base.score - noise**2, 0.0)
+    least = max(LEFT * noise, FINEST * float(np.ptp(study.block.force)))
+    return misfit > least and (misfit > noise or misfit**2 > REST * missed)
 
 
 def _enough(study: Study) -> None:
