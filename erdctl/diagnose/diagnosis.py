@@ -47,7 +47,7 @@ class Verdict(StrEnum):
 class Finding:
     """One effect that the paper's model left out.
 
-    gain : against the best model without it, on what neither has seen
+    gain : against the best model without it, on what neither has seen;  where : it acts
     before, after : NRMSE on groups left out of the fit, without and with it
     test : the drive that would tell it from its equivalents, if it has any
     """
@@ -181,8 +181,10 @@ def _findings(study: Study, choice: Choice) -> tuple[Finding, ...]:
     runner = next((t.effects[0].name for t in ranking if t.effects[0].name not in chosen), None)
     for effect in best.effects:
         without = choice.without[effect.name]
+        # Where it acts; what acts everywhere is seen where the other parameters fail to absorb it.
+        alone = best.model.force(study.block.signals, {**best.values, **effect.off})
         absent = without.model.force(study.block.signals, without.values)
-        regions = locate(best.study, (with_all - absent) ** 2)
+        regions = [r for f in (alone, absent) for r in locate(best.study, (with_all - f) ** 2)[:1]]
         found.append(
             Finding(
                 effect=effect,

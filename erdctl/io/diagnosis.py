@@ -68,7 +68,7 @@ def finding_text(finding: Finding) -> str:
         f" {finding.after:.4f} with it)"
     )
     if finding.where is not None:
-        text += f"; {finding.where.text}"
+        text += f"; {finding.where.text.replace('the misfit', 'its force')}"
     if finding.equivalent:
         text += f"; these data cannot tell it from {' or '.join(finding.equivalent)}"
     if finding.test is not None:
