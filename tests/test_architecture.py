@@ -17,7 +17,7 @@ FILES = sorted(PACKAGE.rglob("*.py"))
 
 # Each room may import those on lower floors, and its own. Data and result types lie at the bottom.
 FLOORS: tuple[tuple[str, ...], ...] = (
-    ("errors", "quantity", "recording", "__init__"),
+    ("errors", "quantity", "recording", "workers", "__init__"),
     ("kernels", "plant", "signals", "noise", "motion", "waveforms", "series", "recurrences"),
     ("paper", "effect", "drive", "faults", "geometry", "amplifier"),
     ("effects", "blocks"),

@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
     from erdctl.diagnose.diagnosis import Diagnosis
     from erdctl.effect import Effect
+    from erdctl.recording import Recording
+
+WORTHWHILE = 60_000  # samples times effects from which the second that a process needs is worth it
 
 
 def command(
@@ -27,6 +30,14 @@ def command(
     ] = [],
     max_effects: Annotated[int, typer.Option(min=1, max=6, help="Name at most so many.")] = 3,
     seed: Annotated[int, typer.Option(help="Of the regression that looks at what remains.")] = 0,
+    jobs: Annotated[
+        int | None,
+        typer.Option(
+            min=1,
+            help="Processes that try hypotheses; all cores, or 1 for a small log. The result"
+            " is the same for any number.",
+        ),
+    ] = None,
     fail_on_mismatch: Annotated[
         bool, typer.Option("--fail-on-mismatch", help="Exit 1 unless the verdict is adequate.")
     ] = False,
@@ -43,6 +54,7 @@ def command(
       erdctl diagnose bench.parquet -o diagnosis.json
       erdctl diagnose a.csv b.csv --exclude thermal_fade --fail-on-mismatch
       erdctl diagnose bench.csv --effects backlash,mount_compliance
+      erdctl diagnose bench.parquet --jobs 2 --max-effects 4
     """
     from erdctl.diagnose.diagnosis import Verdict, diagnose
     from erdctl.errors import CheckFailed
@@ -54,7 +66,10 @@ def command(
     log = read_logs(logs, maps=maps, need_force=True, want_hash=True, report=say)
     candidates = _candidates(only, exclude)
     with progress() as step:
-        found = diagnose(log.recording, candidates, most=max_effects, seed=seed, progress=step)
+        found = diagnose(
+            log.recording, candidates, most=max_effects, seed=seed,
+            jobs=jobs or _jobs(log.recording, candidates), progress=step,
+        )  # fmt: skip
     documents.write(to_json(found), output)
     _show(found)
     if fail_on_mismatch and found.verdict is not Verdict.ADEQUATE:
@@ -74,6 +89,13 @@ def _candidates(only: Sequence[str], exclude: Sequence[str]) -> list[Effect]:
     except InputProblem as problem:
         raise UsageProblem(str(problem)) from None
     return [e for e in chosen if e.name not in barred]
+
+
+def _jobs(recording: Recording, candidates: Sequence[Effect]) -> int:
+    """As many processes as cores, where the work is worth starting them."""
+    from erdctl.workers import cores
+
+    return cores() if len(recording) * len(candidates) > WORTHWHILE else 1
 
 
 def _show(found: Diagnosis) -> None:

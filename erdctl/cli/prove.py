@@ -102,9 +102,10 @@ def _run(wish: Wish, seeds: Sequence[int], folder: Path, jobs: int | None) -> Pr
     import sys
 
     from erdctl.prove.document import proof_of
-    from erdctl.prove.run import Outcome, cores, prove
+    from erdctl.prove.run import Outcome, prove
     from erdctl.prove.tables import line
     from erdctl.report.text import progress, say
+    from erdctl.workers import cores
 
     scored = 0
     say("nrmse on fresh records, without noise: paper's model, corrected, best that can be reached")

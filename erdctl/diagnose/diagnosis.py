@@ -10,15 +10,9 @@ import numpy as np
 
 from erdctl.assess import Fit, assess
 from erdctl.blocks import thinned
-from erdctl.diagnose.choose import (
-    FINEST,
-    Choice,
-    Comparison,
-    Progress,
-    choose,
-    compare,
-    confirm,
-)
+from erdctl.diagnose.choose import Choice, choose, confirm
+from erdctl.diagnose.compare import FINEST, Comparison, compare
+from erdctl.diagnose.crew import Progress, crew
 from erdctl.diagnose.distinguish import Test, telling_apart
 from erdctl.diagnose.locate import Region, locate
 from erdctl.diagnose.remains import Remainder, examine
@@ -85,15 +79,21 @@ def diagnose(
     *,
     most: int = 3,
     seed: int = 0,
+    jobs: int = 1,
     progress: Progress = lambda stage, what: None,
 ) -> Diagnosis:
-    """Diagnose a recording with a measured force against a catalogue of effects."""
+    """Diagnose a recording with a measured force against a catalogue of effects.
+
+    jobs : processes that try hypotheses; the results are the same for any number
+    """
     study = prepare(recording)
     _enough(study)
     missing = untestable(study, candidates)
     testable = [e for e in candidates if e.name not in missing]
-    choice = choose(prepare(thinned(recording, SEARCH)), testable, most, progress, seed)
-    choice = confirm(study, choice, progress)
+    search = prepare(thinned(recording, SEARCH))
+    with crew((search, study), jobs, progress) as workers:
+        choice = choose(search, testable, most, workers, seed)
+        choice = confirm(study, choice, workers)
     best = choice.best
     progress("what remains", "")
     remainder = examine(best.study, best.residual, seed)

@@ -2,26 +2,18 @@
 
 from __future__ import annotations
 
-import os
-import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
 from erdctl.errors import ComputationProblem
 from erdctl.prove.case import Sealed, Wish, seal
 from erdctl.prove.judge import Failed, Result, judge
+from erdctl.workers import pool as workers
 
 Outcome = Result | Failed
-
-
-def cores() -> int:
-    """Cores that this process may use."""
-    affinity = getattr(os, "sched_getaffinity", None)
-    return len(affinity(0)) if affinity else os.cpu_count() or 1
 
 
 def prove(
@@ -41,9 +33,8 @@ def prove(
     """
     done: dict[int, Outcome] = {}
     told = 0
-    # Fresh processes, not forks: a fork inherits locks of threads that it does not inherit. Also
-    # for one job: linear algebra rounds otherwise with several threads.
-    pool = ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_one_thread)
+    # Also for one job: linear algebra rounds otherwise with several threads.
+    pool = workers(jobs)
     try:
         for outcome in _outcomes(pool, wish, seeds, folder, jobs, on_sealed):
             done[outcome.number] = outcome
@@ -105,12 +96,3 @@ def _error(future: Future[Sealed] | Future[Result]) -> str | None:
     if isinstance(error, BrokenProcessPool):
         raise error
     return None if error is None else f"{type(error).__name__}: {error}"
-
-
-def _one_thread() -> None:
-    """The cases are the parallelism; threads below them would fight for the same cores."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C ends a worker without a traceback
-    import scipy.linalg  # noqa: F401  # a library can be limited only once it is loaded
-    from threadpoolctl import threadpool_limits
-
-    threadpool_limits(1)

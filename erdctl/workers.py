@@ -1,0 +1,37 @@
+"""Worker processes: how many, and how they begin."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from typing import Any
+
+
+def cores() -> int:
+    """Cores that this process may use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity else os.cpu_count() or 1
+
+
+def pool(jobs: int, begin: Callable[..., None] | None = None, *given: Any) -> ProcessPoolExecutor:
+    """So many workers with one thread each, every one of which first calls `begin(*given)`.
+
+    Fresh processes, not forks: a fork inherits locks of threads that it does not inherit.
+    """
+    return ProcessPoolExecutor(
+        jobs, mp_context=get_context("spawn"), initializer=_begin, initargs=(begin, given)
+    )
+
+
+def _begin(begin: Callable[..., None] | None, given: tuple[Any, ...]) -> None:
+    """The tasks are the parallelism; threads below them would fight for the same cores."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C ends a worker without a traceback
+    import scipy.linalg  # noqa: F401  # a library can be limited only once it is loaded
+    from threadpoolctl import threadpool_limits
+
+    threadpool_limits(1)
+    if begin is not None:
+        begin(*given)
