@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from erdctl.diagnose.diagnosis import Diagnosis
     from erdctl.effect import Effect
+    from erdctl.parameters import Parameters
     from erdctl.recording import Recording
 
 WORTHWHILE = 60_000  # samples times effects from which the second that a process needs is worth it
@@ -20,6 +21,14 @@ WORTHWHILE = 60_000  # samples times effects from which the second that a proces
 
 def command(
     logs: Logs,
+    params: Annotated[
+        str | None,
+        typer.Option(
+            metavar="PARAMS",
+            help="Diagnose the model of this parameter file, and say how good its"
+            " values are on these logs; - is stdin.",
+        ),
+    ] = None,
     output: Out = "-",
     only: Annotated[
         list[str],
@@ -55,6 +64,7 @@ def command(
       erdctl diagnose a.csv b.csv --exclude thermal_fade --fail-on-mismatch
       erdctl diagnose bench.csv --effects backlash,mount_compliance
       erdctl diagnose bench.parquet --jobs 2 --max-effects 4
+      erdctl identify bench.csv | erdctl diagnose later.csv --params - -o diagnosis.json
     """
     from erdctl.diagnose.diagnosis import Verdict, diagnose
     from erdctl.errors import CheckFailed
@@ -63,17 +73,36 @@ def command(
     from erdctl.io.logs import read_logs
     from erdctl.report.text import progress, say
 
+    given, file = _given(params, logs)
     log = read_logs(logs, maps=maps, need_force=True, want_hash=True, report=say)
     candidates = _candidates(only, exclude)
     with progress() as step:
         found = diagnose(
-            log.recording, candidates, most=max_effects, seed=seed,
+            log.recording, candidates, most=max_effects,
+            given=given, seed=seed,
             jobs=jobs or _jobs(log.recording, candidates), progress=step,
         )  # fmt: skip
-    documents.write(to_json(found), output)
+    documents.write(to_json(found, file), output)
     _show(found)
     if fail_on_mismatch and found.verdict is not Verdict.ADEQUATE:
         raise CheckFailed(f"the paper's model does not hold: {found.verdict.value}")
+
+
+def _given(params: str | None, logs: Sequence[str]) -> tuple[Parameters | None, dict[str, str]]:
+    """The parameters of a file, and its name and hash."""
+    import hashlib
+
+    from erdctl.errors import UsageProblem
+    from erdctl.io import documents
+    from erdctl.io.parameters import parse_parameters
+
+    if params is None:
+        return None, {}
+    if params == "-" and "-" in logs:
+        raise UsageProblem("PARAMS and LOG cannot both be stdin")
+    data = documents.read_bytes(params)
+    found = parse_parameters(data, "stdin" if params == "-" else params)
+    return found, {"name": params, "sha256": hashlib.sha256(data).hexdigest()}
 
 
 def _candidates(only: Sequence[str], exclude: Sequence[str]) -> list[Effect]:
@@ -102,14 +131,16 @@ def _show(found: Diagnosis) -> None:
     from erdctl.io.diagnosis import finding_text, parameters, remaining_text
     from erdctl.report.text import number, say, table
 
-    before, after = found.baseline, found.corrected
+    shown = {"paper's model": found.baseline, "corrected": found.corrected}
+    if found.given is not None:
+        shown = {"given": found.baseline, "refitted": found.refitted, "corrected": found.corrected}
     rows = [
-        [f"{100 * d:g} %", f"{s.nrmse:.4f}", f"{after.by_duty[d].nrmse:.4f}"]
-        for d, s in before.by_duty.items()
+        [f"{100 * d:g} %", *(f"{v.by_duty[d].nrmse:.4f}" for v in shown.values())]
+        for d in found.baseline.by_duty
     ]
-    rows.append(["all", f"{before.overall.nrmse:.4f}", f"{after.overall.nrmse:.4f}"])
+    rows.append(["all", *(f"{v.overall.nrmse:.4f}" for v in shown.values())])
     title = f"Verdict: {found.verdict.value}. NRMSE over the range, per PWM level"
-    table(title, ["", "paper's model", "corrected"], rows)
+    table(title, ["", *shown], rows)
     known = parameters(found)
     for finding in found.findings:
         say(finding_text(finding), finding.effect.name)

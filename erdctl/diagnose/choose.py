@@ -17,6 +17,7 @@ from erdctl.diagnose.screen import Prospect, Screen, starts
 from erdctl.diagnose.study import Study
 from erdctl.diagnose.trial import Trial, attempt, fresh_start
 from erdctl.effect import Effect, Slot
+from erdctl.parameters import Parameters
 
 BEAM = 3  # hypotheses that are extended side by side
 TIE = 2.0  # below that many times their scatter two hypotheses cannot be told apart
@@ -31,7 +32,8 @@ DISTINCT = (Slot.SIGN, Slot.VISCOUS, Slot.GAS, Slot.SERIES)  # one effect at mos
 class Choice:
     """What the search found.
 
-    base : the paper's model;  best : with the chosen effects;  singles : every effect alone
+    base : the paper's model, or that of given parameters;  best : with the chosen effects
+    singles : the base with every effect alone
     without : for each chosen effect, the best model that lacks it
     rivals : for each chosen effect, those that would do as well in its place, best first
     """
@@ -42,6 +44,11 @@ class Choice:
     without: Mapping[str, Trial]
     rivals: Mapping[str, tuple[tuple[str, Trial], ...]]
 
+    @property
+    def named(self) -> tuple[Effect, ...]:
+        """The chosen effects."""
+        return _beyond(self.base, self.best)
+
 
 def confirm(study: Study, found: Choice, crew: Crew) -> Choice:
     """The same choice refitted on another study, usually all samples, from where it was found.
@@ -51,20 +58,26 @@ def confirm(study: Study, found: Choice, crew: Crew) -> Choice:
     again = {_key(t.effects): t for t in (found.base, found.best, *found.without.values())}
     tasks = [Task("all samples", t.effects, (t.values,), CONFIRM) for t in again.values()]
     seen = {k: _must(t) for k, t in zip(again, crew.run(study, tasks), strict=True)}
-    best = _prune(study, seen[_key(found.best.effects)], seen, crew)
-    names = [e.name for e in best.effects]
-    without = {n: seen[frozenset(names) - {n}] for n in names}
+    base = seen[_key(found.base.effects)]
+    best = _prune(study, base, seen[_key(found.best.effects)], seen, crew)
+    names = [e.name for e in _beyond(base, best)]
+    without = {n: seen[_key(best.effects) - {n}] for n in names}
     rivals = {n: found.rivals[n] for n in names}
-    return Choice(seen[frozenset()], best, found.singles, without, rivals)
+    return Choice(base, best, found.singles, without, rivals)
 
 
 def choose(
-    study: Study, candidates: Sequence[Effect], most: int, crew: Crew, seed: int = 0
+    study: Study,
+    candidates: Sequence[Effect],
+    most: int,
+    crew: Crew,
+    seed: int = 0,
+    given: Parameters | None = None,
 ) -> Choice:
-    """Search for the effects, at most `most`, that the recording shows."""
-    base = attempt(study, (), [fresh_start(0.05, 0.4), fresh_start(0.01, 1.0)])
+    """Search for the effects, at most `most`, that the recording shows beside a given model."""
+    base = _base(study, given, crew)
     best, pool = base, [base]
-    seen: dict[frozenset[str], Trial] = {frozenset(): base}
+    seen = {_key(base.effects): base}
     singles: list[Trial] = []
     for depth in range(most):
         if depth and not examine(best.study, best.residual, seed).hint:
@@ -87,9 +100,9 @@ def choose(
             if trial is not None and compare(study, best, trial).real:
                 best = trial
                 seen[_key(trial.effects)] = trial
-    best = _prune(study, best, seen, crew)
+    best = _prune(study, base, best, seen, crew)
     rivals: dict[str, tuple[tuple[str, Trial], ...]] = {}
-    for effect in best.effects:
+    for effect in _beyond(base, best):
         found = _rivals(study, best, effect, candidates, singles, seen, crew)
         name = effect.name
         likelier = [f for f in found if _likelier(study, f[1], best)]
@@ -98,9 +111,24 @@ def choose(
             found = [(effect.name, best), *(f for f in found if f[1] is not first)]
             best = first
         rivals[name] = tuple(found[:2])
-    lesser = _lesser(study, best, seen, crew)
-    without = {e.name: trial for e, trial in zip(best.effects, lesser, strict=True)}
+    lesser = _lesser(study, base, best, seen, crew)
+    without = {e.name: trial for e, trial in zip(_beyond(base, best), lesser, strict=True)}
     return Choice(base, best, tuple(singles), without, rivals)
+
+
+def _base(study: Study, given: Parameters | None, crew: Crew) -> Trial:
+    """The model before any effect is added, from fresh starts and from the given values."""
+    crew.progress("base", "the paper's model" if given is None else "the given model")
+    fresh = [fresh_start(0.05, 0.4), fresh_start(0.01, 1.0)]
+    if given is None:
+        return attempt(study, (), fresh)
+    starts = [*({**given.values, **f} for f in fresh), given.values]
+    return attempt(study, given.model.effects, starts)
+
+
+def _beyond(base: Trial, trial: Trial) -> tuple[Effect, ...]:
+    """The effects of a trial that the base does not have."""
+    return tuple(e for e in trial.effects if e not in base.effects)
 
 
 def _key(effects: Iterable[Effect]) -> frozenset[str]:
@@ -203,7 +231,7 @@ def _jointly(study: Study, base: Trial, effects: tuple[Effect, ...]) -> Task:
         few = guesses[:: -(-len(guesses) // FEW)]
         grids.append([{effect.key(s): v for s, v in g.items()} for g in few])
     points = tuple({**base.values, **_merged(point)} for point in product(*grids))
-    return Task("together", effects, points, steps=40, best=BEAM)
+    return Task("together", (*base.effects, *effects), points, steps=40, best=BEAM)
 
 
 def _merged(parts: Iterable[Mapping[str, float]]) -> dict[str, float]:
@@ -219,10 +247,10 @@ def _likelier(study: Study, rival: Trial, best: Trial) -> bool:
 
 
 def _lesser(
-    study: Study, best: Trial, seen: dict[frozenset[str], Trial], crew: Crew
+    study: Study, base: Trial, best: Trial, seen: dict[frozenset[str], Trial], crew: Crew
 ) -> list[Trial]:
-    """The best trial without each of its effects in turn."""
-    rests = [tuple(e for e in best.effects if e is not effect) for effect in best.effects]
+    """The best trial without each of its effects in turn, but for those of the base."""
+    rests = [tuple(e for e in best.effects if e is not out) for out in _beyond(base, best)]
     new = [rest for rest in rests if _key(rest) not in seen]
     tasks = [Task("second pass", rest, (best.values,)) for rest in new]
     for rest, trial in zip(new, crew.run(study, tasks), strict=True):
@@ -230,10 +258,12 @@ def _lesser(
     return [seen[_key(rest)] for rest in rests]
 
 
-def _prune(study: Study, best: Trial, seen: dict[frozenset[str], Trial], crew: Crew) -> Trial:
+def _prune(
+    study: Study, base: Trial, best: Trial, seen: dict[frozenset[str], Trial], crew: Crew
+) -> Trial:
     """Remove effects that others have made useless, the least useful first."""
-    while best.effects:
-        lesser = _lesser(study, best, seen, crew)
+    while _beyond(base, best):
+        lesser = _lesser(study, base, best, seen, crew)
         useless = [t for t in lesser if not compare(study, t, best).real]
         if not useless:
             return best
@@ -253,7 +283,7 @@ def _rivals(
     """Effects that explain as much in the place of one: no worse by more than scatter."""
     rest = tuple(e for e in best.effects if e is not effect)
     order = sorted(singles, key=lambda t: t.score)
-    likely = [t.effects[0] for t in order[:6]]
+    likely = [t.effects[-1] for t in order[:6]]
     likely += [c for c in candidates if c.name in effect.equivalents]
     names = _key(best.effects)
     keys = {r.name: _key(rest) | {r.name} for r in likely if r.name not in names}

@@ -67,7 +67,9 @@ class Crew:
         if self.jobs == 1 or len(tasks) < 2:
             return [self._here(study, task) for task in tasks]
         if self._pool is None:
-            self._pool = pool(self.jobs, _prepare, *self.studies)
+            # What a parameter would need is for people, and holds functions without a name.
+            sent = [replace(s, needs={}) for s in self.studies]
+            self._pool = pool(self.jobs, _prepare, *sent)
         number = next(i for i, s in enumerate(self.studies) if s is study)
         futures = [self._pool.submit(_answer, number, task) for task in tasks]
         of = dict(zip(futures, tasks, strict=True))

@@ -16,10 +16,11 @@ from erdctl.diagnose.crew import Progress, crew
 from erdctl.diagnose.distinguish import Test, telling_apart
 from erdctl.diagnose.locate import Region, locate
 from erdctl.diagnose.remains import Remainder, examine
-from erdctl.diagnose.study import SHORTEST, Study, prepare
+from erdctl.diagnose.study import SHORTEST, Study, keeping, prepare
 from erdctl.diagnose.trial import Trial
 from erdctl.effect import Effect, Requirement
 from erdctl.errors import InputProblem
+from erdctl.parameters import Parameters
 from erdctl.recording import Array, Recording
 from erdctl.score import Normalise, Validation, validate
 
@@ -58,7 +59,11 @@ class Finding:
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """What was found; see the contract for the meaning of the verdicts."""
+    """What was found; see the contract for the meaning of the verdicts.
+
+    baseline : scores of the given parameters as they are, or else of the paper's model refitted
+    refitted : scores of that model fitted to this recording
+    """
 
     verdict: Verdict
     noise_rms: float
@@ -67,7 +72,9 @@ class Diagnosis:
     fit: Fit
     findings: tuple[Finding, ...]
     mismatch: tuple[Region, ...]
+    given: Parameters | None
     baseline: Validation
+    refitted: Validation
     corrected: Validation
     remainder: Remainder
     untestable: dict[str, str]
@@ -79,20 +86,27 @@ def diagnose(
     *,
     most: int = 3,
     seed: int = 0,
+    given: Parameters | None = None,
     jobs: int = 1,
     progress: Progress = lambda stage, what: None,
 ) -> Diagnosis:
     """Diagnose a recording with a measured force against a catalogue of effects.
 
+    given : parameters of the model to answer for, in place of the paper's; what they already
+        contain is not found again
     jobs : processes that try hypotheses; the results are the same for any number
     """
     study = prepare(recording)
     _enough(study)
+    search = prepare(thinned(recording, SEARCH))
+    if given is not None:
+        lacking = untestable(study, given.model.effects)
+        study, search = (keeping(s, given, lacking) for s in (study, search))
+        candidates = [e for e in candidates if e not in given.model.effects]
     missing = untestable(study, candidates)
     testable = [e for e in candidates if e.name not in missing]
-    search = prepare(thinned(recording, SEARCH))
     with crew((search, study), jobs, progress) as workers:
-        choice = choose(search, testable, most, workers, seed)
+        choice = choose(search, testable, most, workers, seed, given)
         choice = confirm(study, choice, workers)
     best = choice.best
     progress("what remains", "")
@@ -102,12 +116,13 @@ def diagnose(
     if left:
         verdict = Verdict.UNEXPLAINED
     else:
-        verdict = Verdict.EXPLAINED if best.effects else Verdict.ADEQUATE
+        verdict = Verdict.EXPLAINED if choice.named else Verdict.ADEQUATE
     findings = _findings(study, choice)
     energy = (best.residual - choice.base.residual) ** 2
     if left:
         energy += remainder.excess
     mismatch = locate(best.study, energy) if verdict is not Verdict.ADEQUATE else []
+    refitted = _validate(recording, choice.base)
     return Diagnosis(
         verdict=verdict,
         noise_rms=noise,
@@ -116,7 +131,9 @@ def diagnose(
         fit=_errors(study, best),
         findings=findings,
         mismatch=tuple(mismatch[:3]),
-        baseline=_validate(recording, choice.base),
+        given=given,
+        baseline=refitted if given is None else _as_given(study, given),
+        refitted=refitted,
         corrected=_validate(recording, best),
         remainder=remainder,
         untestable=missing,
@@ -178,8 +195,8 @@ def _findings(study: Study, choice: Choice) -> tuple[Finding, ...]:
     with_all = best.model.force(study.block.signals, best.values)
     ranking = sorted(choice.singles, key=lambda t: t.score)
     chosen = {e.name for e in best.effects}
-    runner = next((t.effects[0].name for t in ranking if t.effects[0].name not in chosen), None)
-    for effect in best.effects:
+    runner = next((t.effects[-1].name for t in ranking if t.effects[-1].name not in chosen), None)
+    for effect in choice.named:
         without = choice.without[effect.name]
         # Where it acts; what acts everywhere is seen where the other parameters fail to absorb it.
         alone = best.model.force(study.block.signals, {**best.values, **effect.off})
@@ -206,6 +223,11 @@ def _errors(study: Study, trial: Trial) -> Fit:
     return assess(
         model, [trial.study.block], trial.values, fixed={*study.held, *at_bound}, threads=1
     )
+
+
+def _as_given(study: Study, given: Parameters) -> Validation:
+    force = given.model.force(study.block.signals, given.values)
+    return validate(study.recording, force, Normalise.RANGE)
 
 
 def _validate(recording: Recording, trial: Trial) -> Validation:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -12,6 +13,7 @@ from erdctl.blocks import Block, whole
 from erdctl.effect import Slot, Values
 from erdctl.excitation import Need, unmet
 from erdctl.model import Model
+from erdctl.parameters import Parameters
 from erdctl.recording import Array, Index, Recording
 from erdctl.signals import Signals
 
@@ -120,6 +122,21 @@ def prepare(recording: Recording) -> Study:
     block.weight[uncertain(block.signals)] = 0.0
     group = groups(recording)
     return Study(recording, block, group, stretches(recording, group), held, needs)
+
+
+def keeping(study: Study, given: Parameters, untestable: Mapping[str, str]) -> Study:
+    """The study with given values for what the log cannot identify.
+
+    untestable : effects of the given model that the log cannot show, each with what is missing
+    """
+    needs = dict(study.needs)
+    held = {name: given.values[name] for name in study.held}
+    for effect in given.model.effects:
+        if effect.name in untestable:
+            keys = [effect.key(q.symbol) for q in effect.quantities]
+            held |= {key: given.values[key] for key in keys}
+            needs |= dict.fromkeys(keys, Need(lambda _: False, untestable[effect.name]))
+    return replace(study, held=held, needs=needs)
 
 
 def groups(recording: Recording) -> Index:

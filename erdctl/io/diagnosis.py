@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict
@@ -12,16 +13,26 @@ from erdctl.parameters import Estimate, Parameters
 from erdctl.score import Validation
 
 SCHEMA = "erdctl.diagnosis/1"
+FITTED = "the paper's model, fitted to these logs"
+GIVEN = "the given parameters as they are"
 
 
-def to_json(found: Diagnosis) -> dict[str, Any]:
-    """The document of a diagnosis."""
+def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str, Any]:
+    """The document of a diagnosis; `file` says where given parameters came from."""
     corrected = parameters(found)
+    origin = dict(corrected.provenance)
+    if found.given is not None:
+        names = [e.name for e in found.given.model.effects]
+        origin["params"] = {**(file or {}), "effects": names}
     return {
         "schema": SCHEMA,
         "verdict": found.verdict.value,
         "noise_rms": found.noise_rms,
-        "baseline": _scores(found.baseline),
+        "baseline": {
+            **_scores(found.baseline),
+            "of": FITTED if found.given is None else GIVEN,
+        },
+        **({} if found.given is None else {"refitted": _scores(found.refitted)}),
         "mismatch": [
             {"where": _where(r), "share": r.share, "text": r.text} for r in found.mismatch
         ],
@@ -34,7 +45,7 @@ def to_json(found: Diagnosis) -> dict[str, Any]:
             "text": remaining_text(found),
         },
         "not_testable": found.untestable,
-        "provenance": dict(corrected.provenance),
+        "provenance": origin,
     }
 
 
