@@ -97,7 +97,7 @@ def choose(
     if examine(best.study, best.residual, seed).real:
         joint = [_jointly(study, base, together) for together in _companies(candidates)]
         for trial in crew.run(study, joint):
-            if trial is not None and compare(study, best, trial).real:
+            if trial is not None and _takes_over(study, best, trial):
                 best = trial
                 seen[_key(trial.effects)] = trial
     best = _prune(study, base, best, seen, crew)
@@ -236,6 +236,11 @@ def _jointly(study: Study, base: Trial, effects: tuple[Effect, ...]) -> Task:
 
 def _merged(parts: Iterable[Mapping[str, float]]) -> dict[str, float]:
     return {name: value for part in parts for name, value in part.items()}
+
+
+def _takes_over(study: Study, best: Trial, joint: Trial) -> bool:
+    """Whether effects that come together replace what was found one by one."""
+    return compare(study, best, joint).real or _likelier(study, joint, best)
 
 
 def _likelier(study: Study, rival: Trial, best: Trial) -> bool:
