@@ -37,6 +37,21 @@ def command(
     exclude: Annotated[
         list[str], typer.Option(metavar="NAME,...", help="Do not test these effects.")
     ] = [],
+    record_gains: Annotated[
+        bool,
+        typer.Option(
+            "--record-gains",
+            help="One free gain of the force per record, mean 1: scatter of"
+            " amplitudes that is carried, reported and not named.",
+        ),
+    ] = False,
+    record_offsets: Annotated[
+        bool,
+        typer.Option(
+            "--record-offsets",
+            help="The same for the zero of the force [N], mean 0; a common offset stays a finding.",
+        ),
+    ] = False,
     max_effects: Annotated[int, typer.Option(min=1, max=6, help="Name at most so many.")] = 3,
     seed: Annotated[int, typer.Option(help="Of the regression that looks at what remains.")] = 0,
     jobs: Annotated[
@@ -64,9 +79,11 @@ def command(
       erdctl diagnose a.csv b.csv --exclude thermal_fade --fail-on-mismatch
       erdctl diagnose bench.csv --effects backlash,mount_compliance
       erdctl diagnose bench.parquet --jobs 2 --max-effects 4
+      erdctl diagnose bench.parquet --record-gains --record-offsets
       erdctl identify bench.csv | erdctl diagnose later.csv --params - -o diagnosis.json
     """
     from erdctl.diagnose.diagnosis import Verdict, diagnose
+    from erdctl.diagnose.scatter import Free
     from erdctl.errors import CheckFailed
     from erdctl.io import documents
     from erdctl.io.diagnosis import to_json
@@ -79,7 +96,8 @@ def command(
     with progress() as step:
         found = diagnose(
             log.recording, candidates, most=max_effects,
-            given=given, seed=seed,
+            given=given,
+            free=Free(gain=record_gains, offset=record_offsets), seed=seed,
             jobs=jobs or _jobs(log.recording, candidates), progress=step,
         )  # fmt: skip
     documents.write(to_json(found, file), output)
@@ -128,8 +146,11 @@ def _jobs(recording: Recording, candidates: Sequence[Effect]) -> int:
 
 
 def _show(found: Diagnosis) -> None:
-    from erdctl.io.diagnosis import finding_text, parameters, remaining_text
+    from erdctl.io.diagnosis import finding_text, parameters, record_values, remaining_text
     from erdctl.report.text import number, say, table
+
+    def with_error(value: float, error: float | None) -> str:
+        return number(value) + ("" if error is None else f" +- {number(error, 2)}")
 
     shown = {"paper's model": found.baseline, "corrected": found.corrected}
     if found.given is not None:
@@ -141,6 +162,17 @@ def _show(found: Diagnosis) -> None:
     rows.append(["all", *(f"{v.overall.nrmse:.4f}" for v in shown.values())])
     title = f"Verdict: {found.verdict.value}. NRMSE over the range, per PWM level"
     table(title, ["", *shown], rows)
+    values = record_values(found)
+    if values:
+        header = [k for k in ("gain", "offset") if k in values[0]]
+        table(
+            "Carried per record, apart from the shared parameters",
+            ["", *(f"{k} [{values[0][k]['unit']}]" for k in header)],
+            [
+                [v["name"], *(with_error(v[k]["value"], v[k]["stderr"]) for k in header)]
+                for v in values
+            ],
+        )
     known = parameters(found)
     for finding in found.findings:
         say(finding_text(finding), finding.effect.name)

@@ -56,7 +56,10 @@ def confirm(study: Study, found: Choice, crew: Crew) -> Choice:
     What a part of the samples spoke for and all of them do not is dropped.
     """
     again = {_key(t.effects): t for t in (found.base, found.best, *found.without.values())}
-    tasks = [Task("all samples", t.effects, (t.values,), CONFIRM) for t in again.values()]
+    tasks = [
+        Task("all samples", t.effects, (t.values,), CONFIRM, scatter=t.scatter)
+        for t in again.values()
+    ]
     seen = {k: _must(t) for k, t in zip(again, crew.run(study, tasks), strict=True)}
     base = seen[_key(found.base.effects)]
     best = _prune(study, base, seen[_key(found.best.effects)], seen, crew)
@@ -211,7 +214,8 @@ def _extension(stage: str, parent: Trial, prospect: Prospect) -> Task:
     if prospect.effect.slot is Slot.SERIES:
         # Without the lag that stands in for the compliance.
         starts.append({**parent.values, **fresh_start(0.005, 0.4), **prospect.starts[0]})
-    return Task(stage, (*parent.effects, prospect.effect), tuple(starts))
+    effects = (*parent.effects, prospect.effect)
+    return Task(stage, effects, tuple(starts), scatter=parent.scatter)
 
 
 def _companies(candidates: Sequence[Effect]) -> Iterator[tuple[Effect, ...]]:
@@ -231,7 +235,7 @@ def _jointly(study: Study, base: Trial, effects: tuple[Effect, ...]) -> Task:
         few = guesses[:: -(-len(guesses) // FEW)]
         grids.append([{effect.key(s): v for s, v in g.items()} for g in few])
     points = tuple({**base.values, **_merged(point)} for point in product(*grids))
-    return Task("together", (*base.effects, *effects), points, steps=40, best=BEAM)
+    return Task("together", (*base.effects, *effects), points, 40, BEAM, base.scatter)
 
 
 def _merged(parts: Iterable[Mapping[str, float]]) -> dict[str, float]:
@@ -257,7 +261,7 @@ def _lesser(
     """The best trial without each of its effects in turn, but for those of the base."""
     rests = [tuple(e for e in best.effects if e is not out) for out in _beyond(base, best)]
     new = [rest for rest in rests if _key(rest) not in seen]
-    tasks = [Task("second pass", rest, (best.values,)) for rest in new]
+    tasks = [Task("second pass", rest, (best.values,), scatter=best.scatter) for rest in new]
     for rest, trial in zip(new, crew.run(study, tasks), strict=True):
         seen[_key(rest)] = _must(trial)
     return [seen[_key(rest)] for rest in rests]
@@ -293,7 +297,8 @@ def _rivals(
     names = _key(best.effects)
     keys = {r.name: _key(rest) | {r.name} for r in likely if r.name not in names}
     if _key(rest) not in seen:
-        (base,) = crew.run(study, [Task("second pass", rest, (best.values,))])
+        task = Task("second pass", rest, (best.values,), scatter=best.scatter)
+        (base,) = crew.run(study, [task])
         seen[_key(rest)] = _must(base)
     new = [r for r in dict.fromkeys(likely) if r.name in keys and keys[r.name] not in seen]
     screen = Screen(study, seen[_key(rest)]) if new else None

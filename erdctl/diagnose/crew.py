@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
+from erdctl.diagnose.scatter import Scatter
 from erdctl.diagnose.study import Study
 from erdctl.diagnose.trial import Trial, attempt, ranked
 from erdctl.effect import Effect
@@ -26,6 +27,7 @@ class Task:
 
     stage : for whoever watches;  effects, starts : see `attempt`;  steps : of the search, at most
     best : how many starts are left after a glance at all of them, if not all are
+    scatter : of the records to begin with, see `attempt`
     """
 
     stage: str
@@ -33,6 +35,7 @@ class Task:
     starts: tuple[Mapping[str, float], ...]
     steps: int = 25
     best: int | None = None
+    scatter: Scatter | None = None
 
     @property
     def name(self) -> str:
@@ -51,6 +54,7 @@ class Answer(NamedTuple):
     unseen: Array
     evaluations: int
     weight: Array | None
+    scatter: Scatter | None
 
 
 class Crew:
@@ -115,8 +119,8 @@ def tried(study: Study, task: Task) -> Trial | None:
     try:
         starts: Sequence[Mapping[str, float]] = task.starts
         if task.best is not None:
-            starts = ranked(study, task.effects, starts)[: task.best]
-        return attempt(study, task.effects, starts, max_evaluations=task.steps)
+            starts = ranked(study, task.effects, starts, task.scatter)[: task.best]
+        return attempt(study, task.effects, starts, task.steps, task.scatter)
     except ValueError:
         return None  # effects that cannot act together
 
@@ -125,11 +129,11 @@ def _trial(study: Study, task: Task, future: Future[Answer | None]) -> Trial | N
     answer = future.result()
     if answer is None:
         return None
-    values, residual, unseen, evaluations, weight = answer
+    values, residual, unseen, evaluations, weight, scatter = answer
     part = study
     if weight is not None:
         part = replace(study, block=study.block._replace(weight=weight))
-    return Trial(part, Model(task.effects), values, residual, unseen, evaluations)
+    return Trial(part, Model(task.effects), values, residual, unseen, evaluations, scatter)
 
 
 _studies: tuple[Study, ...] = ()  # of this process, if it is a worker
@@ -148,4 +152,5 @@ def _answer(number: int, task: Task) -> Answer | None:
     if trial is None:
         return None
     weight = None if trial.study is study else trial.study.block.weight
-    return Answer(trial.values, trial.residual, trial.unseen, trial.evaluations, weight)
+    t = trial
+    return Answer(t.values, t.residual, t.unseen, t.evaluations, weight, t.scatter)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -16,6 +16,7 @@ from erdctl.diagnose.crew import Progress, crew
 from erdctl.diagnose.distinguish import Test, telling_apart
 from erdctl.diagnose.locate import Region, locate
 from erdctl.diagnose.remains import Remainder, examine
+from erdctl.diagnose.scatter import NOTHING, Free, Scatter, errors
 from erdctl.diagnose.study import SHORTEST, Study, keeping, prepare
 from erdctl.diagnose.trial import Trial
 from erdctl.effect import Effect, Requirement
@@ -63,6 +64,8 @@ class Diagnosis:
 
     baseline : scores of the given parameters as they are, or else of the paper's model refitted
     refitted : scores of that model fitted to this recording
+    corrected, carried : scores of the best model without and with the scatter of the records, which
+        are the same where none is carried
     """
 
     verdict: Verdict
@@ -76,6 +79,8 @@ class Diagnosis:
     baseline: Validation
     refitted: Validation
     corrected: Validation
+    carried: Validation
+    scatter: Scatter | None
     remainder: Remainder
     untestable: dict[str, str]
 
@@ -87,6 +92,7 @@ def diagnose(
     most: int = 3,
     seed: int = 0,
     given: Parameters | None = None,
+    free: Free = NOTHING,
     jobs: int = 1,
     progress: Progress = lambda stage, what: None,
 ) -> Diagnosis:
@@ -94,11 +100,12 @@ def diagnose(
 
     given : parameters of the model to answer for, in place of the paper's; what they already
         contain is not found again
+    free : what of the force may scatter from record to record, which is carried and not named
     jobs : processes that try hypotheses; the results are the same for any number
     """
-    study = prepare(recording)
+    study = prepare(recording, free)
     _enough(study)
-    search = prepare(thinned(recording, SEARCH))
+    search = prepare(thinned(recording, SEARCH), free)
     if given is not None:
         lacking = untestable(study, given.model.effects)
         study, search = (keeping(s, given, lacking) for s in (study, search))
@@ -122,19 +129,22 @@ def diagnose(
     if left:
         energy += remainder.excess
     mismatch = locate(best.study, energy) if verdict is not Verdict.ADEQUATE else []
-    refitted = _validate(recording, choice.base)
+    refitted = _validate(study, choice.base)
+    fit, scatter = _errors(study, best)
     return Diagnosis(
         verdict=verdict,
         noise_rms=noise,
         study=study,
         choice=choice,
-        fit=_errors(study, best),
+        fit=fit,
+        scatter=scatter,
         findings=findings,
         mismatch=tuple(mismatch[:3]),
         given=given,
         baseline=refitted if given is None else _as_given(study, given),
         refitted=refitted,
-        corrected=_validate(recording, best),
+        corrected=_validate(study, best),
+        carried=_carried(study, best),
         remainder=remainder,
         untestable=missing,
     )
@@ -217,12 +227,16 @@ def _findings(study: Study, choice: Choice) -> tuple[Finding, ...]:
     return tuple(sorted(found, key=lambda f: -f.gain.gain))
 
 
-def _errors(study: Study, trial: Trial) -> Fit:
+def _errors(study: Study, trial: Trial) -> tuple[Fit, Scatter | None]:
     model = trial.model
     at_bound = [n for n, q in model.quantities.items() if not q.low < trial.values[n] < q.high]
-    return assess(
-        model, [trial.study.block], trial.values, fixed={*study.held, *at_bound}, threads=1
-    )
+    block, scatter = trial.study.block, trial.scatter
+    shared = block if scatter is None else scatter.shared(block)
+    fit = assess(model, [shared], trial.values, fixed={*study.held, *at_bound}, threads=1)
+    if scatter is None:
+        return fit, None
+    covariance, scatter = errors(study.free, block, model, fit.values, fit.free, scatter)
+    return replace(fit, covariance=covariance), scatter
 
 
 def _as_given(study: Study, given: Parameters) -> Validation:
@@ -230,7 +244,13 @@ def _as_given(study: Study, given: Parameters) -> Validation:
     return validate(study.recording, force, Normalise.RANGE)
 
 
-def _validate(recording: Recording, trial: Trial) -> Validation:
-    assert recording.force is not None
-    modelled: Array = recording.force - trial.residual
-    return validate(recording, modelled, Normalise.RANGE)
+def _validate(study: Study, trial: Trial) -> Validation:
+    if trial.scatter is None:
+        return _carried(study, trial)
+    force = trial.model.force(study.block.signals, trial.values)
+    return validate(study.recording, force, Normalise.RANGE)
+
+
+def _carried(study: Study, trial: Trial) -> Validation:
+    modelled: Array = study.block.force - trial.residual
+    return validate(study.recording, modelled, Normalise.RANGE)

@@ -51,7 +51,11 @@ class Screen:
             n for n, q in parent.model.quantities.items()
             if n not in study.held and q.low < parent.values[n] < q.high
         ]  # fmt: skip
-        J = jacobian(parent.model, signals, parent.values, free) * self.root
+        scatter = parent.scatter
+        self.lever = self.root  # of a force of the model on a weighted residual
+        if scatter is not None:
+            self.lever = self.root * scatter.along(signals.starts)[0]
+        J = jacobian(parent.model, signals, parent.values, free) * self.lever
         scale = np.sqrt(np.einsum("ij,ij->i", J, J))
         J /= np.where(scale > 0, scale, 1.0)[:, None]
         w, v = np.linalg.eigh(J @ J.T)
@@ -86,7 +90,7 @@ class Screen:
         if effect.columns is not None:
             rows += list(effect.columns(signals, guess))
             signs += [q.low >= 0 for q in effect.amplitudes]
-        X = self._beyond(np.array(rows) * self.root)
+        X = self._beyond(np.array(rows) * self.lever)
         one_sided = np.array(signs)
         use = np.einsum("ij,ij->i", X, X) > 0.0
         while use.any():

@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from erdctl.blocks import Block, whole
+from erdctl.diagnose.scatter import NOTHING, Free
 from erdctl.effect import Slot, Values
 from erdctl.excitation import Need, unmet
 from erdctl.model import Model
@@ -31,6 +32,7 @@ class Study:
     group : (n,) which left-out part a sample belongs to
     stretch : (n,) which piece of that, of about SHORTEST, by which hypotheses are compared
     held : paper parameters that the log cannot identify, and their values
+    free : what of the force may differ from record to record
     """
 
     recording: Recording
@@ -39,6 +41,7 @@ class Study:
     stretch: Index
     held: dict[str, float]
     needs: dict[str, Need]
+    free: Free = NOTHING
 
     @cached_property
     def count(self) -> int:
@@ -110,7 +113,7 @@ def sure(study: Study, model: Model, values: Values) -> Study:
     return replace(study, block=study.block._replace(weight=weight))
 
 
-def prepare(recording: Recording) -> Study:
+def prepare(recording: Recording, free: Free = NOTHING) -> Study:
     """The study of a recording with a measured force."""
     needs = unmet(recording)
     held = {
@@ -121,7 +124,9 @@ def prepare(recording: Recording) -> Study:
     block = whole(recording)
     block.weight[uncertain(block.signals)] = 0.0
     group = groups(recording)
-    return Study(recording, block, group, stretches(recording, group), held, needs)
+    if len(recording.names) == 1:
+        free = NOTHING  # one record has nothing to differ from
+    return Study(recording, block, group, stretches(recording, group), held, needs, free)
 
 
 def keeping(study: Study, given: Parameters, untestable: Mapping[str, str]) -> Study:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from erdctl.assess import jacobian
+from erdctl.diagnose.scatter import Scatter, estimate
 from erdctl.diagnose.study import Study, sure
 from erdctl.effect import Effect
 from erdctl.fit import fit
@@ -17,6 +18,7 @@ from erdctl.recording import DIRECTIONS, Array
 # A group is left out but for this part of the weight of all data. What only one group shows (a lag,
 # if it alone has duty steps) is otherwise unknown without it, and the step goes to infinity.
 KEPT = 0.05
+ROUNDS = 12  # of alternating least squares between the model and the scatter of the records
 GLANCE = 4  # steps of a search that only ranks its start
 
 
@@ -26,6 +28,7 @@ class Trial:
 
     study : what it was fitted to, but for samples of which its channel makes nothing certain
     residual : (n,) [N];  unseen : (n,) the same, by a fit that leaves out the sample's group
+    scatter : of the records, where the study leaves it free; residuals are then beyond that
     """
 
     study: Study
@@ -34,6 +37,7 @@ class Trial:
     residual: Array
     unseen: Array
     evaluations: int
+    scatter: Scatter | None = None
 
     @property
     def effects(self) -> tuple[Effect, ...]:
@@ -51,39 +55,64 @@ def attempt(
     effects: Sequence[Effect],
     starts: Sequence[Mapping[str, float]],
     max_evaluations: int = 40,
+    scatter: Scatter | None = None,
 ) -> Trial:
-    """Fit from every start and judge the best by leaving groups out."""
+    """Fit from every start and judge the best by leaving groups out.
+
+    scatter : of the records to begin with
+    """
     model = Model(tuple(effects))
-    found = [_fitted(study, model, start, max_evaluations) for start in starts]
+    if study.free and scatter is None:
+        scatter = Scatter.none(len(study.recording.names))
+    found = [_fitted(study, model, start, max_evaluations, scatter) for start in starts]
     values, residual, _ = min(found, key=lambda f: _cost(study, f[1]))
     evaluations = sum(count for _, _, count in found)
     part = sure(study, model, values)
     if part is not study:
-        values, residual, count = _fitted(part, model, values, max_evaluations)
+        values, residual, count = _fitted(part, model, values, max_evaluations, scatter)
         part = sure(study, model, values)
         evaluations += count
-    unseen = leave_out(part, model, values, residual)
-    return Trial(part, model, values, residual, unseen, evaluations)
+    for _ in range(ROUNDS if scatter is not None else 0):
+        assert scatter is not None
+        modelled = model.force(part.block.signals, values)
+        last, scatter = scatter, estimate(study.free, part.block, modelled, scatter)
+        values, residual, count = _fitted(part, model, values, max_evaluations, scatter)
+        evaluations += count
+        if scatter.settled(last):
+            break
+    unseen = leave_out(part, model, values, residual, scatter)
+    return Trial(part, model, values, residual, unseen, evaluations, scatter)
 
 
 def ranked(
-    study: Study, effects: Sequence[Effect], points: Sequence[Mapping[str, float]]
+    study: Study,
+    effects: Sequence[Effect],
+    points: Sequence[Mapping[str, float]],
+    scatter: Scatter | None = None,
 ) -> list[dict[str, float]]:
     """Starts after a short search from each, the most promising first."""
     model = Model(tuple(effects))
-    found = [_fitted(study, model, point, GLANCE) for point in points]
+    found = [_fitted(study, model, point, GLANCE, scatter) for point in points]
     found.sort(key=lambda f: _cost(study, f[1]))
     return [values for values, _, _ in found]
 
 
 def _fitted(
-    study: Study, model: Model, start: Mapping[str, float], max_evaluations: int
+    study: Study,
+    model: Model,
+    start: Mapping[str, float],
+    max_evaluations: int,
+    scatter: Scatter | None = None,
 ) -> tuple[dict[str, float], Array, int]:
     full = {**{n: q.start for n, q in model.quantities.items()}, **start, **study.held}
+    block = study.block if scatter is None else scatter.shared(study.block)
     values, count, _ = fit(
-        model, study.block, start=full, fixed=study.held, max_evaluations=max_evaluations
+        model, block, start=full, fixed=study.held, max_evaluations=max_evaluations
     )
-    return values, study.block.force - model.force(study.block.signals, values), count
+    residual = block.force - model.force(block.signals, values)
+    if scatter is not None:
+        residual = residual * scatter.along(block.signals.starts)[0]
+    return values, residual, count
 
 
 def _cost(study: Study, residual: Array) -> float:
@@ -91,7 +120,13 @@ def _cost(study: Study, residual: Array) -> float:
     return cost if np.isfinite(cost) else np.inf
 
 
-def leave_out(study: Study, model: Model, values: Mapping[str, float], residual: Array) -> Array:
+def leave_out(
+    study: Study,
+    model: Model,
+    values: Mapping[str, float],
+    residual: Array,
+    scatter: Scatter | None = None,
+) -> Array:
     """(n,) error on each group by a fit without it [N].
 
         d = (N - N_g)^-1 J_g' W r_g,   theta without g = theta - d,   r_g without = r_g + J_g d
@@ -107,6 +142,8 @@ def leave_out(study: Study, model: Model, values: Mapping[str, float], residual:
         if q.low < v < q.high:
             free.append(name)
     J = jacobian(model, study.block.signals, values, free)
+    if scatter is not None:
+        J = J * scatter.along(study.block.signals.starts)[0]
     scale = np.sqrt(np.einsum("ij,ij,j->i", J, J, study.block.weight))
     scale[scale == 0.0] = 1.0
     J = J / scale[:, None]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import isfinite
 from typing import Any
 
 from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict
@@ -39,11 +40,12 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
         "findings": [_finding(f, corrected) for f in found.findings],
         "corrected": {**_scores(found.corrected), "params": to_document(corrected)},
         "remaining": {
-            "rms": found.corrected.overall.rms,
-            "over_noise": found.corrected.overall.rms / found.noise_rms if found.noise_rms else 1.0,
+            "rms": found.carried.overall.rms,
+            "over_noise": found.carried.overall.rms / found.noise_rms if found.noise_rms else 1.0,
             "misfit_rms": found.remainder.misfit_rms,
             "text": remaining_text(found),
         },
+        **_records(found),
         "not_testable": found.untestable,
         "provenance": origin,
     }
@@ -95,7 +97,7 @@ def remaining_text(found: Diagnosis) -> str:
     left = found.remainder
     if found.verdict is not Verdict.UNEXPLAINED:
         return (
-            f"what remains, {found.corrected.overall.rms:.3g} N rms, holds nothing that motion,"
+            f"what remains, {found.carried.overall.rms:.3g} N rms, holds nothing that motion,"
             " duty, time or energy would predict: measurement noise"
         )
     words = (
@@ -111,6 +113,32 @@ def remaining_text(found: Diagnosis) -> str:
     if like is not None:
         words += f"; it is most like {like.form} (correlation {like.correlation:+.2f})"
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
+
+
+def record_values(found: Diagnosis) -> list[dict[str, Any]]:
+    """Gain and offset of each record, as far as they were free; no error where undetermined."""
+    free, scatter = found.study.free, found.scatter
+    if scatter is None:
+        return []
+
+    def value(number: float, unit: str, error: float) -> dict[str, Any]:
+        return {"value": number, "unit": unit, "stderr": error if isfinite(error) else None}
+
+    out = []
+    for i, name in enumerate(found.study.recording.names):
+        entry: dict[str, Any] = {"name": name}
+        if free.gain:
+            entry["gain"] = value(float(scatter.gain[i]), "1", float(scatter.gain_error[i]))
+        if free.offset:
+            entry["offset"] = value(float(scatter.offset[i]), "N", float(scatter.offset_error[i]))
+        out.append(entry)
+    return out
+
+
+def _records(found: Diagnosis) -> dict[str, Any]:
+    """Per record, apart from the shared parameters; and the scores when both are used."""
+    values = record_values(found)
+    return {"records": values, "with_records": _scores(found.carried)} if values else {}
 
 
 def _finding(f: Finding, corrected: Parameters) -> dict[str, Any]:
