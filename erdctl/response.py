@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,6 +15,18 @@ from erdctl.recording import COMPRESSION, RELEASE, Array
 from erdctl.signals import Signals
 
 Factors = Mapping[str, Array]
+
+
+class _Behind(NamedTuple):
+    """What marches behind a spring: (n,) force, stretch and speed, laws on a grid, (n,) factors."""
+
+    force: Array
+    stretch: Array
+    speed: Array
+    grid: Array
+    viscous: Array
+    friction: Array
+    gain: Factors
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +52,10 @@ class Prepared:
 
     def force(self, values: Values, factors: Factors | None = None) -> Array:
         """(n,) force; `factors` multiply groups sample by sample (faults, Eqs. 20-23)."""
+        springs = self._springs(values)
+        if springs and not in_slot(self.effects, Slot.FEEDBACK):
+            factors = multiplied(self.scale, factors or {})
+            return self._recorded(self._total_behind_spring(values, factors, *springs[0]))
         parts = self.parts(values, factors)
         total = parts["gas"] + parts["viscous"] + parts["yield"]
         return total + parts["other"] if "other" in parts else total
@@ -54,10 +71,7 @@ class Prepared:
         return {name: self._recorded(part) for name, part in out.items()}
 
     def _parts(self, values: Values, factors: Factors) -> dict[str, Array]:
-        springs = [(e, float(e.act(e.local(values)))) for e in in_slot(self.effects, Slot.SERIES)]
-        springs = [(e, compliance) for e, compliance in springs if compliance > 0.0]
-        if len(springs) > 1:
-            raise ValueError("only one compliance can be in series")
+        springs = self._springs(values)
         if springs:
             return self._behind_spring(values, factors, *springs[0])
         sigma = pair(values, "sigma")
@@ -119,15 +133,40 @@ class Prepared:
             column = effect.act(column, self.signals, effect.local(self.values))
         return column
 
-    def _behind_spring(
+    def _springs(self, values: Values) -> list[tuple[Effect, float]]:
+        """The effect that puts a compliance in series, if any does, and its compliance [m/N]."""
+        springs = [(e, float(e.act(e.local(values)))) for e in in_slot(self.effects, Slot.SERIES)]
+        springs = [(e, compliance) for e, compliance in springs if compliance > 0.0]
+        if len(springs) > 1:
+            raise ValueError("only one compliance can be in series")
+        return springs
+
+    def _total_behind_spring(
         self, values: Values, factors: Factors, spring: Effect, compliance: float
-    ) -> dict[str, Array]:
-        """Forces by group with a compliance [m/N] in series with the groups that it carries.
+    ) -> Array:
+        """(n,) what `_behind_spring` adds up to, without taking it apart."""
+        force = self._march(values, factors, spring, compliance).force
+        if spring.carries is not None:
+            gas = self.gas * self.signals.per_direction(*pair(values, "k_nom"))
+            force = force + gas * factors["gas"] if "gas" in factors else force + gas
+        for name, row in self._outside(inner=spring.carries is None):
+            force = force + values[name] * row
+        return force
+
+    def _outside(self, *, inner: bool) -> Sequence[tuple[str, Array]]:
+        """Terms that act beside the spring; behind one of all forces are those of speed alone."""
+        inside = {e.key(q.symbol) for e in self.effects if e.of_speed for q in e.amplitudes}
+        return [(name, row) for name, row in self.terms() if not (inner and name in inside)]
+
+    def _march(
+        self, values: Values, factors: Factors, spring: Effect, compliance: float
+    ) -> _Behind:
+        """The spring and what moves behind it.
 
         Forces that do not depend on speed alone act on the recorded motion, outside the spring. A
         gas law in place of x is moved by the spring as x is: their slopes differ by little there.
         """
-        from erdctl.series import along, march, speed_grid
+        from erdctl.series import march, speed_grid
 
         s, inner = self.signals, spring.carries is None
         grid = speed_grid(float(np.abs(s.xdot).max()))
@@ -146,23 +185,32 @@ class Prepared:
             gain["gas"], gain["viscous"], gain["yield"], grid, viscous, sign, friction,
             k[0], k[1], T[0], T[1], compliance, self.gap,
         )  # fmt: skip
+        return _Behind(force, stretch, v, grid, viscous, friction, gain)
 
+    def _behind_spring(
+        self, values: Values, factors: Factors, spring: Effect, compliance: float
+    ) -> dict[str, Array]:
+        """Forces by group with a compliance [m/N] in series with the groups that it carries."""
+        from erdctl.series import along
+
+        s, inner = self.signals, spring.carries is None
+        b = self._march(values, factors, spring, compliance)
         out = {
-            "viscous": along(v, grid, viscous) * gain["viscous"],
-            "other": along(v, grid, friction),
+            "viscous": along(b.speed, b.grid, b.viscous) * b.gain["viscous"],
+            "other": along(b.speed, b.grid, b.friction),
         }
         if inner:
-            gas = (self.gas - stretch) * s.with_motion(s.x, v).per_direction(*k)
-            out["gas"] = gas * gain["gas"]
+            gas = (self.gas - b.stretch) * s.with_motion(s.x, b.speed).per_direction(
+                *pair(values, "k_nom")
+            )
+            out["gas"] = gas * b.gain["gas"]
             # The yield force is what the rest leaves: at rest, whatever holds the piston.
-            out["yield"] = force - out["gas"] - out["viscous"] - out["other"]
+            out["yield"] = b.force - out["gas"] - out["viscous"] - out["other"]
         else:
-            out["gas"] = self.gas * s.per_direction(*pair(values, "k_nom")) * gain["gas"]
-            out["yield"] = force - out["viscous"]
-        inside = {e.key(q.symbol) for e in self.effects if e.of_speed for q in e.amplitudes}
-        for name, row in self.terms():
-            if not (inner and name in inside):
-                out["other"] = out["other"] + values[name] * row
+            out["gas"] = self.gas * s.per_direction(*pair(values, "k_nom")) * b.gain["gas"]
+            out["yield"] = b.force - out["viscous"]
+        for name, row in self._outside(inner=inner):
+            out["other"] = out["other"] + values[name] * row
         return out
 
     def _laws(self, values: Values, grid: Array) -> tuple[Array, Array, Array]:

@@ -46,10 +46,12 @@ def _held(e: float, half: float, s: float) -> float:
 @njit(cache=True)
 def _moved(
     e: float, mean: float, end: float, dt: float, s: float, x: float, Y: float, k_c: float,
-    k_r: float, g_visc: float, half: float, grid: Array, viscous: Array, sign: Array,
+    k_r: float, g_visc: float, half: float, near: int, grid: Array, viscous: Array, sign: Array,
     friction: Array,
-) -> tuple[float, float]:  # fmt: skip
+) -> tuple[float, float, int]:  # fmt: skip
     """Stretch of the spring and speed behind it at the end of a leg in one direction of the rod.
+
+    near : node of the grid below the last speed, where the search begins; the new one is returned
 
     mean, end : speed of the rod [m/s], over the leg of dt [s] and as it ends;  x : deflection then
     Y : magnitude of the yield force then;  k_c, k_r : gas stiffness
@@ -66,8 +68,8 @@ def _moved(
         if (rest + Y * sign[branch, 0] + friction[branch, 0]) * way >= 0.0:
             continue
         low, high = 0, m - 1
+        mid, reach = min(max(near, 1), m - 2), 1
         while high - low > 1:
-            mid = (low + high) // 2
             at = e - way * grid[mid] * span
             h = (
                 k * (x - at) - _held(at, half, s) + viscous[branch, mid] * g_visc
@@ -77,6 +79,16 @@ def _moved(
                 low = mid
             else:
                 high = mid
+            # Speeds change little from sample to sample: outwards from the last in growing steps,
+            # and by halves once there is a bracket.
+            if low > 0 and high < m - 1:
+                mid = (low + high) // 2
+            elif high == m - 1:
+                mid = min(low + reach, m - 2) if low + reach < high else (low + high) // 2
+                reach *= 4
+            else:
+                mid = max(high - reach, 1) if high - reach > low else (low + high) // 2
+                reach *= 4
         at = e - way * grid[low] * span
         a = (
             k * (x - at) - _held(at, half, s) + viscous[branch, low] * g_visc
@@ -89,8 +101,8 @@ def _moved(
         )  # fmt: skip
         part = -a / (b - a) if b != a else 0.0
         v = way * (grid[low] + part * (grid[high] - grid[low]))
-        return e - v * span, v
-    return e, 0.0
+        return e - v * span, v, low
+    return e, 0.0, 1
 
 
 @njit(cache=True)
@@ -111,6 +123,7 @@ def march(
     whole of it the piston would turn up to a step late, however stiff the spring.
     """
     n, m, half = len(x), len(grid), 0.5 * gap
+    last, fade = -1.0, 1.0  # the exponential of the last step: most are alike
     force, stretch, speed = np.empty(n), np.empty(n), np.empty(n)
     for r in range(len(starts) - 1):
         first = starts[r]
@@ -124,6 +137,7 @@ def march(
         moving = law[j - 1] * (1.0 - w) + law[j] * w if xdot[first] != 0.0 else 0.0
         k = (k_c if up else k_r) * g_gas[first]
         F = (k * x[first] + moving) / (1.0 + k * s)
+        near = j - 1
         e = s * F + (half if F > 0.0 else -half if F < 0.0 else 0.0)
         force[first], stretch[first], speed[first] = F, e, xdot[first]
         for i in range(first + 1, starts[r + 1]):
@@ -141,10 +155,13 @@ def march(
                         mean, span = 0.5 * b, dt - before
                 u = u_c[i - 1] if up else u_r[i - 1]
                 T = (T_c if up else T_r) * (falls[i - 1] if abs(u) < abs(y) else 1.0)
-                y = u + (y - u) * np.exp(-span / T)
-                e, v = _moved(
+                decay = span / T
+                if decay != last:
+                    last, fade = decay, np.exp(-decay)
+                y = u + (y - u) * fade
+                e, v, near = _moved(
                     e, mean, end, span, s, x_end, y * g_yield[i], k_c * g_gas[i], k_r * g_gas[i],
-                    g_visc[i], half, grid, viscous, sign, friction,
+                    g_visc[i], half, near, grid, viscous, sign, friction,
                 )  # fmt: skip
                 if v != 0.0:
                     up = v > 0.0

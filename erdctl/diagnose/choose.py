@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
 
+from erdctl.diagnose.companies import companies, jointly
 from erdctl.diagnose.compare import LEAST, compare
 from erdctl.diagnose.crew import Crew, Task
-from erdctl.diagnose.remains import examine
-from erdctl.diagnose.screen import Prospect, Screen, starts
+from erdctl.diagnose.remains import Remainder, examine
+from erdctl.diagnose.screen import Prospect, Screen
 from erdctl.diagnose.study import Study
 from erdctl.diagnose.trial import Trial, attempt, fresh_start
 from erdctl.effect import Effect, Slot
@@ -24,7 +24,6 @@ TIE = 2.0  # below that many times their scatter two hypotheses cannot be told a
 HOPE = 0.4  # of the most promising effect's gain: worth a full trial
 ALWAYS = 4  # effects that get one in any case
 CONFIRM = 12  # steps of a search from where another has ended
-FEW = 5  # starts of each of several effects that are tried together
 DISTINCT = (Slot.SIGN, Slot.VISCOUS, Slot.GAS, Slot.SERIES)  # one effect at most in each
 
 
@@ -82,9 +81,12 @@ def choose(
     best, pool = base, [base]
     seen = {_key(base.effects): base}
     singles: list[Trial] = []
+    rest: Remainder | None = None
     for depth in range(most):
-        if depth and not examine(best.study, best.residual, seed).hint:
-            break  # more effects would have nothing to explain
+        if depth:
+            rest = examine(best.study, best.residual, seed)
+            if not rest.hint:
+                break  # more effects would have nothing to explain
         stage = f"{depth + 1} effects" if depth else "each effect"
         grown = _grown(study, pool, candidates, stage, seen, crew)
         if not depth:
@@ -92,13 +94,14 @@ def choose(
         grown.sort(key=lambda t: (t.score, len(t.model.shape)))
         better = [t for t in grown if compare(study, best, t).real]
         if better:
-            best = better[0]
+            best, rest = better[0], None
         elif depth:
             break
         # Also hypotheses that gain nothing alone: one may be worth something beside another.
         pool = (better or grown)[:BEAM]
-    if examine(best.study, best.residual, seed).real:
-        joint = [_jointly(study, base, together) for together in _companies(candidates)]
+    rest = rest or examine(best.study, best.residual, seed)
+    if rest.real:
+        joint = [jointly(study, base, together) for together in companies(candidates)]
         for trial in crew.run(study, joint):
             if trial is not None and _takes_over(study, best, trial):
                 best = trial
@@ -216,30 +219,6 @@ def _extension(stage: str, parent: Trial, prospect: Prospect) -> Task:
         starts.append({**parent.values, **fresh_start(0.005, 0.4), **prospect.starts[0]})
     effects = (*parent.effects, prospect.effect)
     return Task(stage, effects, tuple(starts), scatter=parent.scatter)
-
-
-def _companies(candidates: Sequence[Effect]) -> Iterator[tuple[Effect, ...]]:
-    """Effects with those that commonly come with them."""
-    by_name = {e.name: e for e in candidates}
-    for effect in candidates:
-        others = [by_name[name] for name in effect.beside if name in by_name]
-        if others:
-            yield (effect, *others)
-
-
-def _jointly(study: Study, base: Trial, effects: tuple[Effect, ...]) -> Task:
-    """Effects that may be worth nothing one by one, from the best of many starts."""
-    grids = []
-    for effect in effects:
-        guesses = starts(effect, study)
-        few = guesses[:: -(-len(guesses) // FEW)]
-        grids.append([{effect.key(s): v for s, v in g.items()} for g in few])
-    points = tuple({**base.values, **_merged(point)} for point in product(*grids))
-    return Task("together", (*base.effects, *effects), points, 40, BEAM, base.scatter)
-
-
-def _merged(parts: Iterable[Mapping[str, float]]) -> dict[str, float]:
-    return {name: value for part in parts for name, value in part.items()}
 
 
 def _takes_over(study: Study, best: Trial, joint: Trial) -> bool:
