@@ -12,6 +12,11 @@ from numba import njit
 from erdctl.recording import Array, Index
 
 
+# Part of a step over which contact sets in: none at all would leave a search for the play without
+# a slope; a whole step costs 1 % of the range of the force in the samples next to contact.
+BLUR = 0.2
+
+
 @njit(cache=True)
 def play(
     xdot: Array, step: Array, starts: Index, compressing: npt.NDArray[np.bool_], gap: float
@@ -23,11 +28,11 @@ def play(
     xdot, step : (n,) [m/s], [s];  starts : (r + 1,);  gap : [m] > 0
     compressing : (n,) direction of motion; a record begins on the flank of its first
     Returns q (n,) [m], and the engaged part of each sample (n,) [1]: 1 on a flank that the motion
-    presses on, 0 off it, and from 0 to 1 as contact falls between half a step after the sample and
-    half a step before; less far before and after where the play has lasted less than half a step.
-    Check: gap 2 m, steps of 1 s, xdot = 1, 1, -1, -1, -1, -1 m/s. The rod turns at 1.5 s, is 0.25 m
-    back at 2 s, 1.25 m at 3 s and meets the other flank at 3.75 s: q = 1, 1, 0.75, -0.25, -1, -1,
-    engaged 1, 1, 0, 0, 0.75, 1.
+    presses on, 0 off it, and from 0 to 1 as contact falls between a tenth of a step after the sample
+    and a tenth before; less far before and after where the play has lasted for less than that.
+    Check: gap 2.2 m, steps of 1 s, xdot = 1, 1, -1, -1, -1, -1 m/s. The rod turns at 1.5 s, is 0.25 m
+    back at 2 s, 1.25 m at 3 s and meets the other flank at 3.95 s: q = 1.1, 1.1, 0.85, -0.15, -1.1,
+    -1.1, engaged 1, 1, 0, 0, 0.75, 1.
     """
     n = len(xdot)
     lost, engaged = np.empty(n), np.empty(n)
@@ -44,7 +49,7 @@ def play(
             turning = v0 * v1 < 0.0
             before = v0 / (v0 - v1) * h if turning else h
             # Time into the step at which a flank is met, which one, and the time to blur it over.
-            contact, side, edge = -1.0, 0.0, h
+            contact, side, edge = -1.0, 0.0, BLUR * h
             for leg in range(2 if turning else 1):
                 a = v0 if leg == 0 else 0.0
                 b = 0.0 if turning and leg == 0 else v1
@@ -65,7 +70,7 @@ def play(
                     met = 2.0 * room / (u + np.sqrt(max(u * u + 2.0 * rate * room, 0.0)))
                     met = min(met, span)
                     contact, side = (before if leg == 1 else 0.0) + met, flank
-                    edge = max(min(h, 2.0 * (free + met)), 1e-12)
+                    edge = max(min(BLUR * h, 2.0 * (free + met)), 1e-12)
                 q = flank
             lost[i + 1] = q
             pressing = (v1 > 0.0 and q == half) or (v1 < 0.0 and q == -half)

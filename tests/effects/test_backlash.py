@@ -17,14 +17,14 @@ def test_check_value() -> None:
     s = signals([1, 1, 1, -1, -1, -1], x=[0, 1, 2, 2, 1, 0], step=1.0)
     piston = act("backlash", s, {"g": 2.0})
     assert piston.x - piston.x[0] == pytest.approx([0, 1, 2, 2.25, 2.25, 2])
-    assert piston.xdot == pytest.approx([1, 1, 1, 0, 0, -0.75])
-    assert piston.sign == pytest.approx([1, 1, 1, 0, 0, -0.75])
+    assert piston.xdot == pytest.approx([1, 1, 1, 0, 0, -1])
+    assert piston.sign == pytest.approx([1, 1, 1, 0, 0, -1])
 
 
 def test_recurrence_check_value() -> None:
     s = signals([1, 1, -1, -1, -1, -1], step=1.0)
-    lost, engaged = play(s.xdot, s.step, s.starts, s.compressing, 2.0)
-    assert lost == pytest.approx([1, 1, 0.75, -0.25, -1, -1])
+    lost, engaged = play(s.xdot, s.step, s.starts, s.compressing, 2.2)
+    assert lost == pytest.approx([1.1, 1.1, 0.85, -0.15, -1.1, -1.1])
     assert engaged == pytest.approx([1, 1, 0, 0, 0.75, 1])
 
 
@@ -77,6 +77,6 @@ def test_force_goes_over_into_that_without_play() -> None:
 
 
 def test_a_piston_in_play_keeps_its_direction() -> None:
-    s: Signals = act("backlash", signals([1, 1, -1, -1, -1, -1], step=1.0), {"g": 2.0})
+    s: Signals = act("backlash", signals([1, 1, -1, -1, -1, -1], step=1.0), {"g": 2.2})
     assert s.per_direction(10.0, 20.0) == pytest.approx([10, 10, 10, 10, 17.5, 20])
     assert effects.get("backlash").equivalents == ()
