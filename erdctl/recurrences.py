@@ -11,7 +11,6 @@ from numba import njit
 
 from erdctl.recording import Array, Index
 
-
 # Part of a step over which contact sets in: none at all would leave a search for the play without
 # a slope; a whole step costs 1 % of the range of the force in the samples next to contact.
 BLUR = 0.2
@@ -28,11 +27,11 @@ def play(
     xdot, step : (n,) [m/s], [s];  starts : (r + 1,);  gap : [m] > 0
     compressing : (n,) direction of motion; a record begins on the flank of its first
     Returns q (n,) [m], and the engaged part of each sample (n,) [1]: 1 on a flank that the motion
-    presses on, 0 off it, and from 0 to 1 as contact falls between a tenth of a step after the sample
-    and a tenth before; less far before and after where the play has lasted for less than that.
-    Check: gap 2.2 m, steps of 1 s, xdot = 1, 1, -1, -1, -1, -1 m/s. The rod turns at 1.5 s, is 0.25 m
-    back at 2 s, 1.25 m at 3 s and meets the other flank at 3.95 s: q = 1.1, 1.1, 0.85, -0.15, -1.1,
-    -1.1, engaged 1, 1, 0, 0, 0.75, 1.
+    presses on, 0 off it, and from 0 to 1 as contact falls between a tenth of a step after the
+    sample and a tenth before; less far before and after where the play has lasted for less.
+    Check: gap 2.2 m, steps of 1 s, xdot = 1, 1, -1, -1, -1, -1 m/s. The rod turns at 1.5 s,
+    is 0.25 m back at 2 s, 1.25 m at 3 s and meets the other flank at 3.95 s: q = 1.1, 1.1, 0.85,
+    -0.15, -1.1, -1.1, engaged 1, 1, 0, 0, 0.75, 1.
     """
     n = len(xdot)
     lost, engaged = np.empty(n), np.empty(n)

@@ -53,8 +53,8 @@ class Prepared:
     def force(self, values: Values, factors: Factors | None = None) -> Array:
         """(n,) force; `factors` multiply groups sample by sample (faults, Eqs. 20-23)."""
         springs = self._springs(values)
-        if springs and not in_slot(self.effects, Slot.FEEDBACK):
-            factors = multiplied(self.scale, factors or {})
+        if springs:
+            factors = self._fed_back(values, factors)
             return self._recorded(self._total_behind_spring(values, factors, *springs[0]))
         parts = self.parts(values, factors)
         total = parts["gas"] + parts["viscous"] + parts["yield"]
@@ -62,13 +62,17 @@ class Prepared:
 
     def parts(self, values: Values, factors: Factors | None = None) -> dict[str, Array]:
         """(n,) force of each group and, if there are any terms, of all `other` forces."""
+        out = self._parts(values, self._fed_back(values, factors))
+        return {name: self._recorded(part) for name, part in out.items()}
+
+    def _fed_back(self, values: Values, factors: Factors | None) -> Factors:
+        """(n,) factors of groups, with those that depend on the forces themselves."""
         factors = multiplied(self.scale, factors or {})
-        out = self._parts(values, factors)
         for effect in in_slot(self.effects, Slot.FEEDBACK):
+            out = self._parts(values, factors)
             back: Factors = effect.act(out, self.signals, effect.local(values))
             factors = multiplied(factors, back)
-            out = self._parts(values, factors)
-        return {name: self._recorded(part) for name, part in out.items()}
+        return factors
 
     def _parts(self, values: Values, factors: Factors) -> dict[str, Array]:
         springs = self._springs(values)
