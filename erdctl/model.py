@@ -91,8 +91,13 @@ class Model:
         for effect in self.of(Slot.CONTROL):
             s = s.with_duty(effect.act(s, effect.local(values)))
         scale: Factors = {}
+        of_speed: Factors = {}
         for effect in self.of(Slot.SCALE):
-            scale = multiplied(scale, effect.act(s, effect.local(values)))
+            factors = effect.act(s, effect.local(values))
+            if effect.of_speed:
+                of_speed = multiplied(of_speed, factors)
+            else:
+                scale = multiplied(scale, factors)
         falls = np.ones(len(s)) if self.of(Slot.LAG) else None
         for effect in self.of(Slot.LAG):
             falls = falls * effect.act(s, effect.local(values))
@@ -107,6 +112,7 @@ class Model:
             fields=self._fields(s, values),
             falls=falls,
             scale=scale,
+            of_speed=of_speed,
             gap=gap,
             values=values,
         )

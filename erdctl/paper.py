@@ -24,13 +24,14 @@ from erdctl.recording import Array
 from erdctl.signals import Signals
 
 # Bounds are what a damper between a model car's and a building's can have. Damping that gave energy
-# away would be no damper, and behind a compliance it could not even be simulated.
+# away would be no damper, and behind a compliance it could not even be simulated; gas that is
+# squeezed pushes back (Eq. 3), and a negative stiffness only hides inertia or a loop.
 QUANTITIES: dict[str, Quantity] = {
     q.symbol: q
     for q in (
         Quantity(
             symbol="k_nom", unit="N/m", title="effective stiffness of the gas", linear=True,
-            low=-1e9, high=1e9, start=0.0,
+            low=0.0, high=1e9, start=0.0,
         ),
         Quantity(
             symbol="c_vis", unit="N s/m", title="viscosity with no field", linear=True,

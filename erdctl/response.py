@@ -35,7 +35,8 @@ class Prepared:
 
     gas, viscous, sign : (n,) shapes in place of x, xdot and sign(xdot)
     fields : (n,) normalised steady yield force for either direction
-    falls : (n,) factor of T_d while the yield force falls, or None;  scale : (n,) factors of groups
+    falls : (n,) factor of T_d while the yield force falls, or None
+    scale, of_speed : (n,) factors of groups; behind a spring, those of speed follow the piston's
     gap : free play [m] in the joint of a compliance in series
     """
 
@@ -47,6 +48,7 @@ class Prepared:
     fields: tuple[Array, Array]
     falls: Array | None
     scale: Factors
+    of_speed: Factors
     gap: float
     values: Values
 
@@ -88,7 +90,7 @@ class Prepared:
             "viscous": self.viscous * per(*pair(values, "c_vis")),
             "yield": self._signed_yield(u_c, u_r),
         }
-        for group, factor in factors.items():
+        for group, factor in multiplied(factors, self.of_speed).items():
             out[group] = out[group] * factor
         rows = self.terms()
         if rows:
@@ -99,11 +101,12 @@ class Prepared:
         """(k, n) unit responses in the order of `Model.linear`."""
         zero = np.zeros(len(self.signals))
         rows: list[Array] = []
+        scale = multiplied(self.scale, self.of_speed)
         for group, shape in (("gas", self.gas), ("viscous", self.viscous)):
-            factor = self.scale.get(group)
+            factor = scale.get(group)
             shape = shape if factor is None else shape * factor
             rows += self.signals.split(shape)
-        factor = self.scale.get("yield")
+        factor = scale.get("yield")
         for fields in ((self.fields[COMPRESSION], zero), (zero, self.fields[RELEASE])):
             response = self._signed_yield(*fields)
             rows.append(response if factor is None else response * factor)
@@ -238,7 +241,14 @@ class Prepared:
                     friction += values[e.key(q.symbol)] * row
         if in_slot(self.effects, Slot.YIELD):
             raise ValueError("a yield force with memory cannot act behind a spring")
-        return law(Slot.VISCOUS, speeds), law(Slot.SIGN, np.sign(speeds)), friction.reshape(2, -1)
+        one = np.ones(len(speeds))
+        viscous, sign = law(Slot.VISCOUS, speeds), law(Slot.SIGN, np.sign(speeds))
+        for e in in_slot(self.effects, Slot.SCALE):
+            if e.of_speed:
+                factors = e.act(s, e.local(values))
+                viscous = viscous * factors.get("viscous", one).reshape(2, -1)
+                sign = sign * factors.get("yield", one).reshape(2, -1)
+        return viscous, sign, friction.reshape(2, -1)
 
 
 def multiplied(a: Factors, b: Factors) -> dict[str, Array]:
