@@ -78,35 +78,20 @@ def choose(
 ) -> Choice:
     """Search for the effects, at most `most`, that the recording shows beside a given model."""
     base = _base(study, given, crew)
-    best, pool = base, [base]
     seen = {_key(base.effects): base}
-    singles: list[Trial] = []
-    rest: Remainder | None = None
-    for depth in range(most):
-        if depth:
-            rest = examine(best.study, best.residual, seed)
-            if not rest.hint:
-                break  # more effects would have nothing to explain
-        stage = f"{depth + 1} effects" if depth else "each effect"
-        grown = _grown(study, pool, candidates, stage, seen, crew)
-        if not depth:
-            singles = grown
-        grown.sort(key=lambda t: (t.score, len(t.model.shape)))
-        better = [t for t in grown if compare(study, best, t).real]
-        if better:
-            best, rest = better[0], None
-        elif depth:
-            break
-        # Also hypotheses that gain nothing alone: one may be worth something beside another.
-        pool = (better or grown)[:BEAM]
-    rest = rest or examine(best.study, best.residual, seed)
+    best, rest, singles = _climb(study, base, candidates, most, seen, crew, seed)
     if rest.real:
+        grown = best
         joint = [jointly(study, base, together) for together in companies(candidates)]
         for trial in crew.run(study, joint):
             if trial is not None and _takes_over(study, best, trial):
                 best = trial
                 seen[_key(trial.effects)] = trial
+        if best is not grown:
+            left = most - len(_beyond(base, best))
+            best, _, _ = _climb(study, best, candidates, left, seen, crew, seed)
     best = _prune(study, base, best, seen, crew)
+    best = _second_look(study, base, best, most, seen, crew)
     rivals: dict[str, tuple[tuple[str, Trial], ...]] = {}
     for effect in _beyond(base, best):
         found = _rivals(study, best, effect, candidates, singles, seen, crew)
@@ -120,6 +105,40 @@ def choose(
     lesser = _lesser(study, base, best, seen, crew)
     without = {e.name: trial for e, trial in zip(_beyond(base, best), lesser, strict=True)}
     return Choice(base, best, tuple(singles), without, rivals)
+
+
+def _climb(
+    study: Study,
+    best: Trial,
+    candidates: Sequence[Effect],
+    most: int,
+    seen: dict[frozenset[str], Trial],
+    crew: Crew,
+    seed: int,
+) -> tuple[Trial, Remainder, list[Trial]]:
+    """Up to `most` effects beside those of a trial, one by one, in a beam.
+
+    Returns the best hypothesis, what remains of it, and the trials of a single effect more.
+    """
+    pool, singles = [best], list[Trial]()
+    rest: Remainder | None = None
+    for depth in range(most):
+        if depth or seen.keys() > {_key(best.effects)}:
+            rest = examine(best.study, best.residual, seed)
+            if not rest.hint:
+                break  # more effects would have nothing to explain
+        stage = f"{depth + 1} effects" if depth else "each effect"
+        grown = _grown(study, pool, candidates, stage, seen, crew)
+        singles = singles if depth else grown
+        grown.sort(key=lambda t: (t.score, len(t.model.shape)))
+        better = [t for t in grown if compare(study, best, t).real]
+        if better:
+            best, rest = better[0], None
+        elif depth:
+            break
+        # Also hypotheses that gain nothing alone: one may be worth something beside another.
+        pool = (better or grown)[:BEAM]
+    return best, rest or examine(best.study, best.residual, seed), singles
 
 
 def _base(study: Study, given: Parameters | None, crew: Crew) -> Trial:
@@ -249,14 +268,27 @@ def _lesser(
 def _prune(
     study: Study, base: Trial, best: Trial, seen: dict[frozenset[str], Trial], crew: Crew
 ) -> Trial:
-    """Remove effects that others have made useless, the least useful first."""
+    """Remove effects that others have made useless, the one with the least evidence first."""
     while _beyond(base, best):
         lesser = _lesser(study, base, best, seen, crew)
-        useless = [t for t in lesser if not compare(study, t, best).real]
+        worth = [(compare(study, t, best), t) for t in lesser]
+        useless = [(c.clear, i, t) for i, (c, t) in enumerate(worth) if not c.real]
         if not useless:
             return best
-        best = min(useless, key=lambda t: t.score)
+        best = min(useless)[-1]
     return best
+
+
+def _second_look(
+    study: Study, base: Trial, best: Trial, most: int, seen: dict[frozenset[str], Trial], crew: Crew
+) -> Trial:
+    """What another effect had put in the shade may be worth its place once that one is gone."""
+    key = _key(best.effects)
+    if len(_beyond(base, best)) >= most:
+        return best
+    more = [t for k, t in seen.items() if k > key and len(k) == len(key) + 1]
+    better = [t for t in more if compare(study, best, t).real]
+    return _prune(study, base, min(better, key=lambda t: t.score), seen, crew) if better else best
 
 
 def _rivals(
