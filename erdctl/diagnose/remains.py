@@ -4,7 +4,8 @@ Measurement noise, white or coloured, can neither be predicted from motion and c
 louder in some states of the damper than in others; physics left out is one or the other. So what a
 flexible regression predicts of the residual on stretches that it has not seen is misfit, and so is
 what makes the residual louder than it is in its quietest states, whatever the form and whether or
-not the catalogue knows it.
+not the catalogue knows it. Two kinds of physics keep a time of their own, and are looked for by
+themselves: a ripple of the yield force, and sudden jumps.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from erdctl.diagnose.jumps import jumping
 from erdctl.diagnose.ripple import Ripple, ripple
 from erdctl.diagnose.study import Study, over_scatter
 from erdctl.recording import Array, Index
@@ -37,6 +39,7 @@ class Remainder:
     noise_rms, misfit_rms : of what is noise, and of the rest [N];  real : whether there is a rest
     hint : whether there is a sign of a rest, real or not, that makes a further search worth while
     ripple : the line that turns over with the motion, if the rest holds one
+    jumps : the share of the rest's square that sudden jumps hold, if there are any
     """
 
     predicted: Array
@@ -46,6 +49,7 @@ class Remainder:
     real: bool
     hint: bool
     ripple: Ripple | None
+    jumps: float
 
 
 def examine(study: Study, residual: Array, seed: int = 0) -> Remainder:
@@ -76,6 +80,9 @@ def examine(study: Study, residual: Array, seed: int = 0) -> Remainder:
     if swing is not None:
         excess += swing.share * left
         left *= 1.0 - swing.share
+    jumps = jumping(study, rest)
+    excess += jumps * left
+    left *= 1.0 - jumps
     noise = min(noise, left)
     misfit = max(square - noise, 0.0)
     return Remainder(
@@ -86,6 +93,7 @@ def examine(study: Study, residual: Array, seed: int = 0) -> Remainder:
         real=misfit > 0.0,
         hint=hint or misfit > 0.0,
         ripple=swing,
+        jumps=jumps,
     )
 
 

@@ -109,6 +109,11 @@ def remaining_text(found: Diagnosis) -> str:
             f"; {100 * left.ripple.share:.0f} % of it swings at {left.ripple.frequency:.3g} Hz and"
             " turns over with the motion, as a ripple of the yield force does"
         )
+    if left.jumps > 0.0:
+        words += (
+            f"; {100 * left.jumps:.0f} % of it comes in sudden jumps, as of a seal that sticks and"
+            " slips, a joint that knocks or a valve that opens"
+        )
     like = likeness(found.choice.best.study, left.predicted)
     if like is not None:
         words += f"; it is most like {like.form} (correlation {like.correlation:+.2f})"
