@@ -18,14 +18,20 @@ BLUR = 0.2
 
 @njit(cache=True)
 def play(
-    xdot: Array, step: Array, starts: Index, compressing: npt.NDArray[np.bool_], gap: float
+    xdot: Array,
+    step: Array,
+    starts: Index,
+    compressing: npt.NDArray[np.bool_],
+    rests: npt.NDArray[np.bool_],
+    gap: float,
 ) -> tuple[Array, Array]:
     """Play operator along a velocity that is a straight line between samples.
 
         q = rod - piston, held within -gap/2..gap/2:  dq/dt = xdot inside, 0 on the flank
 
     xdot, step : (n,) [m/s], [s];  starts : (r + 1,);  gap : [m] > 0
-    compressing : (n,) direction of motion; a record begins on the flank of its first
+    compressing : (n,) direction of motion; a record begins on the flank of its first, or, where
+    rests : (r,) says that it begins at rest, in the middle of the play
     Returns q (n,) [m], and the engaged part of each sample (n,) [1]: 1 on a flank that the motion
     presses on, 0 off it, and from 0 to 1 as contact falls between a tenth of a step after the
     sample and a tenth before; less far before and after where the play has lasted for less.
@@ -40,8 +46,8 @@ def play(
         first, end = starts[r], starts[r + 1]
         if first == end:
             continue
-        q = half if compressing[first] else -half
-        lost[first], engaged[first] = q, 1.0
+        q = 0.0 if rests[r] else half if compressing[first] else -half
+        lost[first], engaged[first] = q, 0.0 if rests[r] else 1.0
         free = 0.0  # time since the joint left a flank
         for i in range(first, end - 1):
             v0, v1, h = xdot[i], xdot[i + 1], step[i]

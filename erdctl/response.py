@@ -188,7 +188,8 @@ class Prepared:
         falls = ones if self.falls is None else self.falls
         viscous = np.array(pair(values, "c_vis"))[:, None] * viscous
         force, stretch, v = march(
-            self.gas, s.xdot, s.step, falls, s.starts, s.compressing, u_c, u_r,
+            self.gas, s.xdot, s.step, falls, s.starts, s.compressing, s.rests,
+            u_c, u_r,
             gain["gas"], gain["viscous"], gain["yield"], grid, viscous, sign, friction,
             k[0], k[1], T[0], T[1], compliance, self.gap,
         )  # fmt: skip

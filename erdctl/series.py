@@ -108,7 +108,7 @@ def _moved(
 @njit(cache=True)
 def march(
     x: Array, xdot: Array, step: Array, falls: Array, starts: Index,
-    compressing: npt.NDArray[np.bool_],
+    compressing: npt.NDArray[np.bool_], rests: npt.NDArray[np.bool_],
     u_c: Array, u_r: Array, g_gas: Array, g_visc: Array, g_yield: Array,
     grid: Array, viscous: Array, sign: Array, friction: Array,
     k_c: float, k_r: float, T_c: float, T_r: float, s: float, gap: float,
@@ -118,6 +118,7 @@ def march(
     u_c, u_r : (n,) steady yield force in either direction;  g_ : (n,) factors of the groups
     viscous, sign, friction : (2, m) laws on `grid`, for compression and release
     k_c, k_r : gas stiffness behind the spring;  s : compliance [m/N] > 0;  gap : free play [m]
+    rests : (r,) records that begin at rest, in the middle of the play
 
     A step in which the rod turns is made of two legs, before and after: by the mean speed of the
     whole of it the piston would turn up to a step late, however stiff the spring.
@@ -134,11 +135,12 @@ def march(
         j = min(max(np.searchsorted(grid, abs(xdot[first])), 1), m - 1)
         w = min(max((abs(xdot[first]) - grid[j - 1]) / (grid[j] - grid[j - 1]), 0.0), 1.0)
         law = viscous[way] * g_visc[first] + y * g_yield[first] * sign[way] + friction[way]
-        moving = law[j - 1] * (1.0 - w) + law[j] * w if xdot[first] != 0.0 else 0.0
+        still = xdot[first] == 0.0 or (rests[r] and gap > 0.0)
+        moving = 0.0 if still else law[j - 1] * (1.0 - w) + law[j] * w
         k = (k_c if up else k_r) * g_gas[first]
         F = (k * x[first] + moving) / (1.0 + k * s)
         near = j - 1
-        e = s * F + (half if F > 0.0 else -half if F < 0.0 else 0.0)
+        e = s * F + (0.0 if still else half if F > 0.0 else -half)
         force[first], stretch[first], speed[first] = F, e, xdot[first]
         for i in range(first + 1, starts[r + 1]):
             a, b, dt = xdot[i - 1], xdot[i], step[i - 1]

@@ -14,6 +14,10 @@ from erdctl.recording import Array, Index, Recording
 # Steps that differ by less than this part of themselves are one sampling rate with rounded times.
 JITTER = 1e-6
 HALF_WINDOW = 0.010  # s, of the straight line whose slope is the acceleration
+SLOW = 0.05  # of the highest speed in a record: at less it may be at rest, if it
+LONG = 4.0  # times as long as at a turning point, and
+STILL = 3  # samples
+NEARLY = 0.02  # of its stroke, travels no further, as a slow motion would
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +81,24 @@ class Signals:
         to = np.where(last >= first, last, ahead)
         never = (last < first) & (ahead >= end)
         return np.where(never, True, up[np.minimum(to, len(self) - 1)])
+
+    @cached_property
+    def rests(self) -> npt.NDArray[np.bool_]:
+        """(r,) records that begin at rest; not those that begin as a motion turns, or slowly."""
+        out = np.ones(len(self.starts) - 1, dtype=np.bool_)
+        for r, (a, b) in enumerate(pairwise(self.starts.tolist())):
+            speed = np.abs(self.xdot[a:b])
+            moving = speed > SLOW * float(speed.max(initial=0.0))
+            if not moving.any():
+                continue
+            first = int(np.argmax(moving))
+            stroke = float(np.ptp(self.x[a:b]))
+            # At a turning point of x = A sin(w t) the speed is SLOW w A after SLOW / w.
+            turning = SLOW * float(np.std(self.x[a:b])) / float(np.sqrt(np.mean(speed**2)))
+            waited = float(self.t[a + first] - self.t[a])
+            way = float(np.dot(speed[:first], self.step[a : a + first]))
+            out[r] = first > STILL and waited > LONG * turning and way < NEARLY * stroke
+        return out
 
     @cached_property
     def turns(self) -> tuple[Index, Array]:

@@ -6,25 +6,23 @@ one hypothesis replaces another only if it is better by more than the scatter be
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from erdctl.diagnose.companies import companies, jointly
 from erdctl.diagnose.compare import LEAST, compare
 from erdctl.diagnose.crew import Crew, Task
+from erdctl.diagnose.grow import extension, grown, key_of
 from erdctl.diagnose.remains import Remainder, examine
-from erdctl.diagnose.screen import Prospect, Screen
+from erdctl.diagnose.screen import Screen
 from erdctl.diagnose.study import Study
 from erdctl.diagnose.trial import Trial, attempt, fresh_start
-from erdctl.effect import Effect, Slot
+from erdctl.effect import Effect
 from erdctl.parameters import Parameters
 
 BEAM = 3  # hypotheses that are extended side by side
 TIE = 2.0  # below that many times their scatter two hypotheses cannot be told apart
-HOPE = 0.4  # of the most promising effect's gain: worth a full trial
-ALWAYS = 4  # effects that get one in any case
 CONFIRM = 12  # steps of a search from where another has ended
-DISTINCT = (Slot.SIGN, Slot.VISCOUS, Slot.GAS, Slot.SERIES)  # one effect at most in each
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,16 +52,16 @@ def confirm(study: Study, found: Choice, crew: Crew) -> Choice:
 
     What a part of the samples spoke for and all of them do not is dropped.
     """
-    again = {_key(t.effects): t for t in (found.base, found.best, *found.without.values())}
+    again = {key_of(t.effects): t for t in (found.base, found.best, *found.without.values())}
     tasks = [
         Task("all samples", t.effects, (t.values,), CONFIRM, scatter=t.scatter)
         for t in again.values()
     ]
     seen = {k: _must(t) for k, t in zip(again, crew.run(study, tasks), strict=True)}
-    base = seen[_key(found.base.effects)]
-    best = _prune(study, base, seen[_key(found.best.effects)], seen, crew)
+    base = seen[key_of(found.base.effects)]
+    best = _prune(study, base, seen[key_of(found.best.effects)], seen, crew)
     names = [e.name for e in _beyond(base, best)]
-    without = {n: seen[_key(best.effects) - {n}] for n in names}
+    without = {n: seen[key_of(best.effects) - {n}] for n in names}
     rivals = {n: found.rivals[n] for n in names}
     return Choice(base, best, found.singles, without, rivals)
 
@@ -78,16 +76,16 @@ def choose(
 ) -> Choice:
     """Search for the effects, at most `most`, that the recording shows beside a given model."""
     base = _base(study, given, crew)
-    seen = {_key(base.effects): base}
+    seen = {key_of(base.effects): base}
     best, rest, singles = _climb(study, base, candidates, most, seen, crew, seed)
     if rest.real:
-        grown = best
+        alone = best
         joint = [jointly(study, base, together) for together in companies(candidates)]
         for trial in crew.run(study, joint):
             if trial is not None and _takes_over(study, best, trial):
                 best = trial
-                seen[_key(trial.effects)] = trial
-        if best is not grown:
+                seen[key_of(trial.effects)] = trial
+        if best is not alone:
             left = most - len(_beyond(base, best))
             best, _, _ = _climb(study, best, candidates, left, seen, crew, seed)
     best = _prune(study, base, best, seen, crew)
@@ -123,21 +121,21 @@ def _climb(
     pool, singles = [best], list[Trial]()
     rest: Remainder | None = None
     for depth in range(most):
-        if depth or seen.keys() > {_key(best.effects)}:
+        if depth or seen.keys() > {key_of(best.effects)}:
             rest = examine(best.study, best.residual, seed)
             if not rest.hint:
                 break  # more effects would have nothing to explain
         stage = f"{depth + 1} effects" if depth else "each effect"
-        grown = _grown(study, pool, candidates, stage, seen, crew)
-        singles = singles if depth else grown
-        grown.sort(key=lambda t: (t.score, len(t.model.shape)))
-        better = [t for t in grown if compare(study, best, t).real]
+        more = grown(study, pool, candidates, stage, seen, crew)
+        singles = singles if depth else more
+        more.sort(key=lambda t: (t.score, len(t.model.shape)))
+        better = [t for t in more if compare(study, best, t).real]
         if better:
             best, rest = better[0], None
         elif depth:
             break
         # Also hypotheses that gain nothing alone: one may be worth something beside another.
-        pool = (better or grown)[:BEAM]
+        pool = (better or more)[:BEAM]
     return best, rest or examine(best.study, best.residual, seed), singles
 
 
@@ -156,88 +154,9 @@ def _beyond(base: Trial, trial: Trial) -> tuple[Effect, ...]:
     return tuple(e for e in trial.effects if e not in base.effects)
 
 
-def _key(effects: Iterable[Effect]) -> frozenset[str]:
-    return frozenset(e.name for e in effects)
-
-
 def _must(trial: Trial | None) -> Trial:
     assert trial is not None, "effects of a trial can act together"
     return trial
-
-
-def _grown(
-    study: Study,
-    pool: Sequence[Trial],
-    candidates: Sequence[Effect],
-    stage: str,
-    seen: dict[frozenset[str], Trial],
-    crew: Crew,
-) -> list[Trial]:
-    """Hypotheses with one effect more than those of the pool, none of them seen before."""
-    waiting: dict[frozenset[str], list[Task]] = {}
-    for parent in pool:
-        for prospect in _prospects(study, parent, candidates, crew):
-            key = _key(parent.effects) | {prospect.effect.name}
-            if key not in seen:
-                waiting.setdefault(key, []).append(_extension(stage, parent, prospect))
-    grown = []
-    while waiting:
-        # Where several parents lead to one hypothesis the next is asked only if the first fails.
-        trials = crew.run(study, [tasks.pop(0) for tasks in waiting.values()])
-        for key, trial in zip(list(waiting), trials, strict=True):
-            if trial is not None:
-                seen[key] = trial
-                grown.append(trial)
-            if trial is not None or not waiting[key]:
-                del waiting[key]
-    return grown
-
-
-def _addable(parent: Trial, candidates: Sequence[Effect]) -> Iterator[Effect]:
-    taken = {e.slot for e in parent.effects}
-    names = {e.name for e in parent.effects}
-    for effect in candidates:
-        if effect.name not in names and not (effect.slot in DISTINCT and effect.slot in taken):
-            yield effect
-
-
-def _prospects(
-    study: Study, parent: Trial, candidates: Sequence[Effect], crew: Crew
-) -> list[Prospect]:
-    """The effects worth a full trial beside the parent's, the most promising first."""
-    screen = Screen(study, parent)
-    found = []
-    for effect in _addable(parent, candidates):
-        crew.progress("screening", effect.name)
-        prospect = screen.look(effect)
-        if prospect is not None:
-            found.append(prospect)
-    found.sort(key=lambda p: -p.gain)
-    found = _unlike(found)
-    bar = HOPE * found[0].gain if found else 0.0
-    # What feeds the force back can be worth nothing near the present fit and all of it elsewhere.
-    return [
-        p for i, p in enumerate(found)
-        if i < ALWAYS or p.gain > bar or p.effect.slot in (Slot.SERIES, Slot.FEEDBACK)
-    ]  # fmt: skip
-
-
-def _unlike(prospects: Sequence[Prospect]) -> list[Prospect]:
-    """Of those that no force data can tell apart the first; the others are tried as its rivals."""
-    kept: list[Prospect] = []
-    for p in prospects:
-        if not any(p.effect.name in k.effect.equivalents for k in kept):
-            kept.append(p)
-    return kept
-
-
-def _extension(stage: str, parent: Trial, prospect: Prospect) -> Task:
-    starts = [{**parent.values, **guess} for guess in prospect.starts]
-    if prospect.effect.slot is Slot.SERIES:
-        # Without the lag that stands in for the compliance.
-        starts.append({**parent.values, **fresh_start(0.005, 0.4), **prospect.starts[0]})
-    effects = (*parent.effects, prospect.effect)
-    return Task(stage, effects, tuple(starts), scatter=parent.scatter)
 
 
 def _takes_over(study: Study, best: Trial, joint: Trial) -> bool:
@@ -258,11 +177,11 @@ def _lesser(
 ) -> list[Trial]:
     """The best trial without each of its effects in turn, but for those of the base."""
     rests = [tuple(e for e in best.effects if e is not out) for out in _beyond(base, best)]
-    new = [rest for rest in rests if _key(rest) not in seen]
+    new = [rest for rest in rests if key_of(rest) not in seen]
     tasks = [Task("second pass", rest, (best.values,), scatter=best.scatter) for rest in new]
     for rest, trial in zip(new, crew.run(study, tasks), strict=True):
-        seen[_key(rest)] = _must(trial)
-    return [seen[_key(rest)] for rest in rests]
+        seen[key_of(rest)] = _must(trial)
+    return [seen[key_of(rest)] for rest in rests]
 
 
 def _prune(
@@ -283,7 +202,7 @@ def _second_look(
     study: Study, base: Trial, best: Trial, most: int, seen: dict[frozenset[str], Trial], crew: Crew
 ) -> Trial:
     """What another effect had put in the shade may be worth its place once that one is gone."""
-    key = _key(best.effects)
+    key = key_of(best.effects)
     if len(_beyond(base, best)) >= most:
         return best
     more = [t for k, t in seen.items() if k > key and len(k) == len(key) + 1]
@@ -305,19 +224,19 @@ def _rivals(
     order = sorted(singles, key=lambda t: t.score)
     likely = [t.effects[-1] for t in order[:6]]
     likely += [c for c in candidates if c.name in effect.equivalents]
-    names = _key(best.effects)
-    keys = {r.name: _key(rest) | {r.name} for r in likely if r.name not in names}
-    if _key(rest) not in seen:
+    names = key_of(best.effects)
+    keys = {r.name: key_of(rest) | {r.name} for r in likely if r.name not in names}
+    if key_of(rest) not in seen:
         task = Task("second pass", rest, (best.values,), scatter=best.scatter)
         (base,) = crew.run(study, [task])
-        seen[_key(rest)] = _must(base)
+        seen[key_of(rest)] = _must(base)
     new = [r for r in dict.fromkeys(likely) if r.name in keys and keys[r.name] not in seen]
-    screen = Screen(study, seen[_key(rest)]) if new else None
+    screen = Screen(study, seen[key_of(rest)]) if new else None
     prospects = [screen.look(rival) for rival in new] if screen else []
-    tasks = [_extension("look-alikes", seen[_key(rest)], p) for p in prospects if p is not None]
+    tasks = [extension("look-alikes", seen[key_of(rest)], p) for p in prospects if p is not None]
     for trial in crew.run(study, tasks):
         if trial is not None:
-            seen[_key(trial.effects)] = trial
+            seen[key_of(trial.effects)] = trial
     found = []
     for name, key in keys.items():
         if key not in seen:

@@ -4,8 +4,9 @@
     xdot_p = xdot where the joint presses on a flank, 0 in the play
 
 x, x_p : (n,) stroke of the rod and of the piston [m];  g : free play [m], g >= 0, off at 0
-A record begins on the flank of its first motion. Where contact closes between two samples, the
-motion of the nearer one sets in in part, so that the force is continuous in g.
+A record begins on the flank of its first motion, or, from rest, in the middle. Where contact closes
+between two samples, the motion of the nearer one sets in in part, so that the force is continuous
+in g.
 Valid for a joint without damping of its own, with a clamp much stiffer than the damper.
 With a compliance in series the joint is its: after a reversal the spring unloads, then the play is
 crossed without force, then it loads again (`erdctl.series`).
@@ -28,7 +29,7 @@ def backlash(s: Signals, p: Values) -> Signals:
         return s
     from erdctl.recurrences import play
 
-    lost, engaged = play(s.xdot, s.step, s.starts, s.compressing, p["g"])
+    lost, engaged = play(s.xdot, s.step, s.starts, s.compressing, s.rests, p["g"])
     return s.with_motion(s.x - lost, s.xdot * engaged, engaged)
 
 

@@ -23,7 +23,6 @@ from erdctl.score import Normalise, nrmse
 from erdctl.signals import Signals
 
 MOST = 20_000  # samples of a log for a diagnosis; the prediction is of all samples
-FIRST_CYCLES = 2.0  # s; with those, where the play stood as a record began no longer matters
 
 
 @cache
@@ -54,14 +53,12 @@ def diagnosis(name: str, text: str) -> Diagnosis:
     return diagnose(thinned(split(name, text)[0], MOST), effects.catalogue())
 
 
-def errors(what: str, trial: Trial, r: Recording, after: float = 0.0) -> tuple[float, float]:
-    """NRMSE over the range and over the standard deviation, from a time in each record on."""
-    begin = np.repeat(r.t[r.starts[:-1]], np.diff(r.starts))
-    use = r.t - begin >= after
+def errors(what: str, trial: Trial, r: Recording) -> tuple[float, float]:
+    """NRMSE over the range and over the standard deviation."""
     assert r.force is not None
-    force, model = r.force[use], trial.model.force(Signals.of(r), trial.values)[use]
-    found = [nrmse(force, model, n).nrmse for n in (Normalise.RANGE, Normalise.STD)]
-    print(f"{what}, from {after:g} s on: {found[0]:.4f} of the range, {found[1]:.3f} of the std")
+    model = trial.model.force(Signals.of(r), trial.values)
+    found = [nrmse(r.force, model, n).nrmse for n in (Normalise.RANGE, Normalise.STD)]
+    print(f"{what}: {found[0]:.4f} of the range, {found[1]:.3f} of the std")
     return found[0], found[1]
 
 
@@ -74,35 +71,38 @@ def named(found: Diagnosis) -> set[str]:
     return out
 
 
-def held_out(found: Diagnosis, held: Recording, after: float = 0.0) -> tuple[float, float]:
+def held_out(found: Diagnosis, held: Recording) -> tuple[float, float]:
     """NRMSE over the range of the paper's model and of the corrected one."""
-    paper, _ = errors("paper's model", found.choice.base, held, after)
-    corrected, _ = errors("corrected", found.choice.best, held, after)
+    paper, _ = errors("paper's model", found.choice.base, held)
+    corrected, _ = errors("corrected", found.choice.best, held)
     return paper, corrected
 
 
-def test_magnetorheological_damper() -> None:
-    """A smooth sign law with a lag or a spring, from a large stroke to a small and faster one."""
-    found = diagnosis("mr_sine.parquet", "5mm_3Hz")
+@pytest.mark.parametrize(("text", "plain"), [("5mm_3Hz", 0.075), ("25mm", 0.13)])
+def test_magnetorheological_damper(text: str, plain: float) -> None:
+    """A smooth sign law with a spring or a lag, from one stroke to the other at another frequency.
+
+    An expert working by hand is said to reach 0.04. Compliances that fit one motion of this rig are
+    too soft for a faster one, which nothing in the records of one motion tells.
+    """
+    found = diagnosis("mr_sine.parquet", text)
     assert named(found) & {"preyield_viscosity", "yield_hysteresis"}
-    paper, corrected = held_out(found, split("mr_sine.parquet", "5mm_3Hz")[1])
-    assert paper > 0.075
+    assert named(found) & {"mount_compliance", "signed_yield_lag", "preyield_elasticity"}
+    paper, corrected = held_out(found, split("mr_sine.parquet", text)[1])
+    assert paper > plain
     assert corrected < 0.068
 
 
-@pytest.mark.parametrize(
-    ("inches", "whole", "settled"), [("0.5", 0.105, 0.053), ("1.5", 0.088, 0.070)]
-)
-def test_friction_damper_with_backlash(inches: str, whole: float, settled: float) -> None:
+@pytest.mark.parametrize(("inches", "reached"), [("0.5", 0.047), ("1.5", 0.067)])
+def test_friction_damper_with_backlash(inches: str, reached: float) -> None:
     """The laboratory reports the play; the records of one amplitude are left out.
 
-    They begin within the play, where no log says on which side it closes first.
+    They begin at rest, in the middle of the play.
     """
     text = f"tension{inches}amplitude"
     found, held = diagnosis("friction_sine.parquet", text), split("friction_sine.parquet", text)[1]
     assert {"backlash", "mount_compliance"} <= named(found)
     assert 0.0035 < found.choice.best.values["backlash.g"] < 0.005
-    for after, reached in ((0.0, whole), (FIRST_CYCLES, settled)):
-        paper, corrected = held_out(found, held, after)
-        assert paper > 0.19
-        assert corrected < reached
+    paper, corrected = held_out(found, held)
+    assert paper > 0.19
+    assert corrected < reached

@@ -23,7 +23,7 @@ def test_check_value() -> None:
 
 def test_recurrence_check_value() -> None:
     s = signals([1, 1, -1, -1, -1, -1], step=1.0)
-    lost, engaged = play(s.xdot, s.step, s.starts, s.compressing, 2.2)
+    lost, engaged = play(s.xdot, s.step, s.starts, s.compressing, s.rests, 2.2)
     assert lost == pytest.approx([1.1, 1.1, 0.85, -0.15, -1.1, -1.1])
     assert engaged == pytest.approx([1, 1, 0, 0, 0.75, 1])
 
@@ -38,9 +38,36 @@ def test_docstring_check_value() -> None:
 
 
 def test_begins_on_the_flank_of_its_first_motion() -> None:
-    s = signals([0, 0, -1, -1, 1, 1, 1], starts=[0, 4, 7])
-    lost, _ = play(s.xdot, s.step, s.starts, s.compressing, 0.1)
-    assert lost[[0, 1, 4]] == pytest.approx([-0.05, -0.05, 0.05])
+    v = [0, -1, -1, 1, -1, 1, 1, 1]
+    s = signals(v, x=np.cumsum(v) * 0.01, starts=[0, 5, 8])
+    lost, _ = play(s.xdot, s.step, s.starts, s.compressing, s.rests, 0.1)
+    assert lost[[0, 1, 5]] == pytest.approx([-0.05, -0.05, 0.05])
+
+
+def test_begins_in_the_middle_from_rest() -> None:
+    """A bench that starts up: nothing pushes the joint to either side."""
+    t = np.arange(4000) * 1e-3
+    ramp = np.clip((t - 0.2) / 0.5, 0.0, 1.0)
+    for way in (1.0, -1.0):
+        xdot = way * 0.1 * ramp * np.cos(6.0 * (t - 0.2))
+        s = signals(xdot, x=np.cumsum(xdot) * 1e-3, t=t)
+        assert s.rests.tolist() == [True]
+        lost, engaged = play(s.xdot, s.step, s.starts, s.compressing, s.rests, 2e-3)
+        assert lost[0] == 0.0
+        assert engaged[0] == 0.0
+        travelled = np.abs(s.x - s.x[0])
+        assert engaged[(travelled < 0.9e-3) & (t < 0.4)].max() == 0.0
+        assert engaged[(travelled > 1.2e-3) & (t < 0.4)].min() == 1.0
+
+
+@pytest.mark.parametrize("phase", [0.0, 0.3, np.pi / 2, 2.0])
+def test_a_motion_that_goes_on_does_not_begin_at_rest(phase: float) -> None:
+    t = np.arange(4000) * 1e-3
+    x, xdot = 0.01 * np.sin(6.0 * t + phase), 0.06 * np.cos(6.0 * t + phase)
+    assert signals(xdot, x=x, t=t).rests.tolist() == [False]
+    slow_first = 0.01 * np.sin(0.3 * t + 3.0 * t**2), 0.01 * np.cos(0.3 * t + 3.0 * t**2)
+    xdot = slow_first[1] * (0.3 + 6.0 * t)
+    assert signals(xdot, x=slow_first[0], t=t).rests.tolist() == [False]
 
 
 @pytest.mark.parametrize("gap", [2e-5, 1e-4, 1e-3])
