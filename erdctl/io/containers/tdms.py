@@ -1,0 +1,88 @@
+"""NI TDMS through npTDMS.
+
+Time is the waveform's (`wf_increment`, `wf_start_offset`, `wf_start_time`), else the group's
+channel called t or time. Units are `unit_string`; NI's linear, polynomial and table scalings are
+applied by the library. A log goes out as one group for each record, with `t` as a channel.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, BinaryIO
+
+import numpy as np
+import numpy.typing as npt
+
+from erdctl.io.containers.channels import Channel, Group, Samples, with_clock
+from erdctl.io.containers.outgoing import Columns
+from erdctl.io.extras import need
+
+UNIT = "unit_string"
+_MARK = "erdctl_record"  # a group that is a record even if it is the only one
+
+
+def library() -> Any:
+    """npTDMS. Raises ComputationProblem if it is not installed."""
+    return need("nptdms", extra="tdms", purpose="NI TDMS files")
+
+
+def read(file: Any, name: str) -> tuple[list[Group], list[str]]:
+    """The groups of a file; file : path or stream."""
+    opened = library().TdmsFile.open(file)
+    starts = [
+        c.properties["wf_start_time"]
+        for g in opened.groups()
+        for c in g.channels()
+        if "wf_start_time" in c.properties
+    ]
+    origin = min(starts, default=None)
+    groups = []
+    for group in opened.groups():
+        channels = [_channel(c, origin) for c in group.channels() if len(c)]
+        record = _MARK in group.properties
+        if channels and all(c.timed for c in channels):
+            groups.append(Group(group.name, tuple(channels), record=record))
+        else:
+            groups.append(with_clock(group.name, channels, name, record=record))
+    status = opened.file_status
+    cut = "its last segment is incomplete: the recording was cut off, and what is there is read"
+    return groups, [cut] if status.incomplete_final_segment else []
+
+
+def _channel(channel: Any, origin: Any) -> Channel:
+    properties = channel.properties
+
+    def load() -> Samples:
+        values = channel[:]
+        if not properties.get("wf_increment"):
+            return Samples(_seconds(values))
+        start = float(properties.get("wf_start_offset", 0.0))
+        if "wf_start_time" in properties:
+            # Channels that were started one after the other say so here.
+            start += (properties["wf_start_time"] - origin) / np.timedelta64(1, "ns") * 1e-9
+        count = np.arange(len(values), dtype=np.float64)
+        return Samples(values, start + float(properties["wf_increment"]) * count)
+
+    timed = bool(properties.get("wf_increment"))
+    return Channel(channel.name, properties.get(UNIT), load, timed=timed)
+
+
+def _seconds(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Points of time as seconds since the first one; anything else as it is."""
+    if values.dtype.kind != "M" or not values.size:
+        return values
+    return np.asarray((values - values[0]) / np.timedelta64(1, "ns") * 1e-9)
+
+
+def write(records: Sequence[tuple[str | None, Columns]], stream: BinaryIO) -> None:
+    """Write records, each with its columns, as groups of a TDMS file."""
+    tdms = library()
+    objects: list[Any] = [tdms.RootObject({"name": "erdctl log"})]
+    for name, columns in records:
+        group = "log" if name is None else name
+        objects.append(tdms.GroupObject(group, {} if name is None else {_MARK: name}))
+        for column in columns:
+            properties = {} if column.unit is None else {UNIT: column.unit}
+            objects.append(tdms.ChannelObject(group, column.name, column.values, properties))
+    with tdms.TdmsWriter(stream) as writer:
+        writer.write_segment(objects)
