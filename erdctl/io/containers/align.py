@@ -123,8 +123,6 @@ def _load(
         if values is None:
             raise InputProblem("expected numbers to be the time", file=place, column=clock)
         times[own.group] = roles.seconds(values)
-    elif clock == TIME and roles.seconds != Conversion():
-        pass  # converted with the table, like any column
     out = []
     names = [n for n in wanted if n in members and n != clock]
     if not names and own is None:  # only the time is asked for

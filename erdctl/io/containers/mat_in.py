@@ -21,6 +21,7 @@ from erdctl.errors import InputProblem
 from erdctl.io.containers.channels import CLOCKS, Channel, Group, Samples, with_clock
 from erdctl.io.containers.mat_file import Node, variables
 from erdctl.io.stored import from_stored, stored_unit
+from erdctl.io.units import RECORD
 from erdctl.recording import Array
 
 _DATA = ("data", "values", "value", "samples", "raw")
@@ -83,6 +84,8 @@ class _Reader:
             series = self.series(key, value)
             if series is not None:
                 own += series
+            elif isinstance(value, dict) and _title(value.get(RECORD)):  # one that has a name
+                inside += self.records(key, [value], said)
             elif isinstance(value, dict):
                 inside += self.groups(key, value, said)
             elif _structs(value):
@@ -113,8 +116,7 @@ class _Reader:
         out = []
         for i, element in enumerate(elements):
             low = {_low(k): v for k, v in element.items()}
-            titles = [low[k] for k in _TITLES if isinstance(low.get(k), str) and low[k]]
-            title = titles[0] if titles else f"{name}({i + 1})"
+            title = next((t for k in _TITLES if (t := _title(low.get(k)))), f"{name}({i + 1})")
             out += self.groups(title, element, outer, record=True)
         return out
 
@@ -123,14 +125,16 @@ class _Reader:
         if not isinstance(node, dict):
             return None
         low = {_low(k): v for k, v in node.items()}
-        title = next((low[k] for k in _NAMES if isinstance(low.get(k), str) and low[k]), name)
+        title = next((t for k in _NAMES if (t := _title(low.get(k)))), name)
         if "storage" in low and isinstance(low["storage"], dict):  # a Dataset object
             return self.series(title, low["storage"])
         if _structs(low.get("elements")):
             parts = [self.series(f"{name}{{{i + 1}}}", e) for i, e in enumerate(low["elements"])]
             return [c for p in parts for c in p or []]
         if isinstance(low.get("values"), dict):  # an element of a Dataset: a name and its values
-            return self.series(title, low["values"]) or self.bus(title, low["values"])
+            found = self.series(title, low["values"]) or self.bus(title, low["values"])
+            # The name of the signal, whatever the series in it is called.
+            return [replace(found[0], name=title)] if len(found) == 1 else found
         if "signals" in low:
             return self.signals(name, low)
         key = next((k for k in _DATA if _is_numeric(low.get(k))), None)
@@ -222,6 +226,10 @@ def _low(key: str) -> str:
 def _channel(name: str, unit: str | None, values: Any, time: Array | None = None) -> Channel:
     array = np.array(values, object) if isinstance(values, list) else values
     return Channel(name, unit, lambda: Samples(array, time), timed=time is not None)
+
+
+def _title(value: Node) -> str:
+    return value if isinstance(value, str) and value != "unnamed" else ""  # timeseries' default
 
 
 def _texts(node: Node) -> dict[str, str]:

@@ -38,7 +38,7 @@ def read(file: Any, name: str) -> tuple[list[Group], list[str]]:
         if not about.cycles_nr:
             continue
         channels = [
-            _channel(mdf, index, i, channel.name, channel.unit, timed=master is not None)
+            _channel(mdf, index, i, channel, timed=master is not None)
             for i, channel in enumerate(group.channels)
             if i != master
         ]
@@ -61,13 +61,15 @@ def _opened(file: Any) -> Any:
         sys.unraisablehook = hook
 
 
-def _channel(mdf: Any, group: int, index: int, name: str, unit: str, *, timed: bool) -> Channel:
+def _channel(mdf: Any, group: int, index: int, channel: Any, *, timed: bool) -> Channel:
     def load() -> Samples:
         signal = mdf.get(group=group, index=index)
         time = np.asarray(signal.timestamps, np.float64) if timed else None
         return Samples(np.asarray(signal.samples), time)
 
-    return Channel(name, unit or None, load, timed=timed)
+    # MDF 3 keeps the unit with the conversion.
+    unit = channel.unit or getattr(channel.conversion, "unit", None)
+    return Channel(channel.name, unit or None, load, timed=timed)
 
 
 def write(records: Sequence[tuple[str | None, Columns]], stream: BinaryIO) -> None:

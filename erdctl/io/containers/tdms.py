@@ -7,6 +7,7 @@ applied by the library. A log goes out as one group for each record, with `t` as
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Sequence
 from typing import Any, BinaryIO
 
@@ -23,7 +24,9 @@ _MARK = "erdctl_record"  # a group that is a record even if it is the only one
 
 def library() -> Any:
     """npTDMS. Raises ComputationProblem if it is not installed."""
-    return need("nptdms", extra="tdms", purpose="NI TDMS files")
+    found = need("nptdms", extra="tdms", purpose="NI TDMS files")
+    logging.getLogger("nptdms").setLevel(logging.ERROR)  # what it warns of is said in a note
+    return found
 
 
 def read(file: Any, name: str) -> tuple[list[Group], list[str]]:
