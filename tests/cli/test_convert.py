@@ -62,7 +62,7 @@ def test_through_pipes(format: str) -> None:
 
 
 def test_own_names_and_units_in_every_format(tmp_path: Path) -> None:
-    maps = ["t=Time[ms]", "x=Defl FL[mm]", "force=F_fl", "duty=PWM[%]", "temperature=Oil [degC]"]
+    maps = ["t=Time[ms]", "x=Defl FL[mm]", "force=F_fl[N]", "duty=PWM[%]", "temperature=Oil [degC]"]
     options = [o for m in maps for o in ("--map", m)]
     rows = erdctl("convert", FOREIGN, "-", *options).stdout.splitlines()
     assert rows[0] == "t,x,force,duty,temperature"

@@ -123,7 +123,7 @@ def test_line_ends(tmp_path: Path, ends: str) -> None:
         ("a.csv", b"PK\x03\x04rest", "an Excel or zip file; export it as CSV"),
         ("a.mat", b"MATLAB 5.0 MAT-file", "damaged, cut off or unusual mat"),
         ("a.mf4", b"MDF     4.10    ", "damaged, cut off or unusual mdf"),
-        ("a.tdms", b"TDSm\x0e\0\0\0h\x12\0\0", "no channels with samples in it (its last segment"),
+        ("a.tdms", b"TDSm\x0e\0\0\0h\x12\0\0", "no channels with samples in it"),
         ("a.tdms_index", b"TDSh\x0e\0\0\0", "the index of a TDMS file; give the .tdms file"),
         ("a.h5", b"\x89HDF\r\n\x1a\nrest", "an HDF5 file of no kind that is known"),
         ("a.mat", b"TDSmrest", "begins like tdms; if it is sound, give it the suffix .tdms"),

@@ -7,6 +7,7 @@ as MDF 4.10 with one channel group for each record, `t` as its master.
 
 from __future__ import annotations
 
+import gc
 import sys
 import traceback
 from collections.abc import Sequence
@@ -56,6 +57,7 @@ def _opened(file: Any) -> Any:
         # A half-made MDF complains on stderr when it is collected. Let that happen here, unheard.
         sys.unraisablehook = lambda _: None
         traceback.clear_frames(error.__traceback__)
+        gc.collect()
         raise
     finally:
         sys.unraisablehook = hook

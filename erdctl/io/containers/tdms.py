@@ -25,7 +25,7 @@ _MARK = "erdctl_record"  # a group that is a record even if it is the only one
 def library() -> Any:
     """npTDMS. Raises ComputationProblem if it is not installed."""
     found = need("nptdms", extra="tdms", purpose="NI TDMS files")
-    logging.getLogger("nptdms").setLevel(logging.ERROR)  # what it warns of is said in a note
+    found.log.log_manager.set_level(logging.ERROR)  # what it warns of is said in a note
     return found
 
 

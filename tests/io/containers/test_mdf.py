@@ -114,7 +114,7 @@ def test_without_the_library(mdf: Write, converted: Read, monkeypatch: pytest.Mo
 def test_a_damaged_file_is_one_line(mdf: Write) -> None:
     path = mdf([("bench", T, {"x": X, "force": F})])
     data = path.read_bytes()
-    for spoilt in (data[:200], data[:-500], data[:64] + b"\xff" * 64 + data[128:]):
+    for spoilt in (data[:16], data[:200], data[:-500], data[:64] + b"\xff" * 64 + data[128:]):
         path.write_bytes(spoilt)
         run = subprocess.run(
             [sys.executable, "-m", "erdctl", "identify", str(path)], capture_output=True, text=True

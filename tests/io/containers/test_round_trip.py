@@ -200,3 +200,20 @@ def test_text_where_numbers_are_converted(tmp_path: Path) -> None:
     pq.write_table(pa.table([pa.array(["a"])], pa.schema([field])), path)
     with pytest.raises(InputProblem, match="column 'x': holds string, expected numbers"):
         read_converted(str(path), say=lambda line: None)
+
+
+@pytest.mark.parametrize("suffix", [".mat", ".mf4", ".tdms"])
+def test_cut_files_end_in_a_message(tmp_path: Path, log: Path, suffix: str) -> None:
+    path = tmp_path / f"cut{suffix}"
+    convert(log, path)
+    sound = path.read_bytes()
+    for cut in (20, 130, len(sound) // 2, len(sound) - 8):
+        path.write_bytes(sound[:cut])
+        said: list[str] = []
+        try:
+            read_converted(str(path), say=said.append)
+        except InputProblem as problem:
+            assert "\n" not in str(problem)  # noqa: PT017
+        else:
+            assert suffix == ".tdms"
+            assert "the recording was cut off" in said[0]
