@@ -96,8 +96,18 @@ def with_clock(name: str, channels: Sequence[Channel], file: str, *, record: boo
 
     @cache
     def seconds() -> Array:
+        values = clock.load().values
+        if values.dtype.kind == "m":
+            return np.asarray(values / np.timedelta64(1, "ns") * 1e-9, np.float64)
+        if values.dtype.kind not in "iuf":
+            raise InputProblem(
+                "expected numbers to be the time; points of time must be exported as seconds from"
+                " the first one",
+                file=file,
+                column=clock.name,
+            )
         convert = from_stored(stored_unit(clock.unit) or "s", TIME, clock.name, file)
-        return convert(np.asarray(clock.load().values, np.float64))
+        return convert(np.asarray(values, np.float64))
 
     def under(channel: Channel) -> Channel:
         def load() -> Samples:

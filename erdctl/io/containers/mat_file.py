@@ -89,7 +89,7 @@ def tidy(value: Any) -> Node:
         items = [tidy(item) for item in value.flat]
         is_object = value.size == 1 and hasattr(value.flat[0], "classname")
         return items[0] if is_object else items
-    if value.dtype.kind == "U":
+    if value.dtype.kind in "UT":  # char arrays; string objects
         texts = [str(v) for v in value.flat]
         return texts[0] if len(texts) == 1 else texts or ""
     return np.squeeze(value)

@@ -12,13 +12,13 @@ from collections.abc import Sequence
 from typing import Any, BinaryIO
 
 import numpy as np
-import numpy.typing as npt
 
 from erdctl.io.containers.channels import Channel, Group, Samples, with_clock
 from erdctl.io.containers.outgoing import Columns
 from erdctl.io.extras import need
 
 UNIT = "unit_string"
+_START = "wf_start_time"
 _MARK = "erdctl_record"  # a group that is a record even if it is the only one
 
 
@@ -32,49 +32,42 @@ def library() -> Any:
 def read(file: Any, name: str) -> tuple[list[Group], list[str]]:
     """The groups of a file; file : path or stream."""
     opened = library().TdmsFile.open(file)
-    starts = [
-        c.properties["wf_start_time"]
-        for g in opened.groups()
-        for c in g.channels()
-        if "wf_start_time" in c.properties
-    ]
+    channels = [c for g in opened.groups() for c in g.channels() if len(c)]
+    starts = [c.properties[_START] for c in channels if _START in c.properties]
+    starts += [c[0] for c in channels if c.dtype.kind == "M"]
     origin = min(starts, default=None)
     groups = []
     for group in opened.groups():
-        channels = [_channel(c, origin) for c in group.channels() if len(c)]
+        members = [_channel(c, origin) for c in group.channels() if len(c)]
         record = _MARK in group.properties
-        if channels and all(c.timed for c in channels):
-            groups.append(Group(group.name, tuple(channels), record=record))
+        if members and all(c.timed for c in members):
+            groups.append(Group(group.name, tuple(members), record=record))
         else:
-            groups.append(with_clock(group.name, channels, name, record=record))
+            groups.append(with_clock(group.name, members, name, record=record))
     status = opened.file_status
     cut = "its last segment is incomplete: the recording was cut off, and what is there is read"
     return groups, [cut] if status.incomplete_final_segment else []
 
 
 def _channel(channel: Any, origin: Any) -> Channel:
+    """origin : the earliest point of time in the file, from which all others are counted"""
     properties = channel.properties
+    step = float(properties.get("wf_increment", 0.0))
+    stamps = channel.dtype.kind == "M"
 
     def load() -> Samples:
         values = channel[:]
-        if not properties.get("wf_increment"):
-            return Samples(_seconds(values))
+        if stamps:
+            values = (values - origin) / np.timedelta64(1, "ns") * 1e-9
+        if not step:
+            return Samples(values)
         start = float(properties.get("wf_start_offset", 0.0))
-        if "wf_start_time" in properties:
+        if _START in properties:
             # Channels that were started one after the other say so here.
-            start += (properties["wf_start_time"] - origin) / np.timedelta64(1, "ns") * 1e-9
-        count = np.arange(len(values), dtype=np.float64)
-        return Samples(values, start + float(properties["wf_increment"]) * count)
+            start += (properties[_START] - origin) / np.timedelta64(1, "ns") * 1e-9
+        return Samples(values, start + step * np.arange(len(values), dtype=np.float64))
 
-    timed = bool(properties.get("wf_increment"))
-    return Channel(channel.name, properties.get(UNIT), load, timed=timed)
-
-
-def _seconds(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """Points of time as seconds since the first one; anything else as it is."""
-    if values.dtype.kind != "M" or not values.size:
-        return values
-    return np.asarray((values - values[0]) / np.timedelta64(1, "ns") * 1e-9)
+    return Channel(channel.name, "s" if stamps else properties.get(UNIT), load, timed=bool(step))
 
 
 def write(records: Sequence[tuple[str | None, Columns]], stream: BinaryIO) -> None:

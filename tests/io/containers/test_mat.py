@@ -217,6 +217,20 @@ def test_the_clock_answers_to_its_own_name(mat: Write, converted: Read) -> None:
     check(converted(path, "t=Time[ms]"))
 
 
+def test_points_of_time_are_refused(mat: Write, converted: Read) -> None:
+    stamps = np.datetime64("2026-11-21T10:00:00", "ms") + np.arange(1000)
+    path = mat({"Time": stamps.reshape(-1, 1), "x": X}, "v7.3")
+    with pytest.raises(InputProblem, match="'Time': expected numbers to be the time; points"):
+        converted(path)
+
+
+def test_strings_name_records(mat: Write, converted: Read) -> None:
+    texts = [np.array([[f"test {i}"]], np.dtypes.StringDType()) for i in (1, 2)]
+    tests = struct_array([{"t": T, "x": X, "name": t} for t in texts])
+    table = converted(mat({"tests": tests}, "v7.3"))
+    assert table["record"].to_pylist() == ["test 1"] * 1000 + ["test 2"] * 1000
+
+
 def test_a_matrix_without_names_is_refused(mat: Write, converted: Read) -> None:
     with pytest.raises(InputProblem, match=r"no channels .*'pwm' \(3 x 1000\) has no names"):
         converted(mat({"pwm": np.stack([T, X, F])}))

@@ -52,6 +52,12 @@ def test_time_as_timestamps(tdms: Write, converted: Read) -> None:
     stamps = np.datetime64("2026-11-21T10:00:00") + (T * 1e6).round().astype("timedelta64[us]")
     table = converted(tdms({"bench": {"Time": stamps, "x": X, "force": F}}))
     assert np.allclose(table["t"], T, rtol=0.0, atol=1e-9)
+    # A group that began later is counted from the same moment.
+    late = {"Time": stamps[100::2], "x": X[100::2]}
+    table = converted(tdms({"force": {"Time": stamps, "force": F}, "motion": late}))
+    assert np.allclose(table["t"], T[100:999], rtol=0.0, atol=1e-9)
+    assert np.array_equal(table["force"], F[100:999])
+    assert np.allclose(table["x"], X[100:999], rtol=0.0, atol=1e-5)
 
 
 def test_int16_with_a_scaling(tdms: Write, converted: Read) -> None:
