@@ -23,7 +23,8 @@ import pyarrow as pa
 
 from erdctl.errors import InputProblem
 from erdctl.io.arrays import arrow, runs_of_text
-from erdctl.io.containers.channels import TIME, Layout, Member, Samples
+from erdctl.io.containers.channels import TIME, Layout, Member
+from erdctl.io.containers.usable import checked, numbers, sound
 from erdctl.io.stored import with_units
 from erdctl.io.units import RECORD, Conversion
 from erdctl.recording import Array
@@ -68,11 +69,12 @@ def aligned(layout: Layout, wanted: Sequence[str], roles: Roles, file: str) -> p
     A channel that nothing needs and that makes no column is left out, and it is said.
     Raises InputProblem where a needed channel has no time, no numbers, a gap, or no overlap.
     """
-    said = _Once(roles.say, len(layout.records))
+    said = _Once(roles.say)
     clock = next((c for c, target in roles.targets.items() if target == TIME), TIME)
     parts: dict[str, list[pa.Array]] = {name: [] for name in wanted}
     lengths: list[int] = []
     for name, members in layout.records:
+        said.record = name
         place = file if name is None else f"{file}, record '{name}'"
         columns = _load(members, wanted, clock, roles, place, said)
         time, made = _on_one_base(columns, place, said)
@@ -94,18 +96,22 @@ def aligned(layout: Layout, wanted: Sequence[str], roles: Roles, file: str) -> p
 
 
 class _Once:
-    """Says what was done to the first record, and of how many others the same could be said."""
+    """Says what was done to the first record that it was done to, and to how many more."""
 
-    def __init__(self, say: Callable[[str], None], records: int) -> None:
-        self.out, self.records = say, records
-        self.lines: dict[str, str] = {}
+    def __init__(self, say: Callable[[str], None]) -> None:
+        self.say = say
+        self.record: str | None = None
+        self.lines: dict[str, tuple[str, str | None, int]] = {}
 
     def __call__(self, topic: str, line: str) -> None:
-        self.lines.setdefault(topic, line)
+        first, record, count = self.lines.get(topic, (line, self.record, 0))
+        self.lines[topic] = (first, record, count + 1)
 
     def tell(self) -> None:
-        for line in self.lines.values():
-            self.out(line if self.records == 1 else f"{line}; likewise in the other records")
+        for line, record, count in self.lines.values():
+            of = "" if record is None else f"record '{record}': "
+            more = f"; similarly in {count - 1} more records" if count > 1 else ""
+            self.say(f"{of}{line}{more}")
 
 
 def _load(
@@ -119,7 +125,7 @@ def _load(
     own = members.get(clock)  # the user says that this channel is the time of its group
     times: dict[int, Array] = {}
     if own is not None:
-        values = _numbers(_sound(own.channel.load().values))
+        values = numbers(sound(own.channel.load().values))
         if values is None:
             raise InputProblem("expected numbers to be the time", file=place, column=clock)
         times[own.group] = roles.seconds(values)
@@ -131,7 +137,7 @@ def _load(
         member, target = members[name], roles.targets.get(name)
         samples = member.channel.load()
         time = times.get(member.group, samples.time)
-        found = _checked(samples, time)
+        found = checked(samples, time)
         if isinstance(found, str):
             if target is not None:
                 raise InputProblem(found, file=place, column=name)
@@ -143,44 +149,6 @@ def _load(
     if not out:
         raise InputProblem("none of its channels has a time and samples", file=place)
     return out
-
-
-def _checked(samples: Samples, time: Array | None) -> tuple[npt.NDArray[Any], Array] | str:
-    """The samples as they can be used, or why they cannot."""
-    values = _sound(samples.values)
-    if values is None:
-        return "neither numbers nor text, one for each sample"
-    if not values.size:
-        return "it has no samples"
-    if time is None:
-        return (
-            "it has no time; neither a sampling interval nor a channel called t or time is stored"
-            ' with it; if another channel is the time, say so, e.g. --map "t=NAME[s]"'
-        )
-    if len(time) != len(values):
-        return f"it has {len(values)} samples, and its time has {len(time)}"
-    return values, time
-
-
-def _sound(values: npt.NDArray[Any]) -> npt.NDArray[Any] | None:
-    values = np.asarray(values)
-    if values.ndim != 1:
-        return None
-    if values.dtype.kind == "S":
-        return np.array([v.decode(errors="replace") for v in values.tolist()], object)
-    if values.dtype.kind == "U" or (
-        values.dtype.kind == "O" and all(isinstance(v, str) for v in values.tolist())
-    ):
-        return values.astype(object)
-    if values.dtype.kind in "iuf" and values.dtype.itemsize <= 8:
-        return values.astype(values.dtype.newbyteorder("="), copy=False)
-    return values if values.dtype.kind in "bM" else None
-
-
-def _numbers(values: npt.NDArray[Any] | None) -> Array | None:
-    if values is None or values.dtype.kind not in "iuf":
-        return None
-    return values.astype(np.float64)
 
 
 def _on_one_base(

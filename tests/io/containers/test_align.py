@@ -142,6 +142,25 @@ def test_records_that_lack_a_channel() -> None:
     assert layout.notes == ("not in every record, left out: p",)
 
 
+def test_what_was_done_is_said_of_the_records_that_it_was_done_to() -> None:
+    time = np.arange(100) * 0.01
+    holed = np.delete(time, slice(40, 60))
+    groups = [
+        Group(name, (channel("x", time, time), channel("force", rows, rows)))
+        for name, rows in [("a", time), ("b", holed), ("c", holed), ("d", time)]
+    ]
+    layout, said = arrange(groups, "log"), list[str]()
+    got = aligned(
+        layout, layout.columns, Roles({"x": "x", "force": "force"}, say=said.append), "log"
+    )
+    assert got["record"].to_pylist() == ["a"] * 100 + ["b"] * 80 + ["c"] * 80 + ["d"] * 100
+    assert said == [
+        "record 'b': several time bases; the rows are those of force (100 Hz); interpolated"
+        " linearly: x (100 Hz); similarly in 1 more records",
+        "record 'b': force has a gap of 0.21 s after 0.39 s; similarly in 1 more records",
+    ]
+
+
 @given(
     st.lists(st.floats(1e-3, 0.1), min_size=3, max_size=60),
     st.lists(st.floats(1e-3, 0.1), min_size=3, max_size=60),
