@@ -51,7 +51,8 @@ def _end(message: str, code: ExitCode) -> typer.Exit:
 
 
 COMMANDS = (
-    "identify", "simulate", "validate", "diagnose", "prove", "mimic", "derive", "effects", "schema",
+    "identify", "simulate", "validate", "diagnose", "prove", "mimic", "convert", "derive",
+    "effects", "schema",
 )  # fmt: skip
 
 

@@ -62,9 +62,10 @@ def command(
     """Mimic faults on a healthy damper: the PWM sequence to push to the amplifiers (Sec. 6).
 
     Writes the log's motion with `duty` replaced, the four channels duty_fl to duty_rr, and the
-    force to expect: CSV, Parquet, Arrow, or MAT for Simulink, by suffix. The default compensates
-    the lag T_d and never leaves the amplifier's limits. Parameters with effects (from diagnose) are
-    inverted by iteration; it says how much nearer that comes than the paper's parameters alone.
+    force to expect, in any format of `convert` by suffix; MAT is laid out for Simulink. The default
+    compensates the lag T_d and never leaves the amplifier's limits. Parameters with effects (from
+    diagnose) are inverted by iteration; it says how much nearer that comes than the paper's
+    parameters alone.
 
     \b
     Examples:
@@ -80,10 +81,10 @@ def command(
     from erdctl.amplifier import Amplifier
     from erdctl.errors import UsageProblem
     from erdctl.faults import Channel, on_channel, parse_fault
-    from erdctl.io import documents, pwm
+    from erdctl.io import documents, formats, pwm
     from erdctl.io.logs import read_logs
     from erdctl.io.parameters import parse_parameters
-    from erdctl.io.tables import write_table
+    from erdctl.io.tables import output_format, write_table
     from erdctl.mimic import follow, mimic
     from erdctl.report.text import say
     from erdctl.signals import Signals
@@ -120,7 +121,7 @@ def command(
     duties = dict.fromkeys(by_channel, healthy)
     duties |= {c: p.duty_paper if uncompensated else p.duty for c, p in plans.items()}
     sequence = pwm.Sequence(recording, duties, plans, uncompensated)
-    if output.endswith(".mat"):
+    if output_format(output, format and format.value) is formats.Format.MAT:
         pwm.write_mat(sequence, output)
     else:
         write_table(_table(read.table, sequence), output, format and format.value)

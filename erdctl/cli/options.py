@@ -14,11 +14,16 @@ class Format(StrEnum):
     CSV = "csv"
     PARQUET = "parquet"
     ARROW = "arrow"
+    MAT = "mat"
+    MDF = "mdf"
+    TDMS = "tdms"
 
 
 Logs = Annotated[
     list[str],
-    typer.Argument(metavar="LOG...", help="Bench logs: CSV, Parquet or Arrow; - is stdin."),
+    typer.Argument(
+        metavar="LOG...", help="Bench logs: CSV, Parquet, Arrow, MAT, MDF or TDMS; - is stdin."
+    ),
 ]
 Params = Annotated[str, typer.Argument(metavar="PARAMS", help="Parameter file; - is stdin.")]
 Maps = Annotated[

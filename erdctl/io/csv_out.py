@@ -12,9 +12,11 @@ from collections.abc import Iterator, Sequence
 import pyarrow as pa
 
 from erdctl.errors import UsageProblem
+from erdctl.io.stored import header
 
 ROWS = 1 << 16  # formatted at a time
 _MARK = {b"erdctl": b"text of CSV cells"}
+_KEY = next(iter(_MARK))
 
 
 def as_csv_text(table: pa.Table, columns: Sequence[str]) -> pa.Table:
@@ -33,24 +35,27 @@ def typed(table: pa.Table) -> pa.Table:
     is a number and none begins with a superfluous 0 (`007` is a name). Empty cells become null.
     """
     for index, field in enumerate(table.schema):
-        if field.metadata == _MARK:
+        metadata = dict(field.metadata or {})
+        if metadata.pop(_KEY, None) is not None:
             column = table.column(index)
             if field.name != "record":  # text in the contract, whatever it looks like
                 column = _typed(column)
-            table = table.set_column(index, pa.field(field.name, column.type), column)
+            table = table.set_column(
+                index, pa.field(field.name, column.type, metadata=metadata), column
+            )
     return table
 
 
 def chunks(table: pa.Table) -> Iterator[pa.Buffer]:
-    """A table as CSV: a header, then lines. Numbers in the shortest form that reads back exactly.
+    """A table as CSV: a header with units, then lines, numbers as short as reads back exactly.
 
     Only cells that need quotes get them. Raises UsageProblem for columns that CSV cannot hold.
     """
     import pyarrow.compute as pc
 
-    names = pa.array(table.column_names, pa.string())
-    header = pc.binary_join(pa.array([_quoted(names).to_pylist()]), ",")[0].as_py()
-    yield pa.py_buffer((header + "\n").encode())
+    names = pa.array(header(table.schema), pa.string())
+    line = pc.binary_join(pa.array([_quoted(names).to_pylist()]), ",")[0].as_py()
+    yield pa.py_buffer((line + "\n").encode())
     for batch in table.to_batches(ROWS):
         cells = [_cells(c, f.name) for c, f in zip(batch.columns, batch.schema, strict=True)]
         # Joined with the line end as a last, empty column, the cells are the lines.

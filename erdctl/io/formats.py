@@ -14,7 +14,13 @@ class Format(Enum):
     CSV = "csv"
     PARQUET = "parquet"
     ARROW = "arrow"
+    MAT = "mat"
+    MDF = "mdf"
+    TDMS = "tdms"
 
+
+# Files that hold channels with their own time bases and units, rather than one table.
+CONTAINERS = (Format.MAT, Format.MDF, Format.TDMS)
 
 SUFFIXES = {
     ".csv": Format.CSV,
@@ -24,6 +30,10 @@ SUFFIXES = {
     ".arrows": Format.ARROW,
     ".ipc": Format.ARROW,
     ".feather": Format.ARROW,
+    ".mat": Format.MAT,
+    ".mf4": Format.MDF,
+    ".mdf": Format.MDF,
+    ".tdms": Format.TDMS,
 }
 ARROW_FILE = b"ARROW1"
 ARROW_STREAM = b"\xff\xff\xff\xff"
@@ -33,15 +43,18 @@ _MAGIC = {
     b"PAR1": Format.PARQUET,
     ARROW_STREAM: Format.ARROW,
     ARROW_FILE: Format.ARROW,
+    b"MATLAB": Format.MAT,
+    b"MDF ": Format.MDF,
+    b"UnFinMF": Format.MDF,
+    b"TDSm": Format.TDMS,
 }
 # What bench software also writes.
 _FOREIGN = {
     b"\x1f\x8b": "compressed with gzip; use gzip -dc FILE | erdctl ... -",
     b"\x28\xb5\x2f\xfd": "compressed with zstd; use zstd -dc FILE | erdctl ... -",
     b"PK\x03\x04": "an Excel or zip file; export it as CSV",
-    b"\x89HDF": "an HDF5 or MATLAB file; export it as CSV or Parquet",
-    b"MATLAB": "a MATLAB file; export it as CSV or Parquet",
-    b"TDSm": "a TDMS file; export it as CSV",
+    b"\x89HDF": "an HDF5 file of no kind that is known; export it as CSV or Parquet",
+    b"TDSh": "the index of a TDMS file; give the .tdms file itself",
     b"FEA1": "an old Feather file; write it anew as Parquet",
     b"\xff\xfe": "UTF-16 text; export it as UTF-8",
     b"\xfe\xff": "UTF-16 text; export it as UTF-8",

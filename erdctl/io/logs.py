@@ -15,13 +15,13 @@ from erdctl.io.checks import Place, check_time, check_values, remark_on_time
 from erdctl.io.columns import to_numbers, to_records
 from erdctl.io.consistency import check_consistency
 from erdctl.io.memory import check_fits
-from erdctl.io.sources import STDIN, TableSource, open_source, read_source
-from erdctl.io.units import RECORD, TARGETS, Conversion, Mapping, listed, parse_maps
+from erdctl.io.plan import Plan, in_contract_names, plan_columns, read_planned
+from erdctl.io.sources import STDIN, TableSource, open_source
+from erdctl.io.stored import si, with_unit
+from erdctl.io.units import RECORD, Conversion, Mapping, parse_maps
 from erdctl.recording import Array, Index, Recording, Source, concatenate
 
 Report = Callable[[str], None]
-# Which column of the log a contract column is, and how its values become SI.
-Plan = dict[str, tuple[str, Conversion]]
 
 FORCES = ("force", "force_model")
 
@@ -49,7 +49,7 @@ def read_logs(
     want_hash: bool = False,
     report: Report,
 ) -> Log:
-    """Read and validate bench logs (CSV, Parquet, Arrow; "-" is standard input).
+    """Read and validate bench logs (any format of `Format`; "-" is standard input).
 
     maps : `--map` options, for all logs alike;  need_force : else force is read only if mapped
     keep_table : keep all columns, for a single log;  want_hash : SHA-256 of each log
@@ -105,21 +105,21 @@ def _read(
     def say(line: str) -> None:
         report(f"{source.name}: {line}")
 
-    plan = _plan(source, mappings, need_force=need_force, say=say)
+    plan = plan_columns(
+        source,
+        mappings,
+        needed=["t", "x", "force"] if need_force else ["t", "x"],
+        left=() if need_force else FORCES,
+        say=say,
+    )
     wanted = source.columns if keep_table else tuple(column for column, _ in plan.values())
     check_fits(source, len(wanted))
-    table, digest = read_source(
-        source,
-        wanted,
-        numbers=[column for target, (column, _) in plan.items() if target != RECORD],
-        labels=[plan[RECORD][0]] if RECORD in plan else [],
-        want_hash=want_hash,
-    )
+    table, plan, digest = read_planned(source, plan, mappings, wanted, want_hash=want_hash, say=say)
     rows = table.num_rows
     if not rows:
         raise InputProblem("a header but no samples", file=source.name)
     place = Place(source.name, lambda sample: source.row_of(sample, rows))
-    table = _in_contract_names(table, plan, say)
+    table = in_contract_names(table, plan, say)
     starts, names = _records(table, plan, place)
     narrow = table.schema.field("t").type == pa.float32()
     channels: dict[str, Array] = {}
@@ -143,44 +143,6 @@ def _read(
         recording,
         table=_with_own_label(table, source, plan, starts, names) if keep_table else None,
         force_model=channels.get("force_model"),
-    )
-
-
-def _plan(
-    source: TableSource, mappings: Sequence[Mapping], *, need_force: bool, say: Report
-) -> Plan:
-    plan = {m.target: m.find(source.columns, source.name) for m in mappings}
-    taken = {column for column, _ in plan.values()}
-    for target in TARGETS:
-        if target in plan or (target in FORCES and not need_force):
-            continue
-        if target in source.columns:
-            padded = [target]
-        else:
-            padded = [c for c in source.columns if c.strip() == target]
-            if padded:
-                say(f"column '{padded[0]}' is taken as '{target}'")
-        if padded and padded[0] not in taken:
-            plan[target] = (padded[0], Conversion())
-    needed = ["t", "x", "force"] if need_force else ["t", "x"]
-    missing = [target for target in needed if target not in plan]
-    if missing:
-        raise _missing(missing, [c for c in source.columns if c not in taken], source)
-    return plan
-
-
-def _missing(missing: Sequence[str], free: Sequence[str], source: TableSource) -> InputProblem:
-    from difflib import get_close_matches
-
-    by_lower = {c.lower(): c for c in free}
-    close = get_close_matches(missing[0], by_lower, 1, 0.3)
-    example = by_lower[close[0]] if close else "NAME[UNIT]"
-    names = " and ".join(f"'{m}'" for m in missing)
-    return InputProblem(
-        f"no column {names}; the log has {listed(source.columns)}; say which it is, e.g."
-        f' --map "{missing[0]}={example}"',
-        file=source.name,
-        column=missing[0],
     )
 
 
@@ -231,25 +193,12 @@ def _recording(
     )
 
 
-def _in_contract_names(table: pa.Table, plan: Plan, say: Report) -> pa.Table:
-    """The log's table with mapped columns renamed; a column that had such a name steps aside."""
-    targets = {column: target for target, (column, _) in plan.items()}
-    names = []
-    for name in table.column_names:
-        new = targets.get(name, name)
-        if new in plan and name not in targets:
-            new = f"{name} (original)"
-            say(f"the log's own column '{name}' is kept as '{new}'")
-        names.append(new)
-    return table.rename_columns(names)
-
-
 def _with_channel(table: pa.Table, target: str, values: Array, *, converted: bool) -> pa.Table:
     """The table with a channel's values, shared; a column that needed no change stays as it was."""
     index = table.column_names.index(target)
-    field, column = table.schema.field(index), table.column(index)
+    field, column = with_unit(table.schema.field(index), si(target)), table.column(index)
     if not converted and (column.num_chunks == 1 or field.type != pa.float64()):
-        return table
+        return table.set_column(index, field, column)
     return table.set_column(index, field.with_type(pa.float64()), arrow(values))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
+from io import BytesIO
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy as np
 from erdctl import __version__
 from erdctl.amplifier import Amplifier
 from erdctl.errors import UsageProblem
-from erdctl.io.atomic import replacing
+from erdctl.io.atomic import output
 from erdctl.mimic import Plan
 from erdctl.recording import Array, Recording
 
@@ -61,8 +61,10 @@ def write_mat(sequence: Sequence, path: str) -> None:
     from scipy.io import savemat
 
     rows = np.array([recording.t, *(sequence.duties[c] for c in CHANNELS)])
-    with replacing(path) as temporary, Path(temporary).open("wb") as file:
-        savemat(file, {"pwm": rows, "pwm_ws": np.ascontiguousarray(rows.T)})
+    data = BytesIO()
+    savemat(data, {"pwm": rows, "pwm_ws": np.ascontiguousarray(rows.T)})
+    with output(path) as stream:
+        stream.write(data.getbuffer())
 
 
 def manifest(

@@ -1,20 +1,25 @@
-"""Tables that come in: CSV, Parquet and Arrow IPC, from files and streams, with their hash."""
+"""Tables that come in, from files and streams of any format, with their hash."""
 
 from __future__ import annotations
 
 import os
 import stat
 import sys
-from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
-from typing import Any, BinaryIO, TypeVar
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 import pyarrow as pa
 
 from erdctl.errors import ComputationProblem, InputProblem, UsageProblem
 from erdctl.io import csv_in
 from erdctl.io.csv_in import Data
-from erdctl.io.formats import ARROW_END, ARROW_FILE, Format, by_content
+from erdctl.io.formats import ARROW_END, ARROW_FILE, CONTAINERS, Format, by_content
+from erdctl.io.stored import units_of
+
+if TYPE_CHECKING:
+    from erdctl.io.containers.align import Roles
+    from erdctl.io.containers.channels import Layout
 
 T = TypeVar("T")
 
@@ -27,7 +32,8 @@ class TableSource:
     """A table that can be read.
 
     path : as given;  name : for messages;  data : the path of a file, or the bytes of a stream
-    schema : None for CSV, which has no types
+    schema : None for CSV and containers;  layout : of a container (MAT, MDF4, TDMS), else None
+    units : as the file states them for columns, apart from those in names like `x [mm]`
     """
 
     path: str
@@ -36,6 +42,13 @@ class TableSource:
     data: Data
     columns: tuple[str, ...]
     schema: pa.Schema | None = None
+    units: Mapping[str, str] = field(default_factory=dict)
+    layout: Layout | None = None
+
+    @property
+    def clocks(self) -> Collection[str]:
+        """Names in the file that column `t` was made of."""
+        return () if self.layout is None else self.layout.clocks
 
     def row_of(self, sample: int, samples: int) -> int:
         """Row of a sample (counted from 0) as InputProblem states rows; samples : how many."""
@@ -62,12 +75,18 @@ def open_source(path: str) -> TableSource:
     else:
         head = bytes(data[:64])
     found = by_content(head, path, name)
-    schema = None
+    schema, units = None, dict[str, str]()
+    if found in CONTAINERS:
+        from erdctl.io.containers.opening import open_container
+
+        layout = open_container(data, found, name)
+        return TableSource(
+            path, name, found, data, layout.columns, units=layout.units, layout=layout
+        )
     if found is Format.CSV:
         columns = csv_in.column_names(data, name)
     else:
-        schema = _guarded(name, found, lambda: _schema(data, found))
-        columns = list(schema.names)
+        schema, columns, units = _guarded(name, found, lambda: _described(data, found))
     for i, column in enumerate(columns):
         if column in columns[:i]:
             raise InputProblem(
@@ -75,7 +94,7 @@ def open_source(path: str) -> TableSource:
                 " rename one",
                 file=name,
             )
-    return TableSource(path, name, found, data, tuple(columns), schema)
+    return TableSource(path, name, found, data, tuple(columns), schema, units)
 
 
 def read_source(
@@ -84,6 +103,7 @@ def read_source(
     *,
     numbers: Collection[str] = (),
     labels: Collection[str] = (),
+    roles: Roles | None = None,
     want_hash: bool = False,
 ) -> tuple[pa.Table, str]:
     """The columns (all: None), and the SHA-256 of all bytes in hex ("" unless wanted).
@@ -91,6 +111,7 @@ def read_source(
     numbers : columns that are float64 if the table is CSV, which knows no types; its other
         columns stay text (see `csv_out`)
     labels : columns of few different texts, which come dictionary-encoded out of Parquet
+    roles : what columns of a container are needed for, by which they share a time base
     Raises InputProblem if the content is damaged, ComputationProblem if memory does not suffice.
     """
     names = source.columns if columns is None else tuple(columns)
@@ -100,6 +121,14 @@ def read_source(
             return csv_in.read(source.data, source.name, source.columns, names, numbers)
         if source.format is Format.PARQUET:
             return _read_parquet(source, names, labels)
+        if source.layout is not None:
+            from erdctl.io.containers.align import Roles, aligned
+            from erdctl.io.containers.opening import guarded
+
+            layout, chosen = source.layout, roles or Roles()
+            return guarded(
+                source.name, source.format, lambda: aligned(layout, names, chosen, source.name)
+            )
         return _read_arrow(source, names)
 
     try:
@@ -175,6 +204,11 @@ def _guarded(name: str, format: Format, read: Callable[[], T]) -> T:
 def _native(data: Data) -> Any:
     # Not a memory map: if the file were cut while it is in use, the program would crash.
     return pa.OSFile(data) if isinstance(data, str) else pa.BufferReader(pa.py_buffer(data))
+
+
+def _described(data: Data, format: Format) -> tuple[pa.Schema, list[str], dict[str, str]]:
+    schema = _schema(data, format)
+    return schema, list(schema.names), units_of(schema)
 
 
 def _schema(data: Data, format: Format) -> pa.Schema:

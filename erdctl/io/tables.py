@@ -1,7 +1,8 @@
-"""Tables that go out: CSV, Parquet and Arrow IPC, to files and to standard output."""
+"""Tables that go out, in any format, to files and to standard output."""
 
 from __future__ import annotations
 
+import io
 import os
 from typing import BinaryIO
 
@@ -12,7 +13,8 @@ from erdctl.errors import UsageProblem
 from erdctl.io import csv_out
 from erdctl.io.arrays import arrow, runs_of_text
 from erdctl.io.atomic import STDOUT, output
-from erdctl.io.formats import SUFFIXES, Format, by_suffix
+from erdctl.io.formats import CONTAINERS, SUFFIXES, Format, by_suffix
+from erdctl.io.stored import with_si
 from erdctl.recording import CHANNELS, Array, Recording
 
 BATCH = 1 << 20  # rows of an Arrow batch: what a reader of a stream must hold at least
@@ -40,11 +42,17 @@ def write_table(table: pa.Table, path: str, format: str | None = None) -> None:
     """Write a table to a file, whole or not at all, or to standard output for `-`.
 
     Numbers in CSV read back exactly. `.feather` is an Arrow file, all other Arrow a stream.
+    Units go where the format keeps them; see `erdctl.io.stored`.
     Raises UsageProblem, ComputationProblem (disk full), BrokenPipeError (the reader has gone).
     """
     kind = output_format(path, format)
+    if kind in CONTAINERS:
+        data = container(table, kind)
+        with output(path) as stream:
+            stream.write(data)
+        return
     if kind is not Format.CSV:
-        table = csv_out.typed(table)
+        table = with_si(csv_out.typed(table))
     with output(path) as stream:
         if kind is Format.CSV:
             for chunk in csv_out.chunks(table):
@@ -55,6 +63,25 @@ def write_table(table: pa.Table, path: str, format: str | None = None) -> None:
             new = pa.ipc.new_file if path.lower().endswith(".feather") else pa.ipc.new_stream
             with new(stream, table.schema) as writer:
                 writer.write_table(table, max_chunksize=BATCH)
+
+
+def container(table: pa.Table, kind: Format) -> memoryview:
+    """The bytes of a MAT, MDF4 or TDMS file with the table.
+
+    Raises UsageProblem for what the format cannot hold, ComputationProblem without its library.
+    """
+    from erdctl.io.containers.outgoing import records_of
+
+    if kind is Format.MAT:
+        from erdctl.io.containers.mat_out import write
+    elif kind is Format.MDF:
+        from erdctl.io.containers.mdf import write
+    else:
+        from erdctl.io.containers.tdms import write
+    # Their libraries go back and forth in the file, which a pipe cannot do.
+    stream = io.BytesIO()
+    write(records_of(table, kind.name), stream)
+    return stream.getbuffer()
 
 
 def append_column(table: pa.Table, name: str, values: Array) -> pa.Table:

@@ -93,6 +93,10 @@ class Conversion:
             out = values * float(self.factor)
         return out + float(self.offset) if self.offset else out
 
+    def signed(self, sign: Fraction) -> Conversion:
+        """The same with the sign changed where `sign` is negative."""
+        return self if sign > 0 else Conversion(-self.factor, -self.offset)
+
 
 @dataclass(frozen=True)
 class Mapping:
@@ -101,6 +105,11 @@ class Mapping:
     target: str
     source: str
     spec: str
+
+    @property
+    def unit(self) -> str | None:
+        """The unit that the option gives, if it gives one."""
+        return name_and_unit(self.source)[1]
 
     def find(self, columns: Sequence[str], file: str) -> tuple[str, Conversion]:
         """The log's column, and how its values become SI.
@@ -122,12 +131,12 @@ class Mapping:
         if self.target == RECORD:
             return Conversion()
         plain = Conversion() if unit is None else conversion(unit, self.target, self.spec)
-        return Conversion(plain.factor * sign, plain.offset * sign)
+        return plain.signed(sign)
 
     def _missing(self, columns: Sequence[str], file: str) -> InputProblem:
         from difflib import get_close_matches
 
-        name = _split(self.source)[0].lstrip("-")
+        name = name_and_unit(self.source)[0].lstrip("-")
         by_lower = {c.lower(): c for c in columns}
         close = [by_lower[c] for c in get_close_matches(name.lower(), by_lower, 3, 0.6)]
         hint = f"; close to it: {', '.join(close)}" if close else ""
@@ -167,9 +176,8 @@ def parse_maps(specs: Sequence[str]) -> tuple[Mapping, ...]:
                     f"--map: '{source}' is mapped to both '{other.target}' and '{target}'"
                 )
         mapping = Mapping(target, source, spec)
-        unit = _split(source)[1]
-        if unit is not None and target != RECORD:
-            conversion(unit, target, spec)
+        if mapping.unit is not None and target != RECORD:
+            conversion(mapping.unit, target, spec)
         out.append(mapping)
     return tuple(out)
 
@@ -181,11 +189,11 @@ def conversion(unit: str, target: str, spec: str) -> Conversion:
     """
     wanted = UNITS[target]
     try:
-        return _between(unit, wanted)
-    except _WrongUnit as error:
+        return between(unit, wanted)
+    except WrongUnit as error:
         raise UsageProblem(
             f"--map \"{spec}\": '{target}' mapped with {error}; expected something like"
-            f" {_EXAMPLES[wanted]}"
+            f" {examples(target)}"
         ) from None
 
 
@@ -196,8 +204,8 @@ def factor_between(given: str, wanted: str, label: str) -> float:
     Raises InputProblem if `given` is no unit or of another dimension.
     """
     try:
-        found = _between(given, wanted)
-    except _WrongUnit as error:
+        found = between(given, wanted)
+    except WrongUnit as error:
         raise InputProblem(
             f"{label} is given in {error}; expected {wanted or 'a plain number'}"
         ) from None
@@ -210,12 +218,18 @@ def listed(columns: Sequence[str], most: int = 20) -> str:
     return ", ".join(columns[:most]) + more
 
 
-class _WrongUnit(Exception):
+class WrongUnit(Exception):
     """Says what is wrong, to be completed by what was expected."""
 
 
+def examples(target: str) -> str:
+    """Units that a contract column may come in."""
+    return _EXAMPLES[UNITS[target]]
+
+
 @cache
-def _between(given: str, wanted: str) -> Conversion:
+def between(given: str, wanted: str) -> Conversion:
+    """From one unit to another of the same dimension. Raises WrongUnit."""
     given = given.strip()
     if wanted == "degC":
         given = _TEMPERATURES.get(given, given)
@@ -225,15 +239,15 @@ def _between(given: str, wanted: str) -> Conversion:
     import pint
 
     if given and not re.fullmatch(_UNIT, given):
-        raise _WrongUnit(f"'{given}', which is not a unit")
+        raise WrongUnit(f"'{given}', which is not a unit")
     registry = _registry()
     try:
         unit, target = registry.parse_units(given), registry.parse_units(wanted)
         zero, one = (_quantity(v, unit).to(target).magnitude for v in (0, 1))
     except pint.DimensionalityError:
-        raise _WrongUnit(f"unit '{given}', which is {_kind(unit)}") from None
+        raise WrongUnit(f"unit '{given}', which is {_kind(unit)}") from None
     except (pint.PintError, *_SLIPS) as error:
-        raise _WrongUnit(f"'{given}', which is not a unit") from error
+        raise WrongUnit(f"'{given}', which is not a unit") from error
     return Conversion(Fraction(one) - Fraction(zero), Fraction(zero))
 
 
@@ -256,21 +270,22 @@ def _kind(unit: pint.Unit) -> str:
     return "something else"
 
 
-def _split(name: str) -> tuple[str, str | None]:
+def name_and_unit(name: str) -> tuple[str, str | None]:
+    """A column's name and the unit in brackets behind it: `Defl FL [mm]`."""
     found = _BRACKETS.fullmatch(name)
     return (found["name"], found["unit"]) if found else (name, None)
 
 
 def _find(source: str, columns: Sequence[str]) -> tuple[str, str | None] | None:
-    name, unit = _split(source)
+    name, unit = name_and_unit(source)
     if source in columns:
         return source, unit
     if name in columns:
         return name, unit
     # `Defl FL [mm]` for `Defl FL[mm]`; and `Defl FL [mm]` for `Defl FL` unless ambiguous
-    split = {c: _split(c) for c in columns}
-    for column, parts in split.items():
+    parted = {c: name_and_unit(c) for c in columns}
+    for column, parts in parted.items():
         if parts == (name, unit):
             return column, unit
-    same = [c for c, parts in split.items() if parts[0] == name and unit is None]
-    return (same[0], split[same[0]][1]) if len(same) == 1 else None
+    same = [c for c, parts in parted.items() if parts[0] == name and unit is None]
+    return (same[0], parted[same[0]][1]) if len(same) == 1 else None

@@ -262,7 +262,8 @@ def test_schema_describes_the_document(identified: Path) -> None:
 
 
 COMMANDS = (
-    "identify", "simulate", "validate", "diagnose", "prove", "mimic", "derive", "effects", "schema",
+    "identify", "simulate", "validate", "diagnose", "prove", "mimic", "convert", "derive",
+    "effects", "schema",
 )  # fmt: skip
 
 

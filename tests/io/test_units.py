@@ -8,7 +8,7 @@ from contextlib import suppress
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from erdctl.errors import ExitCode, InputProblem, UsageProblem
@@ -48,6 +48,7 @@ def test_values_from_the_definitions(unit: str, column: str, value: float, expec
     assert convert(np.array([value]))[0] == pytest.approx(expected, rel=4e-16, abs=1e-13)
 
 
+@settings(deadline=None)  # the first one imports pint
 @given(st.integers(-(10**6), 10**6))
 def test_conversion_costs_no_more_than_the_last_digit(micrometres: int) -> None:
     convert = conversion("mm", "x", "")

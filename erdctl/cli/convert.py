@@ -1,0 +1,43 @@
+"""`erdctl convert`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from erdctl.cli.options import Format, Maps
+
+
+def command(
+    log: Annotated[str, typer.Argument(metavar="IN", help="A log in any format; - is stdin.")],
+    output: Annotated[
+        str, typer.Argument(metavar="OUT", help="Where to, format by suffix; - is stdout.")
+    ],
+    maps: Maps = [],
+    format: Annotated[
+        Format | None, typer.Option(help="Format of OUT, whatever its suffix; stdout: CSV.")
+    ] = None,
+) -> None:
+    """Convert a log between CSV, Parquet, Arrow, MAT, MDF4 and TDMS.
+
+    Columns of the contract (t, x, xdot, duty, force, temperature) are written in SI under these
+    names; all others keep values, names and units. Units are kept in the header of CSV (`p [bar]`;
+    contract columns are SI and have plain names), in field metadata of Parquet and Arrow, as the
+    channel's unit in MDF4 and TDMS, and in the struct `units` of MAT. Channels on different time
+    bases are brought onto one, and it is said how. A name `record` makes records: a struct array
+    in MAT, groups in MDF4 and TDMS. MAT, MDF4 and TDMS are read and written whole, in memory.
+
+    \b
+    Examples:
+      erdctl convert bench.mf4 bench.parquet
+      erdctl convert bench.tdms bench.csv --map "x=Defl FL" --map "force=F_fl[kN]"
+      erdctl convert bench.csv bench.mat
+    """
+    from erdctl.io.convert import read_converted
+    from erdctl.io.tables import output_format, write_table
+    from erdctl.report.text import say
+
+    wanted = format and format.value
+    output_format(output, wanted)  # a wrong suffix shows before a long reading
+    write_table(read_converted(log, maps=maps, say=say), output, wanted)

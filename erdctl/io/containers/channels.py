@@ -1,0 +1,206 @@
+"""What MAT, MDF4 and TDMS files hold: channels with samples, unit and time base of their own."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from erdctl.errors import InputProblem
+from erdctl.io.stored import from_stored, stored_unit
+from erdctl.io.units import RECORD, name_and_unit
+from erdctl.recording import Array
+
+CLOCKS = ("t", "time")  # channels that hold the time of their group, in any case of letters
+TIME = "t"  # the column that a container's own time bases become
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """values : (n,) numbers, logicals or text;  time : (n,) [s], None if the file has none."""
+
+    values: npt.NDArray[Any]
+    time: Array | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Channel:
+    """One measured quantity.
+
+    unit : as the file spells it, None if it states none;  timed : its samples come with a time
+    """
+
+    name: str
+    unit: str | None
+    load: Callable[[], Samples]
+    timed: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Group:
+    """Channels that the file keeps together.
+
+    clock : the channel that their time was taken from, as the file calls it, and clock_unit what
+    it was in (None: nothing is said, s was assumed)
+    record : the file says that this is a record, whatever the others hold
+    """
+
+    name: str
+    channels: tuple[Channel, ...]
+    clock: str | None = None
+    clock_unit: str | None = "s"
+    record: bool = False
+
+    @property
+    def timed(self) -> bool:
+        return any(c.timed for c in self.channels)
+
+
+@dataclass(frozen=True, eq=False)
+class Member:
+    """A channel in its record; those of one `group` share an untimed length."""
+
+    group: int
+    channel: Channel
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """A container as one table with records.
+
+    records : name (None: the file does not tell records apart) and its channels by column
+    units : of the columns that have one;  clocks : names that `t` has in the file
+    notes : what was left out
+    """
+
+    records: tuple[tuple[str | None, dict[str, Member]], ...]
+    columns: tuple[str, ...]
+    units: dict[str, str]
+    clocks: frozenset[str]
+    notes: tuple[str, ...]
+
+
+def with_clock(name: str, channels: Sequence[Channel], file: str, *, record: bool = False) -> Group:
+    """A group whose channels take their time from the one called `t` or `time`, if there is one.
+
+    Channels that have a time of their own keep it.
+    """
+    clock = next((c for c in channels if name_and_unit(c.name)[0].casefold() in CLOCKS), None)
+    if clock is None:
+        return Group(name, tuple(channels), record=record)
+
+    @cache
+    def seconds() -> Array:
+        values = clock.load().values
+        if values.dtype.kind == "m":
+            return np.asarray(values / np.timedelta64(1, "ns") * 1e-9, np.float64)
+        if values.dtype.kind not in "iuf":
+            raise InputProblem(
+                "expected numbers to be the time; points of time must be exported as seconds from"
+                " the first one",
+                file=file,
+                column=clock.name,
+            )
+        convert = from_stored(stored_unit(clock.unit) or "s", TIME, clock.name, file)
+        return convert(np.asarray(values, np.float64))
+
+    def under(channel: Channel) -> Channel:
+        def load() -> Samples:
+            own = channel.load()
+            return own if own.time is not None else Samples(own.values, seconds())
+
+        return replace(channel, load=load, timed=True)
+
+    return Group(
+        name,
+        tuple(under(c) for c in channels if c is not clock),
+        clock=clock.name,
+        clock_unit=stored_unit(clock.unit),
+        record=record,
+    )
+
+
+def arrange(groups: Iterable[Group], file: str, notes: Sequence[str] = ()) -> Layout:
+    """The table that the groups of a file make.
+
+    Groups with the same channels are records of one test after another; other groups belong to
+    one record, and a name that several of them have becomes GROUP/NAME.
+    Raises InputProblem if there are no channels.
+    """
+    found = [g for g in groups if g.channels]
+    said = list(notes)
+    if not found:
+        why = f" ({'; '.join(said)})" if said else ""
+        raise InputProblem(f"no channels with samples in it{why}", file=file)
+    marked = [g for g in found if g.record]
+    if marked and len(marked) < len(found):
+        rest = ", ".join(g.name for g in found if not g.record)
+        said.append(f"only its records are read; left out: {rest}")
+        found = marked
+    timed = any(g.timed for g in found)
+    names = [{c.name for c in g.channels} for g in found]
+    records: list[tuple[str | None, dict[str, Member]]]
+    if marked or (len(found) > 1 and all(n == names[0] for n in names)):
+        common, some = set.intersection(*names), set.union(*names)
+        if some - common:
+            said.append(f"not in every record, left out: {', '.join(sorted(some - common))}")
+        members = [_members([(0, g)], common, timed=timed) for g in found]
+        records = list(zip(_unique([g.name for g in found]), members, strict=True))
+    else:
+        records = [(None, _members(list(enumerate(found)), set().union(*names), timed=timed))]
+    first = records[0][1]
+    columns = [*([TIME] if timed else []), *first]
+    if records[0][0] is not None and RECORD not in first:
+        columns.append(RECORD)
+    units = _units(records, file)
+    clock_units = {g.clock_unit for g in found if g.timed}
+    if timed and None not in clock_units:
+        units[TIME] = "s" if len(clock_units) > 1 else str(clock_units.pop())
+    clocks = frozenset(g.clock for g in found if g.clock is not None) - {TIME}
+    return Layout(tuple(records), tuple(columns), units, clocks, tuple(said))
+
+
+def _members(
+    groups: Sequence[tuple[int, Group]], only: set[str], *, timed: bool
+) -> dict[str, Member]:
+    chosen = [(i, g, c) for i, g in groups for c in g.channels if c.name in only]
+    count = Counter(c.name for _, _, c in chosen)
+    names = [
+        f"{g.name}/{c.name}" if count[c.name] > 1 or (timed and c.name == TIME) else c.name
+        for _, g, c in chosen
+    ]
+    members = [Member(i, c) for i, _, c in chosen]
+    return dict(zip(_unique(names), members, strict=True))
+
+
+def _unique(names: Sequence[str]) -> list[str]:
+    out: list[str] = []
+    for name in names:
+        new, copy = name, 2
+        while new in out:
+            new, copy = f"{name} ({copy})", copy + 1
+        out.append(new)
+    return out
+
+
+def _units(records: Sequence[tuple[str | None, dict[str, Member]]], file: str) -> dict[str, str]:
+    out: dict[str, str] = {}
+    first = records[0][1]
+    for column, member in first.items():
+        units = {r: stored_unit(m[column].channel.unit) for r, m in records}
+        if len(set(units.values())) > 1:
+            said = ", ".join(f"{u or 'none'} in record '{r}'" for r, u in list(units.items())[:3])
+            raise InputProblem(
+                f"its unit differs from record to record: {said}; give them one by one",
+                file=file,
+                column=column,
+            )
+        unit = stored_unit(member.channel.unit)
+        if unit is not None:
+            out[column] = unit
+    return out

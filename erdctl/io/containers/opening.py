@@ -1,0 +1,58 @@
+"""A container of any format, opened: its channels as one table, samples still unread."""
+
+from __future__ import annotations
+
+import io
+import os
+from collections.abc import Callable
+from typing import TypeVar
+
+from erdctl.errors import ErdctlError, InputProblem
+from erdctl.io.containers.channels import Layout, arrange
+from erdctl.io.formats import Format
+from erdctl.io.memory import available
+
+T = TypeVar("T")
+
+
+def open_container(data: str | bytearray, format: Format, name: str) -> Layout:
+    """The channels of a file, or of the bytes of one.
+
+    name : for messages
+    Raises InputProblem if it is damaged or too large, ComputationProblem if the library that reads
+    it is missing.
+    """
+    size = os.path.getsize(data) if isinstance(data, str) else len(data)
+    have = available()
+    if have is not None and size > have:
+        raise InputProblem(
+            f"too large: {size / 1e9:.3g} GB, read whole, and {have / 1e9:.3g} GB of memory are"
+            " free; split it, or export the channels that you need",
+            file=name,
+        )
+    if format is Format.MDF:
+        from erdctl.io.containers.mdf import read
+    elif format is Format.TDMS:
+        from erdctl.io.containers.tdms import read
+    else:
+        from erdctl.io.containers.mat_in import read
+
+    groups, notes = guarded(
+        name, format, lambda: read(data if isinstance(data, str) else io.BytesIO(data), name)
+    )
+    return arrange(groups, name, notes)
+
+
+def guarded(name: str, format: Format, read: Callable[[], T]) -> T:
+    """What `read` returns; whatever a library says of a damaged file in one line."""
+    try:
+        return read()
+    except (ErdctlError, MemoryError):
+        raise
+    except Exception as error:  # noqa: BLE001 - no library says what a damaged file makes it raise
+        reason = (str(error).splitlines() or [type(error).__name__])[0][:200]
+        raise InputProblem(
+            f"damaged, cut off or unusual {format.value} ({reason}); write or copy it again, or"
+            " export it as CSV",
+            file=name,
+        ) from None

@@ -1,0 +1,28 @@
+"""Libraries that only some users need, asked for by name where they are missing."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+from erdctl.errors import ComputationProblem
+
+
+class MissingLibrary(ComputationProblem):
+    """An optional library is not installed; the message says how to install it."""
+
+
+def need(module: str, *, extra: str, purpose: str) -> Any:
+    """The module of an optional library.
+
+    extra : the optional dependency of erdctl that brings it;  purpose : what it is needed for
+    Raises MissingLibrary, which says what to install.
+    """
+    try:
+        return import_module(module)
+    except ModuleNotFoundError as error:
+        if error.name != module.partition(".")[0]:
+            raise  # the library is there, but broken
+        raise MissingLibrary(
+            f"{purpose} need the library {error.name}: pip install 'erdctl[{extra}]'"
+        ) from None

@@ -1,0 +1,226 @@
+"""Which column of a log is which of the contract's, and how its values become SI."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+
+import pyarrow as pa
+
+from erdctl.errors import InputProblem
+from erdctl.io.containers.align import Roles
+from erdctl.io.sources import TableSource, read_source
+from erdctl.io.stored import from_stored, si
+from erdctl.io.units import (
+    RECORD,
+    TARGETS,
+    UNITS,
+    Conversion,
+    Mapping,
+    listed,
+    name_and_unit,
+)
+
+Report = Callable[[str], None]
+# Which column of the log a contract column is, and how its values become SI.
+Plan = dict[str, tuple[str, Conversion]]
+
+
+def plan_columns(
+    source: TableSource,
+    mappings: Sequence[Mapping],
+    *,
+    needed: Sequence[str],
+    left: Collection[str] = (),
+    say: Report,
+) -> Plan:
+    """The columns that the log has, by `--map` and by their names.
+
+    A unit given with `--map` holds; else the one that the file states for the column, in a unit
+    field or as `x [mm]`; else SI.
+    needed : contract columns without which it is no log;  left : those taken only if mapped
+    say : takes a line for everything that was assumed or converted
+    Raises InputProblem for missing columns and for stored units that do not fit, UsageProblem.
+    """
+    stated = _Stated(source, say)
+    plan = {m.target: stated.mapped(m) for m in mappings}
+    taken = {column for column, _ in plan.values()}
+    for target in TARGETS:
+        if target in plan or target in left:
+            continue
+        column = _by_name(source, target, say)
+        if column is not None and column not in taken:
+            plan[target] = (column, stated.conversion(target, column))
+    missing = [target for target in needed if target not in plan]
+    if missing:
+        raise _missing(missing, [c for c in source.columns if c not in taken], source)
+    stated.tell()
+    return plan
+
+
+class _Stated:
+    """Units that the log states, and what there is to say about them."""
+
+    def __init__(self, source: TableSource, say: Report) -> None:
+        self.source, self.say = source, say
+        self.converted: list[str] = []
+        self.assumed: list[str] = []
+
+    def mapped(self, mapping: Mapping) -> tuple[str, Conversion]:
+        source = self.source
+        column, convert = mapping.find((*source.columns, *source.clocks), source.name)
+        if column in source.clocks:
+            column = "t"
+        stored = source.units.get(column)
+        if mapping.target == RECORD:
+            return column, convert
+        if mapping.unit is None:
+            if name_and_unit(column)[1] is None:
+                convert = self.conversion(mapping.target, column).signed(convert.factor)
+            return column, convert
+        if stored is not None:
+            self.compare(mapping, column, stored, convert)
+        if source.layout is not None and column == "t":
+            # The containers' own time comes in the seconds that the file says it has.
+            done = from_stored(stored or "s", "t", column, source.name)
+            convert = Conversion(convert.factor / done.factor)
+        return column, convert
+
+    def compare(self, mapping: Mapping, column: str, stored: str, convert: Conversion) -> None:
+        """What `--map` says holds: people correct wrong units by it. But it is said."""
+        try:
+            same = from_stored(stored, mapping.target, column, "").signed(convert.factor)
+        except InputProblem:
+            same = None
+        if same != convert:
+            self.say(
+                f"the unit of '{column}' is {stored} in the file and {mapping.unit} by --map;"
+                " --map holds"
+            )
+
+    def conversion(self, target: str, column: str) -> Conversion:
+        if target == RECORD:
+            return Conversion()
+        unit = self.source.units.get(column) or name_and_unit(column)[1]
+        if unit is None:
+            if self.source.layout is not None and target != "duty":
+                self.assumed.append(f"{column} as {si(target)}")
+            return Conversion()
+        if self.source.layout is not None and target == column == "t":
+            return Conversion()
+        found = from_stored(unit, target, column, self.source.name)
+        if found != Conversion():
+            self.converted.append(f"{column} from {unit} to {si(target)}")
+        return found
+
+    def tell(self) -> None:
+        if self.converted:
+            self.say(f"converted {', '.join(self.converted)}")
+        if self.assumed:
+            self.say(
+                f"no unit is stored with some channels; taken {', '.join(self.assumed)}; --map"
+                " says otherwise"
+            )
+
+
+def _by_name(source: TableSource, target: str, say: Report) -> str | None:
+    if target in source.columns:
+        return target
+    near = [c for c in source.columns if c.strip() == target]
+    if not near and target in UNITS:
+        near = [c for c in source.columns if name_and_unit(c)[0].strip() == target]
+        if len(near) > 1 or not all(_fits(c, target) for c in near):
+            say(f"{listed(near)} not taken as '{target}'; --map says otherwise")
+            return None
+    if near:
+        say(f"column '{near[0]}' is taken as '{target}'")
+    return near[0] if near else None
+
+
+def _fits(column: str, target: str) -> bool:
+    try:
+        from_stored(name_and_unit(column)[1] or "", target, column, "")
+    except InputProblem:
+        return False
+    return True
+
+
+def _missing(missing: Sequence[str], free: Sequence[str], source: TableSource) -> InputProblem:
+    from difflib import get_close_matches
+
+    by_lower = {c.lower(): c for c in free}
+    close = get_close_matches(missing[0], by_lower, 1, 0.3)
+    example = by_lower[close[0]] if close else "NAME[UNIT]"
+    names = " and ".join(f"'{m}'" for m in missing)
+    return InputProblem(
+        f"no column {names}; the log has {listed(source.columns)}; say which it is, e.g."
+        f' --map "{missing[0]}={example}"',
+        file=source.name,
+        column=missing[0],
+    )
+
+
+def in_contract_names(table: pa.Table, plan: Plan, say: Report) -> pa.Table:
+    """The log's table with mapped columns renamed; a column that had such a name steps aside."""
+    targets = {column: target for target, (column, _) in plan.items()}
+    names = []
+    for name in table.column_names:
+        new = targets.get(name, name)
+        if new in plan and name not in targets:
+            new = f"{name} (original)"
+            say(f"the log's own column '{name}' is kept as '{new}'")
+        names.append(new)
+    return table.rename_columns(names)
+
+
+def read_planned(
+    source: TableSource,
+    plan: Plan,
+    mappings: Sequence[Mapping],
+    wanted: Sequence[str],
+    *,
+    want_hash: bool = False,
+    say: Report,
+) -> tuple[pa.Table, Plan, str]:
+    """The wanted columns, what is left to convert of them, and the hash of the file.
+
+    The channels of a container come on one time base, and a time of their own in seconds.
+    Raises InputProblem for whole numbers of a sensor whose scale nobody states.
+    """
+    if source.layout is not None:
+        for note in source.layout.notes:
+            say(note)
+    clock, seconds = plan.get("t", ("t", Conversion()))
+    table, digest = read_source(
+        source,
+        wanted,
+        numbers=[column for target, (column, _) in plan.items() if target != RECORD],
+        labels=[plan[RECORD][0]] if RECORD in plan else [],
+        roles=Roles({column: target for target, (column, _) in plan.items()}, seconds, say),
+        want_hash=want_hash,
+    )
+    if source.layout is not None:
+        _refuse_counts(table, source, plan, {m.target for m in mappings if m.unit is not None})
+        if clock != "t":
+            plan = plan | {"t": (clock, Conversion())}
+    return table, plan, digest
+
+
+def _refuse_counts(
+    table: pa.Table, source: TableSource, plan: Plan, given: Collection[str]
+) -> None:
+    """A force in whole numbers of no unit is what the converter counted, not newtons."""
+    for target, (column, _) in plan.items():
+        stated = target in given or column in source.units or name_and_unit(column)[1] is not None
+        if (
+            stated
+            or target in ("t", "duty", RECORD)
+            or not pa.types.is_integer(table.schema.field(column).type)
+        ):
+            continue
+        raise InputProblem(
+            f"whole numbers ({table.schema.field(column).type}) without a unit or a scaling, which"
+            f" may be counts of a converter; if they are in a unit, say so: --map"
+            f' "{target}={column}[{si(target)}]"; else export scaled values',
+            file=source.name,
+            column=column,
+        )

@@ -1,0 +1,128 @@
+"""`erdctl convert`, and every format through the other commands."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+from places import FIXTURES
+from typer.testing import CliRunner
+
+from erdctl.cli.app import build
+
+APP = build()
+GOOD = FIXTURES / "bad" / json.loads((FIXTURES / "bad" / "index.json").read_text())["good"]
+FOREIGN = FIXTURES / "foreign.csv"
+TABLE_2 = str(FIXTURES / "table_2.json")
+SUFFIXES = [".csv", ".parquet", ".arrow", ".feather", ".mat", ".mf4", ".tdms"]
+
+
+def erdctl(*arguments: Any, data: bytes | None = None, code: int = 0) -> Any:
+    result = CliRunner().invoke(APP, [str(a) for a in arguments], input=data)
+    assert result.exit_code == code, result.stderr
+    assert "Traceback" not in result.stderr
+    return result
+
+
+@pytest.fixture(scope="module")
+def identified() -> bytes:
+    return erdctl("identify", GOOD).stdout_bytes
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_commands_read_every_format(tmp_path: Path, identified: bytes, suffix: str) -> None:
+    log = tmp_path / f"log{suffix}"
+    erdctl("convert", GOOD, log)
+    found, expected = (json.loads(d) for d in (erdctl("identify", log).stdout_bytes, identified))
+    for direction in ("compression", "release"):
+        assert found[direction] == expected[direction]
+    params = tmp_path / "params.json"
+    params.write_bytes(identified)
+    as_file = erdctl("validate", params, log, "--json").stdout_bytes
+    as_pipe = erdctl("validate", params, "-", "--json", data=log.read_bytes()).stdout_bytes
+    assert json.loads(as_file)["nrmse"] == json.loads(as_pipe)["nrmse"]
+    out = tmp_path / f"out{suffix}"
+    erdctl("simulate", params, log, "-o", out)
+    assert json.loads(erdctl("validate", out, "--json").stdout)["nrmse"] == pytest.approx(
+        json.loads(as_file)["nrmse"], rel=1e-12
+    )
+
+
+@pytest.mark.parametrize("format", ["csv", "parquet", "arrow", "mat", "mdf", "tdms"])
+def test_through_pipes(format: str) -> None:
+    data = erdctl("convert", "-", "-", "--format", format, data=GOOD.read_bytes()).stdout_bytes
+    back = erdctl("convert", "-", "-", data=data).stdout_bytes
+    assert back == erdctl("convert", GOOD, "-").stdout_bytes
+
+
+def test_own_names_and_units_in_every_format(tmp_path: Path) -> None:
+    maps = ["t=Time[ms]", "x=Defl FL[mm]", "force=F_fl[N]", "duty=PWM[%]", "temperature=Oil [degC]"]
+    options = [o for m in maps for o in ("--map", m)]
+    rows = erdctl("convert", FOREIGN, "-", *options).stdout.splitlines()
+    assert rows[0] == "t,x,force,duty,temperature"
+    for suffix in (".mat", ".tdms"):
+        erdctl("convert", FOREIGN, tmp_path / f"log{suffix}")
+        result = erdctl("convert", tmp_path / f"log{suffix}", "-", *options)
+        assert result.stdout.splitlines() == rows
+        assert result.stderr == ""
+
+
+def test_a_unit_by_map_holds_against_the_stored_one(tmp_path: Path) -> None:
+    n = 200
+    t = np.arange(n) * 1e-3
+    fields = [("t", "s"), ("A", "m"), ("force", "N")]
+    schema = pa.schema([pa.field(name, pa.float64(), metadata={"unit": u}) for name, u in fields])
+    path = tmp_path / "log.parquet"
+    pq.write_table(pa.table([t, 5.0 * np.sin(t), 100.0 * t], schema), path)
+    result = erdctl("convert", path, "-", "--map", "x=A[mm]")
+    assert "the unit of 'A' is m in the file and mm by --map; --map holds" in result.stderr
+    assert float(result.stdout.splitlines()[2].split(",")[1]) == 5.0 * np.sin(1e-3) / 1e3
+    silent = erdctl("convert", path, "-", "--map", "x=-A")
+    assert silent.stderr == ""
+    assert float(silent.stdout.splitlines()[2].split(",")[1]) == -5.0 * np.sin(1e-3)
+
+
+@pytest.mark.parametrize(
+    ("unit", "words"),
+    [("V", "unit 'V', which is a voltage"), ("lbs force", "'lbs force', which is not a unit")],
+)
+def test_a_stored_unit_that_does_not_fit(tmp_path: Path, unit: str, words: str) -> None:
+    path = tmp_path / "log.parquet"
+    schema = pa.schema(
+        [("t", pa.float64()), pa.field("force", pa.float64(), metadata={"unit": unit})]
+    )
+    pq.write_table(pa.table([[0.0, 1.0], [1.0, 2.0]], schema), path)
+    result = erdctl("convert", path, tmp_path / "out.csv", code=3)
+    assert f"column 'force': stored with {words}; 'force' needs something like N" in result.stderr
+    assert result.stderr.count("\n") == 1
+    assert not (tmp_path / "out.csv").exists()
+
+
+def test_wrong_suffix_and_missing_library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    result = erdctl("convert", GOOD, tmp_path / "log.xls", code=2)
+    assert "unknown suffix; known are .csv" in result.stderr
+    for module, suffix, extra in [("asammdf", ".mf4", "mdf"), ("nptdms", ".tdms", "tdms")]:
+        monkeypatch.setitem(sys.modules, module, None)
+        result = erdctl("convert", GOOD, tmp_path / f"log{suffix}", code=4)
+        assert f"pip install 'erdctl[{extra}]'" in result.stderr
+        assert result.stderr.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_mimic_lays_mat_out_for_simulink_on_stdout_too(tmp_path: Path) -> None:
+    from scipy.io import loadmat
+
+    path = tmp_path / "pwm.mat"
+    arguments = ["mimic", TABLE_2, GOOD, "--fault", "oil=0.5", "--duty", "0.2"]
+    single = erdctl("convert", GOOD, "-").stdout.splitlines()
+    keep = [single[0], *(r for r in single[1:] if r.endswith(single[1].rpartition(",")[2]))]
+    (tmp_path / "one.csv").write_text("\n".join(keep) + "\n")
+    arguments[2] = str(tmp_path / "one.csv")
+    path.write_bytes(erdctl(*arguments, "--format", "mat").stdout_bytes)
+    assert loadmat(path)["pwm"].shape == (5, len(keep) - 1)
