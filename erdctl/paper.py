@@ -23,6 +23,12 @@ from erdctl.quantity import Quantity
 from erdctl.recording import Array
 from erdctl.signals import Signals
 
+# As the docstring has them, for people.
+EQUATIONS = (
+    "F = k_nom x + c_vis xdot + F_ER sign(xdot)",
+    "T_d dF_ER/dt + F_ER = sigma v^beta",
+)
+
 # Bounds are what a damper between a model car's and a building's can have. Damping that gave energy
 # away would be no damper, and behind a compliance it could not even be simulated; gas that is
 # squeezed pushes back (Eq. 3), and a negative stiffness only hides inertia or a loop.

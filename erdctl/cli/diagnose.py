@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from erdctl.cli.options import Logs, Maps, Out
+from erdctl.cli.pages import Report, check_report
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -65,6 +66,7 @@ def command(
     fail_on_mismatch: Annotated[
         bool, typer.Option("--fail-on-mismatch", help="Exit 1 unless the verdict is adequate.")
     ] = False,
+    report: Report = None,
     maps: Maps = [],
 ) -> None:
     """Locate a mismatch, name the physics left out, and show the fit improve.
@@ -75,7 +77,7 @@ def command(
 
     \b
     Examples:
-      erdctl diagnose bench.parquet -o diagnosis.json
+      erdctl diagnose bench.parquet -o diagnosis.json --report diagnosis.html
       erdctl diagnose a.csv b.csv --exclude thermal_fade --fail-on-mismatch
       erdctl diagnose bench.csv --effects backlash,mount_compliance
       erdctl diagnose bench.parquet --jobs 2 --max-effects 4
@@ -90,6 +92,7 @@ def command(
     from erdctl.io.logs import read_logs
     from erdctl.report.text import progress, say
 
+    check_report(report)
     given, file = _given(params, logs)
     log = read_logs(logs, maps=maps, need_force=True, want_hash=True, report=say)
     candidates = _candidates(only, exclude)
@@ -100,7 +103,10 @@ def command(
             free=Free(gain=record_gains, offset=record_offsets), seed=seed,
             jobs=jobs or _jobs(log.recording, candidates), progress=step,
         )  # fmt: skip
-    documents.write(to_json(found, file), output)
+    document = to_json(found, file)
+    documents.write(document, output)
+    if report is not None:
+        _report(found, document, report, seed)
     _show(found)
     if fail_on_mismatch and found.verdict is not Verdict.ADEQUATE:
         raise CheckFailed(f"the paper's model does not hold: {found.verdict.value}")
@@ -143,6 +149,24 @@ def _jobs(recording: Recording, candidates: Sequence[Effect]) -> int:
     from erdctl.workers import cores
 
     return cores() if len(recording) * len(candidates) > WORTHWHILE else 1
+
+
+def _report(found: Diagnosis, document: dict[str, Any], path: str, seed: int) -> None:
+    import sys
+
+    from erdctl.cli.pages import write_report
+    from erdctl.io.diagnosis import baseline, parameters
+    from erdctl.report.page.diagnosis import diagnosis_page
+    from erdctl.report.page.render import Run
+    from erdctl.simulate import simulate
+
+    recording = found.study.recording
+    before, after = (simulate(p, recording) for p in (baseline(found), parameters(found)))
+    run = Run(
+        words=sys.argv[1:], logs=recording.sources,
+        details=[("seed", str(seed)), ("velocity", recording.xdot_note)],
+    )  # fmt: skip
+    write_report(diagnosis_page(document, recording, before=before, after=after, run=run), path)
 
 
 def _show(found: Diagnosis) -> None:

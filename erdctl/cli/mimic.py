@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from erdctl.cli.options import Faults, Format, Maps, Out, Params
+from erdctl.cli.pages import Report, check_report
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -54,6 +55,7 @@ def command(
     uncompensated: Annotated[
         bool, typer.Option("--uncompensated", help="The paper's static inverse, Eqs. 27, 31, 35.")
     ] = False,
+    report: Report = None,
     maps: Maps = [],
     format: Annotated[
         Format | None, typer.Option(help="Format on stdout (CSV unless said).")
@@ -70,7 +72,7 @@ def command(
     \b
     Examples:
       erdctl mimic damper.json drive.csv --fault oil=0.5@15:31 --fault electrical=0.8@31:46 \\
-        --fault deformation=0.7@46 -o pwm.csv
+        --fault deformation=0.7@46 -o pwm.csv --report pwm.html
       erdctl mimic damper.json drive.csv --fault oil=0.5 --update-rate 200 -o pwm.mat
       erdctl mimic damper.json drive.csv --fault oil=0.5 | erdctl simulate damper.json -
     """
@@ -96,6 +98,7 @@ def command(
         raise UsageProblem("PARAMS and LOG cannot both be stdin")
     if duty is not None and not 0.0 <= duty <= 1.0:
         raise UsageProblem(f"--duty is a fraction from 0 to 1, not {duty:g}")
+    check_report(report)
     amplifier = Amplifier(
         carrier=carrier, full_scale=full_scale, duty_max=duty_max, resolution=resolution,
         slew=math.inf if slew is None else slew, update_rate=update_rate,
@@ -133,6 +136,19 @@ def command(
             faults=[str(f) for f in faults],
         )  # fmt: skip
         documents.write(document, manifest)
+    if report is not None:
+        import sys
+
+        from erdctl.cli.pages import write_report
+        from erdctl.report.page.mimic import mimic_page
+        from erdctl.report.page.render import Run
+
+        run = Run(
+            words=sys.argv[1:], logs=recording.sources,
+            details=[("parameters", f"{params}, SHA-256 {sha256(data).hexdigest()}")],
+        )  # fmt: skip
+        page = mimic_page(plans, recording, healthy, static=uncompensated, run=run)
+        write_report(page, report)
     _show(plans)
 
 

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from erdctl.cli.pages import Report, check_report
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from contextlib import AbstractContextManager
@@ -56,6 +58,7 @@ def command(
         str | None,
         typer.Option("--output", "-o", metavar="FILE", help="Results as JSON to a file."),
     ] = None,
+    report: Report = None,
 ) -> None:
     """Hide physics in an independent plant, diagnose its log, then open the key and score.
 
@@ -67,7 +70,7 @@ def command(
     \b
     Examples:
       erdctl prove
-      erdctl prove --cases 200 --seed 5000 -o proof.json
+      erdctl prove --cases 200 --seed 5000 -o proof.json --report proof.html
       erdctl prove --effects backlash,mount_compliance --level 3 --motion measured
       erdctl prove --kind null --colour pink --cases 40
       erdctl prove --seed 5017 --cases 1 --keep case
@@ -86,6 +89,7 @@ def command(
     check(wish, seeds)
     if output is not None:
         _must_exist(output)
+    check_report(report)
     with _folder(keep) as folder:
         proof = _run(wish, seeds, folder, jobs)
     document = to_json(proof)
@@ -93,6 +97,16 @@ def command(
         documents.write(document, "-")
     if output is not None:
         documents.write(document, output)
+    if report is not None:
+        import sys
+
+        from erdctl.cli.pages import write_report
+        from erdctl.prove.tables import tables
+        from erdctl.report.page.proof import proof_page
+        from erdctl.report.page.render import Run
+
+        run = Run(words=sys.argv[1:], details=[("seeds", f"{seeds.start} to {seeds.stop - 1}")])
+        write_report(proof_page(document, list(tables(proof.summary)), run=run), report)
     _show(proof)
     if proof.failed:
         raise ComputationProblem(f"{len(proof.failed)} of {cases} cases could not be scored")

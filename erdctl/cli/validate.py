@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from erdctl.cli.options import Maps
+from erdctl.cli.pages import Report, check_report
 
 if TYPE_CHECKING:
     from erdctl.score import Score, Validation
@@ -30,6 +31,7 @@ def command(
     normalise: Annotated[
         str, typer.Option(metavar="range|std|mean|rms", help="Denominator of the NRMSE.")
     ] = "range",
+    report: Report = None,
     maps: Maps = [],
 ) -> None:
     """Compare modelled and measured force: NRMSE per PWM level, direction and record.
@@ -39,7 +41,7 @@ def command(
 
     \b
     Examples:
-      erdctl validate damper.json other.csv
+      erdctl validate damper.json other.csv --report validation.html
       erdctl validate damper.json other.csv --json --fail-above 0.1
       erdctl simulate damper.json drive.csv | erdctl validate -
     """
@@ -50,8 +52,11 @@ def command(
 
     if normalise not in list(Normalise):
         raise UsageProblem(f"--normalise takes {', '.join(Normalise)}, not '{normalise}'")
+    check_report(report)
+    want_hash = report is not None
+    noise = None
     if len(arguments) == 1:
-        log = read_logs(arguments, maps=maps, need_force=True, report=say)
+        log = read_logs(arguments, maps=maps, need_force=True, want_hash=want_hash, report=say)
         modelled = log.force_model
         if modelled is None:
             raise InputProblem(
@@ -66,7 +71,8 @@ def command(
         if params == "-" and "-" in logs:
             raise UsageProblem("PARAMS and LOG cannot both be stdin")
         parameters = read_parameters(params)
-        log = read_logs(logs, maps=maps, need_force=True, report=say)
+        log = read_logs(logs, maps=maps, need_force=True, want_hash=want_hash, report=say)
+        noise = parameters.provenance.get("noise_rms")
         for line in remarks(parameters, log.recording):
             say(line)
         modelled = simulate(parameters, log.recording)
@@ -77,6 +83,18 @@ def command(
         documents.write(_document(found), "-")
     else:
         _show(found)
+    if report is not None:
+        import sys
+
+        from erdctl.cli.pages import write_report
+        from erdctl.report.page.render import Run
+        from erdctl.report.page.validation import validation_page
+
+        run = Run(words=sys.argv[1:], logs=log.recording.sources)
+        page = validation_page(
+            found, log.recording, modelled, noise=noise, limit=fail_above, run=run
+        )
+        write_report(page, report)
     if fail_above is not None:
         over = [f"{d:g}: {s.nrmse:.4f}" for d, s in found.by_duty.items() if s.nrmse > fail_above]
         if over:

@@ -66,6 +66,8 @@ class Diagnosis:
     refitted : scores of that model fitted to this recording
     corrected, carried : scores of the best model without and with the scatter of the records, which
         are the same where none is carried
+    unseen : scores of the model to answer for and of the best, each sample by a fit without its
+        group, beyond the scatter of the records
     """
 
     verdict: Verdict
@@ -80,6 +82,7 @@ class Diagnosis:
     refitted: Validation
     corrected: Validation
     carried: Validation
+    unseen: tuple[Validation, Validation]
     scatter: Scatter | None
     remainder: Remainder
     untestable: dict[str, str]
@@ -145,6 +148,7 @@ def diagnose(
         refitted=refitted,
         corrected=_validate(study, best),
         carried=_carried(study, best),
+        unseen=(_unseen(best.study, choice.base), _unseen(best.study, best)),
         remainder=remainder,
         untestable=missing,
     )
@@ -254,3 +258,12 @@ def _validate(study: Study, trial: Trial) -> Validation:
 def _carried(study: Study, trial: Trial) -> Validation:
     modelled: Array = study.block.force - trial.residual
     return validate(study.recording, modelled, Normalise.RANGE)
+
+
+def _unseen(study: Study, trial: Trial) -> Validation:
+    """Scores on what the fit left out, of the samples that a study gives weight."""
+    r, rows = study.recording, np.flatnonzero(study.block.weight)
+    ends = np.searchsorted(rows, r.starts)
+    names = [name for name, size in zip(r.names, np.diff(ends), strict=True) if size]
+    kept = r.take(rows, np.unique(ends), names)
+    return validate(kept, (study.block.force - trial.unseen)[rows], Normalise.RANGE)

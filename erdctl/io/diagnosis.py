@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from math import isfinite
 from typing import Any
 
+from msgspec import to_builtins
+
 from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict
 from erdctl.diagnose.likeness import likeness
 from erdctl.diagnose.locate import Region
@@ -32,13 +34,21 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
         "baseline": {
             **_scores(found.baseline),
             "of": FITTED if found.given is None else GIVEN,
+            "params": to_builtins(to_document(baseline(found))),
         },
         **({} if found.given is None else {"refitted": _scores(found.refitted)}),
         "mismatch": [
             {"where": _where(r), "share": r.share, "text": r.text} for r in found.mismatch
         ],
         "findings": [_finding(f, corrected) for f in found.findings],
-        "corrected": {**_scores(found.corrected), "params": to_document(corrected)},
+        "corrected": {
+            **_scores(found.corrected),
+            "params": to_builtins(to_document(corrected)),
+        },
+        "heldout": {
+            "groups": found.study.count,
+            **{k: _scores(v) for k, v in zip(("before", "after"), found.unseen, strict=True)},
+        },
         "remaining": {
             "rms": found.carried.overall.rms,
             "over_noise": found.carried.overall.rms / found.noise_rms if found.noise_rms else 1.0,
@@ -70,6 +80,18 @@ def parameters(found: Diagnosis) -> Parameters:
         provenance=provenance(found.study.recording, found.noise_rms),
         fits={"method": "diagnose"},
     )
+
+
+def baseline(found: Diagnosis) -> Parameters:
+    """The parameters of the model to answer for: those given, or the paper's as fitted here."""
+    if found.given is not None:
+        return found.given
+    base = found.choice.base
+    estimates = {
+        name: Estimate(value=base.values[name], unit=q.unit)
+        for name, q in base.model.quantities.items()
+    }
+    return Parameters(model=base.model, estimates=estimates)
 
 
 def finding_text(finding: Finding) -> str:

@@ -1,0 +1,282 @@
+"""The page of a diagnosis: its document in words and tables, the log's samples in figures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from erdctl import effects
+from erdctl.diagnose.locate import variables
+from erdctl.effect import Variable
+from erdctl.paper import EQUATIONS, QUANTITIES
+from erdctl.quantity import Quantity
+from erdctl.recording import DIRECTIONS, Array, Recording
+from erdctl.report.page import data
+from erdctl.report.page.data import Json, Levels
+from erdctl.report.page.render import Run, digits, render
+from erdctl.report.page.words import extent, joined, logs_text, plain
+from erdctl.signals import Signals
+
+MOOD = {"adequate": "good", "explained": "mid", "unexplained": "bad"}
+
+
+def diagnosis_page(
+    document: Json, recording: Recording, *, before: Array, after: Array, run: Run
+) -> str:
+    """The page.
+
+    document : as `diagnose` writes it;  recording : that was diagnosed
+    before, after : (n,) force [N] of `baseline.params` and of `corrected.params`
+    """
+    assert recording.force is not None
+    doc, levels = document, Levels.of(recording)
+    changed = bool(doc["findings"])
+    name = "the given model" if "params" in doc["provenance"] else "the paper's model"
+    plain_name = "given" if "params" in doc["provenance"] else "paper's model"
+    models = {"before": before, "after": after} if changed else {"before": before}
+    samples = data.samples(recording, levels, models)
+    samples["words"] = {"measured": "measured", "modelled": "model"}
+    figures = _figures(doc, recording, levels, models, plain_name)
+    return render(
+        "diagnosis.html",
+        title=f"Diagnosis of {logs_text(recording)}: {doc['verdict']}",
+        run=run,
+        figures=figures,
+        samples=samples,
+        doc=doc,
+        mood=MOOD[doc["verdict"]],
+        logs=logs_text(recording),
+        extent=extent(recording, len(levels.duty)),
+        model_name=name,
+        loops=[key for key in figures if key.startswith("loop")],
+        maps=[key for key in figures if key.startswith("map")],
+        profiles=[key for key in figures if key.startswith("profile")],
+        **_answers(doc, name),
+        levels=_levels(doc, recording, levels, plain_name),
+        misfit_words=_misfit_words(doc),
+        findings=[_finding(f) for f in doc["findings"]],
+        paper_equations=EQUATIONS,
+        paper=_paper(doc),
+        notes=_notes(doc),
+        records=_records(doc.get("records")),
+        heldout=_heldout(doc),
+        untestable=[[k, v] for k, v in doc["not_testable"].items()],
+    )
+
+
+def _figures(
+    doc: Json, r: Recording, levels: Levels, models: Mapping[str, Array], plain_name: str
+) -> dict[str, Json]:
+    assert r.force is not None
+    names = {"before": plain_name, "after": "corrected"}
+    noise = doc["noise_rms"]
+    misfits = {key: r.force - model for key, model in models.items()}
+    out: dict[str, Json] = {}
+    for x, words in (("xdot", "Force–velocity"), ("x", "Force–deflection")):
+        for key in models:
+            title = f"{words}, {names[key]}"
+            out[f"loop-{x}-{key}"] = {**data.loops(x, key, f"loop-{x}"), "title": title}
+    for key, found in data.misfit_maps(r, levels, misfits, noise).items():
+        title = f"Misfit over velocity and PWM level, {names[key]}"
+        out[f"map-{key}"] = {**found, "title": title, "link": "map"}
+    named = {names[key]: misfit for key, misfit in misfits.items()}
+    values = variables(Signals.of(r), r.force)
+    regions: dict[str, tuple[float, float, str] | None] = {"xdot": None}
+    for m in reversed(doc["mismatch"]):
+        where = m["where"]
+        regions[where["variable"]] = where["low"], where["high"], f"{100 * m['share']:.0f} %"
+    for variable, region in reversed(regions.items()):  # the sharpest first
+        v = Variable(variable)
+        found = data.profile(v, values[v], named, noise=noise, region=region)
+        title = f"Misfit over {data.LABELS[v][0].lower()}"
+        out[f"profile-{variable}"] = {**found, "title": title}
+    return out
+
+
+def _answers(doc: Json, name: str) -> Json:
+    """The first screen's answers, in words."""
+    verdict, noise = doc["verdict"], doc["noise_rms"]
+    rms = doc["baseline"]["rms"]
+    named = [plain(f["effect"]) for f in doc["findings"]]
+    missed = float(np.sqrt(max(rms**2 - noise**2, 0.0)))
+    start = name[0].upper() + name[1:]
+    many = "explain" if len(named) > 1 else "explains"
+    match verdict:
+        case "adequate":
+            head = f"{start} holds: what remains is measurement noise."
+        case "explained":
+            head = f"{start} does not hold; {joined(named)} {many} what it misses."
+        case _ if named:
+            head = (
+                f"{start} does not hold; {joined(named)} {many} part of what it misses,"
+                " and nothing in the catalogue the rest."
+            )
+        case _:
+            head = f"{start} does not hold, and nothing in the catalogue explains what it misses."
+    if verdict == "adequate":
+        holds = f"Yes. Its error, {digits(rms, 3)} N rms, is the noise of {digits(noise, 3)} N rms."
+        where = "Nowhere: no misfit beyond the noise."
+        why = "Nothing is missing: no effect in the catalogue improves data that the fit has not seen."
+    else:
+        holds = f"No. It misses {digits(missed, 3)} N rms beyond a noise of {digits(noise, 3)} N rms."
+        first = doc["mismatch"][:1]
+        where = _sentence(first[0]["text"]) if first else (
+            "Everywhere alike: no interval of speed, deflection, duty, time or energy holds"
+            " more than its share."
+        )  # fmt: skip
+        why = " ".join(_cause(f) for f in doc["findings"]) or _sentence(doc["remaining"]["text"])
+    return {"head": head, "holds": holds, "where": where, "why": why, "better": _better(doc)}
+
+
+def _cause(f: Json) -> str:
+    text = f"{plain(f['effect']).capitalize()} ({effects.get(f['effect']).title})"
+    if f["equivalent"]:
+        text += f", or {joined([plain(e) for e in f['equivalent']], 'or')}, which would look alike"
+    return f"{text}."
+
+
+def _better(doc: Json) -> Json:
+    before, after = doc["heldout"]["before"], doc["heldout"]["after"]
+    noise = digits(doc["noise_rms"], 3)
+    unit = "NRMSE on data that the fit has not seen"
+    if not doc["findings"]:
+        return {
+            "question": "How well does it predict?", "before": f"{before['nrmse']:.4f}",
+            "after": "", "unit": unit,
+            "words": f"RMS error {digits(before['rms'], 3)} N; noise {noise} N."
+            " Nothing was corrected.",
+        }  # fmt: skip
+    part = 1.0 - after["nrmse"] / before["nrmse"]
+    return {
+        "question": "How much better is the corrected model?",
+        "before": f"{before['nrmse']:.4f}", "after": f"{after['nrmse']:.4f}", "unit": unit,
+        "words": f"{100 * part:.0f} % less: RMS error {digits(before['rms'], 3)} N →"
+        f" {digits(after['rms'], 3)} N; noise {noise} N.",
+    }  # fmt: skip
+
+
+def _levels(doc: Json, r: Recording, levels: Levels, plain_name: str) -> Json:
+    """Held-out NRMSE per PWM level for the first screen, with the noise on the same scale."""
+    assert r.force is not None
+    spans = {}
+    for i, duty in enumerate(levels.duty.tolist()):
+        spans[duty] = float(np.ptp(r.force[levels.at == i]))
+    before, after = (_by_duty(doc["heldout"][k]) for k in ("before", "after"))
+    rows = [
+        {
+            "label": data.percent(duty), "before": before[duty], "after": value,
+            "noise": doc["noise_rms"] / spans[duty] if spans.get(duty) else None,
+        }
+        for duty, value in after.items()
+    ]  # fmt: skip
+    most = max(v for row in rows for v in (row["before"], row["after"], row["noise"]) if v)
+    return {
+        "rows": rows, "most": most, "noise": "noise",
+        "before": plain_name if doc["findings"] else "",
+        "after": "corrected" if doc["findings"] else plain_name,
+    }  # fmt: skip
+
+
+def _by_duty(scores: Json) -> dict[float, float]:
+    return {level["duty"]: level["nrmse"] for level in scores["nrmse_by_duty"]}
+
+
+def _misfit_words(doc: Json) -> str:
+    if not doc["mismatch"]:
+        return (
+            "Root mean square of measured less modelled force. No interval of any variable holds"
+            " more misfit than its share of the time."
+        )
+    places = "; ".join(m["text"] for m in doc["mismatch"])
+    return f"{_sentence(places)} These intervals are shaded in the profiles."
+
+
+def _finding(f: Json) -> Json:
+    effect = effects.get(f["effect"])
+    titles = {q.symbol: q.title for q in effect.quantities}
+    e = f["evidence"]
+    evidence = f"The gain is {digits(e['gain_over_scatter'], 2)} times its scatter over the log."
+    if e["runner_up"]:
+        evidence += f" Best of the others: {e['runner_up']}."
+    return {
+        **f,
+        "title": plain(effect.name).capitalize(),
+        "text": _sentence(f["text"])[:-1],
+        "test": f.get("test"),
+        "evidence": evidence,
+        "parameters": [
+            {"symbol": symbol, "title": titles[symbol], **value}
+            for symbol, value in f["parameters"].items()
+        ],
+    }
+
+
+def _paper(doc: Json) -> Json:
+    """The paper's parameters, before and after, for both directions."""
+    files = {"before": doc["baseline"]["params"], "after": doc["corrected"]["params"]}
+    if not doc["findings"]:
+        files.pop("before")
+    rows = []
+    for symbol, q in QUANTITIES.items():
+        cells = [_cell(file[d][symbol], q) for d in DIRECTIONS for file in files.values()]
+        rows.append({"symbol": symbol, "title": q.title, "unit": q.unit, "cells": cells})
+    names = {"before": "before", "after": "corrected" if "before" in files else "value"}
+    return {"directions": DIRECTIONS, "columns": [names[k] for k in files], "rows": rows}
+
+
+def _cell(given: Any, q: Quantity) -> str:
+    value = given if isinstance(given, dict) else {"value": given}
+    if value.get("value") is None:
+        return "not identified"
+    error = value.get("stderr")
+    return digits(value["value"]) + ("" if error is None else f" ± {digits(error, 2)}")
+
+
+def _notes(doc: Json) -> list[str]:
+    """Why a parameter has no value, one line for each reason."""
+    reasons: dict[str, list[str]] = {}
+    for direction in DIRECTIONS:
+        for symbol, value in doc["corrected"]["params"][direction].items():
+            if isinstance(value, dict) and value.get("value") is None:
+                reasons.setdefault(value.get("reason") or "no value given", []).append(
+                    f"{direction}.{symbol}"
+                )
+    return [f"Not identified: {', '.join(names)}: {why}." for why, names in reasons.items()]
+
+
+def _records(records: Sequence[Json] | None) -> Json | None:
+    if not records:
+        return None
+    kinds = [k for k in ("gain", "offset") if k in records[0]]
+    return {
+        "header": ["record", *(f"{k} [{records[0][k]['unit']}]" for k in kinds)],
+        "rows": [
+            [
+                v["name"],
+                *(f"{digits(v[k]['value'])} ± {digits(v[k]['stderr'], 2)}" for k in kinds),
+            ]
+            for v in records
+        ],
+    }
+
+
+def _heldout(doc: Json) -> Json:
+    before, after = doc["heldout"]["before"], doc["heldout"]["after"]
+    rows = [
+        (data.percent(duty), value, _by_duty(after)[duty])
+        for duty, value in _by_duty(before).items()
+    ]
+    rows.append(("all", before["nrmse"], after["nrmse"]))
+    return {
+        "header": ["PWM level", "NRMSE before", "NRMSE after", "change"],
+        "rows": [
+            [label, f"{a:.4f}", f"{b:.4f}", f"{100 * (b / a - 1):+.0f} %".replace("-", "−")]
+            for label, a, b in rows
+        ],
+    }
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}".rstrip(".") + "."

@@ -1,0 +1,226 @@
+"""Equations as the catalogue writes them, plain text, typeset as MathML.
+
+Browsers draw MathML without a script. No library reads this notation (`F_ER sign(xdot) -> ...`,
+with words between the formulas), and it is small: names, numbers, brackets, fractions, powers.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from markupsafe import Markup, escape
+
+NAMESPACE = "http://www.w3.org/1998/Math/MathML"
+GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "kappa": "κ", "lambda": "λ", "mu": "μ",
+    "sigma": "σ", "tau": "τ", "omega": "ω",
+}  # fmt: skip
+FUNCTIONS = {"sign", "max", "min", "exp", "tanh"}
+OPERATORS = {
+    "->": "→", "<=": "≤", ">=": "≥", "-": "−", "+": "+", "*": "·", "=": "=", "<": "<", ">": ">",
+    ",": ",", ";": ";",
+}  # fmt: skip
+CLOSING = {"(": ")", "[": "]", "|": "|"}
+MO = "<mo>", "<mo "  # but not <mover>
+TOKEN = re.compile(
+    r"\s*(?:"
+    r"(?P<derivative>d(?P<order>\d?)(?P<upper>[A-Za-z]\w*?)/d(?P<lower>[A-Za-z])\d?(?!\w))"
+    r"|(?P<number>\d+(?:\.\d+)?(?:e-?\d+)?(?:\s*(?P<unit>m/s)(?!\w))?)"
+    r"|(?P<name>[A-Za-z]\w*)"
+    r"|(?P<sign>->|<=|>=|[-+*/^()\[\]|=<>,;])"
+    r")"
+)
+
+
+class _Unreadable(Exception):
+    """The text is not in the notation."""
+
+
+@dataclass(frozen=True)
+class _Token:
+    kind: str
+    text: str
+    match: re.Match[str]
+
+
+def equation(text: str) -> Markup:
+    """MathML of an equation, or the text in monospace where it cannot be read.
+
+    Check: equation("g/2") holds an mfrac of g over 2; "v^beta" an msup of v and the letter beta.
+    """
+    try:
+        parser = _Parser(_tokens(text))
+        body = parser.row(None)
+    except _Unreadable:
+        return Markup('<code class="equation">{}</code>').format(text)
+    return Markup('<math xmlns="{}" display="block" alttext="{}">{}</math>').format(
+        NAMESPACE, text, body
+    )
+
+
+def symbol(name: str) -> Markup:
+    """MathML of a parameter's symbol.  Check: symbol("T_d") is an msub of T and d."""
+    return Markup('<math xmlns="{}">{}</math>').format(NAMESPACE, _name(name))
+
+
+def _tokens(text: str) -> list[_Token]:
+    out, at, text = [], 0, text.strip()
+    while at < len(text):
+        match = TOKEN.match(text, at)
+        if match is None or match.lastgroup is None:
+            raise _Unreadable(text[at:])
+        kind = next(k for k in ("derivative", "number", "name", "sign") if match.group(k))
+        out.append(_Token(kind, match.group(kind), match))
+        at = match.end()
+    return out
+
+
+class _Parser:
+    """Reads tokens from the left; brackets, fractions and powers are all that nests."""
+
+    def __init__(self, tokens: list[_Token]) -> None:
+        self.tokens = tokens
+        self.at = 0
+        self.bars = 0
+
+    def row(self, closing: str | None) -> Markup:
+        """Everything up to a closing bracket, or to the end."""
+        out: list[Markup] = []
+        while self.at < len(self.tokens):
+            token = self.tokens[self.at]
+            if closing is not None and token.text == closing:
+                self.at += 1
+                return _row(out)
+            if token.kind == "name" and _is_word(token.text):
+                out.append(self._words())
+            elif token.text in OPERATORS:
+                self.at += 1
+                prefix = not out or out[-1].startswith(MO)
+                out.append(_operator(token.text, prefix=prefix and token.text in "+-"))
+            else:
+                if out and not out[-1].startswith((*MO, "<mtext", "<mspace")):
+                    out.append(Markup('<mspace width="0.17em"></mspace>'))
+                out.append(self._quotient())
+        if closing is not None:
+            raise _Unreadable(f"no {closing}")
+        return _row(out)
+
+    def _words(self) -> Markup:
+        words = []
+        while self.at < len(self.tokens):
+            token = self.tokens[self.at]
+            if token.kind != "name" or not _is_word(token.text):
+                break
+            words.append(token.text)
+            self.at += 1
+        return Markup("<mtext>\u2002{}\u2002</mtext>").format(" ".join(words))
+
+    def _quotient(self) -> Markup:
+        upper, bare_upper = self._power()
+        while self.at < len(self.tokens) and self.tokens[self.at].text == "/":
+            self.at += 1
+            lower, bare_lower = self._power()
+            # A fraction's bar does what the brackets did.
+            upper = Markup("<mfrac>{}{}</mfrac>").format(bare_upper or upper, bare_lower or lower)
+            bare_upper = None
+        return upper
+
+    def _power(self) -> tuple[Markup, Markup | None]:
+        base, bare = self._primary()
+        while self.at < len(self.tokens) and self.tokens[self.at].text == "^":
+            self.at += 1
+            minus = self.at < len(self.tokens) and self.tokens[self.at].text == "-"
+            self.at += minus
+            above, bare_above = self._primary()
+            above = bare_above or above
+            if minus:
+                above = _row([_operator("-", prefix=True), above])
+            base, bare = Markup("<msup>{}{}</msup>").format(base, above), None
+        return base, bare
+
+    def _primary(self) -> tuple[Markup, Markup | None]:
+        """One factor; and what is in it, if it is a pair of round brackets."""
+        if self.at >= len(self.tokens):
+            raise _Unreadable("it ends too early")
+        token = self.tokens[self.at]
+        self.at += 1
+        if token.kind == "number":
+            return _number(token), None
+        if token.kind == "derivative":
+            return _derivative(token.match), None
+        if token.kind == "name":
+            name = _name(token.text)
+            if token.text in FUNCTIONS and self.at < len(self.tokens):
+                argument, _ = self._primary()
+                return Markup("<mrow>{}<mo>\u2061</mo>{}</mrow>").format(name, argument), None
+            return name, None
+        if token.text in CLOSING:
+            if token.text == "|":
+                self.bars += 1
+                if self.bars > 1:
+                    raise _Unreadable("a bar within bars")
+            inside = self.row(CLOSING[token.text])
+            self.bars -= token.text == "|"
+            return _fenced(token.text, inside), inside if token.text == "(" else None
+        raise _Unreadable(token.text)
+
+
+def _is_word(name: str) -> bool:
+    """Whether a name is English rather than a symbol: letters alone, and none of the known."""
+    known = name in GREEK or name in FUNCTIONS or re.fullmatch(r"[A-Za-z]|[a-z]+dot", name)
+    return name.isalpha() and not known and name not in {"gas", "viscous", "yield"}
+
+
+def _row(parts: list[Markup]) -> Markup:
+    if len(parts) == 1:
+        return parts[0]
+    return Markup("<mrow>{}</mrow>").format(Markup("").join(parts))
+
+
+def _operator(text: str, *, prefix: bool = False) -> Markup:
+    if text in ",;":
+        return Markup("<mo>{}</mo><mspace width=\"0.5em\"></mspace>").format(text)
+    form = "prefix" if prefix else "infix"
+    return Markup('<mo form="{}">{}</mo>').format(form, OPERATORS[text])
+
+
+def _fenced(opening: str, inside: Markup) -> Markup:
+    tall = "true" if "<mfrac>" in inside else "false"
+    fence = Markup('<mo fence="true" stretchy="{}" form="{}">{}</mo>')
+    left, right = fence.format(tall, "prefix", opening), fence.format(tall, "postfix", CLOSING[opening])
+    return Markup("<mrow>{}{}{}</mrow>").format(left, inside, right)
+
+
+def _number(token: _Token) -> Markup:
+    number = Markup("<mn>{}</mn>").format(token.text.split()[0])
+    unit = token.match.group("unit")
+    return number if unit is None else _row([number, Markup("<mtext>\u2009{}</mtext>").format(unit)])
+
+
+def _name(text: str) -> Markup:
+    """A symbol: Greek letter, dot for a derivative, what follows `_` as upright index."""
+    head, _, index = text.partition("_")
+    if head in FUNCTIONS or head in {"gas", "viscous", "yield"}:
+        out = Markup('<mi mathvariant="normal">{}</mi>').format(head)
+    elif head.endswith("dot") and len(head) > 3:
+        # The combining form would sit beside the letter where no mathematical font is at hand.
+        out = Markup('<mover accent="true"><mi>{}</mi><mo>˙</mo></mover>').format(head[:-3])
+    else:
+        out = Markup("<mi>{}</mi>").format(GREEK.get(head, head))
+    if not index:
+        return out
+    return Markup('<msub>{}<mi mathvariant="normal">{}</mi></msub>').format(out, escape(index))
+
+
+def _derivative(match: re.Match[str]) -> Markup:
+    """dF_ER/dt, d2x/dt2."""
+    order, d = match.group("order"), Markup('<mi mathvariant="normal">d</mi>')
+    below = _name(match.group("lower"))
+    upper = d
+    if order:
+        power = Markup("<msup>{}<mn>{}</mn></msup>")
+        upper, below = power.format(d, order), power.format(below, order)
+    return Markup("<mfrac><mrow>{}{}</mrow><mrow>{}{}</mrow></mfrac>").format(
+        upper, _name(match.group("upper")), d, below
+    )

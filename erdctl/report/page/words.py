@@ -1,0 +1,33 @@
+"""Small phrases that several pages share."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from erdctl.recording import Recording
+
+
+def plain(name: str) -> str:
+    """An effect's name as words."""
+    return name.replace("_", " ")
+
+
+def joined(words: Sequence[str], last: str = "and") -> str:
+    """A list in a sentence.  Check: a, b, c gives "a, b and c"."""
+    return f" {last} ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
+
+
+def logs_text(recording: Recording) -> str:
+    """The logs by name, two at most."""
+    names = [s.name if s.name != "-" else "stdin" for s in recording.sources] or ["a log"]
+    return ", ".join(names[:2]) + (f" and {len(names) - 2} more" if len(names) > 2 else "")
+
+
+def extent(recording: Recording, levels: int) -> str:
+    """How much was recorded."""
+    seconds = sum(float(recording.t[p][-1] - recording.t[p][0]) for p in recording.slices)
+    records = len(recording.names)
+    return (
+        f"{len(recording):,} samples, {seconds:.3g} s, {records} record{'s' * (records != 1)},"
+        f" {levels} PWM level{'s' * (levels != 1)}"
+    ).replace(",", "\u202f", f"{len(recording):,}".count(","))
