@@ -55,8 +55,10 @@ def test_a_corrected_model_has_nothing_left_to_find() -> None:
     document = to_json(found, {"name": "p.json"})
     assert document["provenance"]["params"] == {"name": "p.json", "effects": ["coulomb_friction"]}
     assert "given" in document["baseline"]["of"]
-    (extra,) = document["corrected"]["params"].effects
-    assert extra.effect == "coulomb_friction"
+    assert document["baseline"]["params"]["effects"][0]["effect"] == "coulomb_friction"
+    assert document["heldout"]["after"]["rms"] == pytest.approx(0.3, rel=0.05)
+    (extra,) = document["corrected"]["params"]["effects"]
+    assert extra["effect"] == "coulomb_friction"
 
 
 def test_what_comes_on_top_is_named_alone() -> None:

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from erdctl.diagnose.locate import UNITS
 from erdctl.effect import Variable
 from erdctl.recording import Array, Index, Recording
-from erdctl.report.page.thin import keep, lines
+from erdctl.report.page.thin import keep, lines, reversals
 from erdctl.score import duty_levels
 
 MOST = 40_000  # samples that a page holds: more lie on top of each other, and are slow to zoom
@@ -64,7 +64,7 @@ def samples(recording: Recording, levels: Levels, models: Mapping[str, Array]) -
     r = recording
     assert r.force is not None
     misfits = [r.force - model for model in models.values()]
-    rows = keep([r.x, r.xdot, r.force, *misfits], MOST)
+    rows = keep([r.x, r.xdot, r.force, *misfits], MOST, reversals(r.xdot))
     record = np.searchsorted(r.starts, rows, side="right") - 1
     joined = lines(rows, t=r.t, xdot=r.xdot, level=levels.at, starts=r.starts)
     columns = {"t": r.t, "x": 1e3 * r.x, "xdot": 1e3 * r.xdot, "force": r.force, **models}
@@ -83,7 +83,7 @@ def samples(recording: Recording, levels: Levels, models: Mapping[str, Array]) -
 
 def _choices(r: Recording, levels: Levels, misfit: Array) -> list[Json]:
     """What may be drawn by itself: one record per level, all, and records, the worst first."""
-    whole = {"name": f"all {len(r.names)} records", "records": None}
+    whole: Json = {"name": f"all {len(r.names)} records", "records": None}
     if len(r.names) == 1:
         return [whole | {"name": f"the whole log ({r.names[0]})"}]
     count = np.diff(r.starts)
@@ -116,18 +116,25 @@ def _typical(r: Recording, levels: Levels) -> list[int]:
 def misfit_maps(
     recording: Recording, levels: Levels, misfits: Mapping[str, Array], noise: float | None
 ) -> dict[str, Json]:
-    """Root mean square misfit [N] over velocity and duty level, on one scale for all."""
+    """Root mean square misfit [N] over velocity and duty level, on one scale for all.
+
+    misfits : (n,) by name, NaN where a sample has no vote, the same samples in each
+    """
     v = 1e3 * recording.xdot
     top = float(np.abs(v).max()) or 1.0
     edges = np.linspace(-top, top, CELLS + 1)
     column = np.clip(((v + top) / (2 * top) * CELLS).astype(np.intp), 0, CELLS - 1)
     cell = levels.at * CELLS + column
     shape = (len(levels.duty), CELLS)
+    use = np.isfinite(next(iter(misfits.values())))
+    cell = cell[use]
     count = np.bincount(cell, minlength=shape[0] * shape[1])
-    out = {}
+    out: dict[str, Json] = {}
+    tops = [3 * (noise or 0.0)]  # nothing but noise should look calm
     for name, misfit in misfits.items():
-        square = np.bincount(cell, misfit**2, minlength=len(count))
+        square = np.bincount(cell, misfit[use] ** 2, minlength=len(count))
         rms = np.sqrt(square / np.maximum(count, 1)).reshape(shape)
+        tops.append(float(rms.max()))
         out[name] = {
             "kind": "map",
             "x": {"label": "Velocity", "unit": "mm/s", "edges": edges.tolist()},
@@ -137,8 +144,7 @@ def misfit_maps(
             "counts": count.reshape(shape).tolist(),
             "noise": noise,
         }
-    most = max(max(map(max, m["values"])) for m in out.values())
-    return {name: m | {"most": most} for name, m in out.items()}
+    return {name: m | {"most": max(tops)} for name, m in out.items()}
 
 
 def profile(
@@ -151,11 +157,13 @@ def profile(
 ) -> Json:
     """Root mean square misfit [N] along one variable, in bins of equal time.
 
-    values : (n,) in SI units, not finite where there is none;  region : low, high [SI], words
+    values : (n,) in SI units, not finite where there is none
+    misfits : (n,) by name, NaN where a sample has no vote;  region : low, high [SI], words
     """
     scale, unit = UNITS[variable]
     label, logarithmic = LABELS[variable]
-    use = np.isfinite(values) & ((values > 0) | (not logarithmic))
+    use = np.isfinite(values) & np.isfinite(next(iter(misfits.values())))
+    use &= (values > 0) | (not logarithmic)
     v = values[use] * scale
     # Edges from at most about 200,000 samples: a quantile of ten million costs a second.
     edges = np.unique(np.quantile(v[:: max(1, len(v) // 200_000)], np.linspace(0, 1, BINS + 1)))
@@ -226,8 +234,7 @@ def traces(
         "x": {"label": "Time", "unit": "s", "values": encoded(t[rows])},
         "y": {"label": label, "unit": unit, "zero": zero},
         "series": [
-            {"name": name, "style": "line", "y": encoded(values[rows])}
-            for name, values in columns
+            {"name": name, "style": "line", "y": encoded(values[rows])} for name, values in columns
         ],
         "bands": list(bands),
         "marks": list(marks),

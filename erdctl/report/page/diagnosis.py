@@ -9,6 +9,7 @@ import numpy as np
 
 from erdctl import effects
 from erdctl.diagnose.locate import variables
+from erdctl.diagnose.study import prepare
 from erdctl.effect import Variable
 from erdctl.paper import EQUATIONS, QUANTITIES
 from erdctl.quantity import Quantity
@@ -33,8 +34,9 @@ def diagnosis_page(
     assert recording.force is not None
     doc, levels = document, Levels.of(recording)
     changed = bool(doc["findings"])
-    name = "the given model" if "params" in doc["provenance"] else "the paper's model"
-    plain_name = "given" if "params" in doc["provenance"] else "paper's model"
+    given = "params" in doc["provenance"]
+    name = "the given model's structure" if given else "the paper's model"
+    plain_name = "given" if given else "paper's model"
     models = {"before": before, "after": after} if changed else {"before": before}
     samples = data.samples(recording, levels, models)
     samples["words"] = {"measured": "measured", "modelled": "model"}
@@ -54,7 +56,7 @@ def diagnosis_page(
         maps=[key for key in figures if key.startswith("map")],
         profiles=[key for key in figures if key.startswith("profile")],
         **_answers(doc, name),
-        levels=_levels(doc, recording, levels, plain_name),
+        levels=_levels(doc, recording, levels, "refitted" if given else plain_name),
         misfit_words=_misfit_words(doc),
         findings=[_finding(f) for f in doc["findings"]],
         paper_equations=EQUATIONS,
@@ -72,7 +74,9 @@ def _figures(
     assert r.force is not None
     names = {"before": plain_name, "after": "corrected"}
     noise = doc["noise_rms"]
-    misfits = {key: r.force - model for key, model in models.items()}
+    # What the diagnosis gave no vote is no misfit here either.
+    sure = prepare(r).block.weight > 0.0
+    misfits = {key: np.where(sure, r.force - model, np.nan) for key, model in models.items()}
     out: dict[str, Json] = {}
     for x, words in (("xdot", "Force–velocity"), ("x", "Force–deflection")):
         for key in models:
@@ -98,7 +102,7 @@ def _figures(
 def _answers(doc: Json, name: str) -> Json:
     """The first screen's answers, in words."""
     verdict, noise = doc["verdict"], doc["noise_rms"]
-    rms = doc["baseline"]["rms"]
+    rms = doc["heldout"]["before"]["rms"]
     named = [plain(f["effect"]) for f in doc["findings"]]
     missed = float(np.sqrt(max(rms**2 - noise**2, 0.0)))
     start = name[0].upper() + name[1:]
@@ -116,24 +120,28 @@ def _answers(doc: Json, name: str) -> Json:
         case _:
             head = f"{start} does not hold, and nothing in the catalogue explains what it misses."
     if verdict == "adequate":
-        holds = f"Yes. Its error, {digits(rms, 3)} N rms, is the noise of {digits(noise, 3)} N rms."
+        holds = f"Yes. Its error is {digits(rms, 3)} N rms, the noise {digits(noise, 3)} N rms."
         where = "Nowhere: no misfit beyond the noise."
-        why = "Nothing is missing: no effect in the catalogue improves data that the fit has not seen."
+        why = "Nothing is missing: no effect in the catalogue improves data that no fit has seen."
     else:
-        holds = f"No. It misses {digits(missed, 3)} N rms beyond a noise of {digits(noise, 3)} N rms."
+        holds = f"No. It misses {digits(missed, 3)} N rms beyond {digits(noise, 3)} N rms of noise."
         first = doc["mismatch"][:1]
         where = _sentence(first[0]["text"]) if first else (
             "Everywhere alike: no interval of speed, deflection, duty, time or energy holds"
             " more than its share."
         )  # fmt: skip
         why = " ".join(_cause(f) for f in doc["findings"]) or _sentence(doc["remaining"]["text"])
+    if "refitted" in doc:
+        holds += (
+            f" That is fitted to these logs; as given, {digits(doc['baseline']['rms'], 3)} N rms."
+        )
     return {"head": head, "holds": holds, "where": where, "why": why, "better": _better(doc)}
 
 
 def _cause(f: Json) -> str:
-    text = f"{plain(f['effect']).capitalize()} ({effects.get(f['effect']).title})"
+    text = f"{plain(f['effect']).capitalize()}: {effects.get(f['effect']).title}"
     if f["equivalent"]:
-        text += f", or {joined([plain(e) for e in f['equivalent']], 'or')}, which would look alike"
+        text += f"; or {joined([plain(e) for e in f['equivalent']], 'or')}, which would look alike"
     return f"{text}."
 
 
@@ -143,8 +151,8 @@ def _better(doc: Json) -> Json:
     unit = "NRMSE on data that the fit has not seen"
     if not doc["findings"]:
         return {
-            "question": "How well does it predict?", "before": f"{before['nrmse']:.4f}",
-            "after": "", "unit": unit,
+            "question": "How well does it predict?", "before": "",
+            "after": f"{before['nrmse']:.4f}", "unit": unit,
             "words": f"RMS error {digits(before['rms'], 3)} N; noise {noise} N."
             " Nothing was corrected.",
         }  # fmt: skip
@@ -184,13 +192,15 @@ def _by_duty(scores: Json) -> dict[float, float]:
 
 
 def _misfit_words(doc: Json) -> str:
+    words = (
+        "Root mean square of measured less modelled force. As in the diagnosis, samples of"
+        " uncertain direction and the first 0.3 s of a record, in which its state settles, are"
+        " left out."
+    )
     if not doc["mismatch"]:
-        return (
-            "Root mean square of measured less modelled force. No interval of any variable holds"
-            " more misfit than its share of the time."
-        )
+        return f"{words} No interval of any variable holds more misfit than its share of the time."
     places = "; ".join(m["text"] for m in doc["mismatch"])
-    return f"{_sentence(places)} These intervals are shaded in the profiles."
+    return f"{_sentence(places)} These intervals are shaded in the profiles. {words}"
 
 
 def _finding(f: Json) -> Json:
@@ -204,6 +214,7 @@ def _finding(f: Json) -> Json:
         **f,
         "title": plain(effect.name).capitalize(),
         "text": _sentence(f["text"])[:-1],
+        "equals": joined([plain(e) for e in f["equivalent"]], "or"),
         "test": f.get("test"),
         "evidence": evidence,
         "parameters": [

@@ -180,7 +180,7 @@ def _row(parts: list[Markup]) -> Markup:
 
 def _operator(text: str, *, prefix: bool = False) -> Markup:
     if text in ",;":
-        return Markup("<mo>{}</mo><mspace width=\"0.5em\"></mspace>").format(text)
+        return Markup('<mo>{}</mo><mspace width="0.5em"></mspace>').format(text)
     form = "prefix" if prefix else "infix"
     return Markup('<mo form="{}">{}</mo>').format(form, OPERATORS[text])
 
@@ -188,14 +188,17 @@ def _operator(text: str, *, prefix: bool = False) -> Markup:
 def _fenced(opening: str, inside: Markup) -> Markup:
     tall = "true" if "<mfrac>" in inside else "false"
     fence = Markup('<mo fence="true" stretchy="{}" form="{}">{}</mo>')
-    left, right = fence.format(tall, "prefix", opening), fence.format(tall, "postfix", CLOSING[opening])
+    left = fence.format(tall, "prefix", opening)
+    right = fence.format(tall, "postfix", CLOSING[opening])
     return Markup("<mrow>{}{}{}</mrow>").format(left, inside, right)
 
 
 def _number(token: _Token) -> Markup:
     number = Markup("<mn>{}</mn>").format(token.text.split()[0])
     unit = token.match.group("unit")
-    return number if unit is None else _row([number, Markup("<mtext>\u2009{}</mtext>").format(unit)])
+    if unit is None:
+        return number
+    return _row([number, Markup("<mtext>\u2009{}</mtext>").format(unit)])
 
 
 def _name(text: str) -> Markup:

@@ -15,7 +15,7 @@ from erdctl.report.page.data import Json, Levels
 from erdctl.report.page.render import Run, digits, render
 from erdctl.report.page.words import extent, logs_text
 
-STRETCHES = 400  # drawn at most: shorter gaps between them are closed
+STRETCHES = 2000  # drawn at most: shorter gaps between them are closed
 REACHED = 0.001  # part of the time out of reach that is a matter of a few samples
 
 
@@ -38,25 +38,25 @@ def mimic_page(
     for name, plan in plans.items():
         duty = plan.duty_paper if static else plan.duty
         bands = _bands(recording, clock, plan)
-        common = {"link": f"time-{name}", "bands": bands}
+        link = f"time-{name}"
         figures[f"duty-{name}"] = {
             **data.traces(
-                clock, [("healthy", 100 * healthy), ("faulty", 100 * duty)],
-                label="Duty", unit="%", zero=True, **common,
+                clock, [("healthy", 100 * healthy), ("to push", 100 * duty)],
+                label="Duty", unit="%", zero=True, link=link, bands=bands,
             ),
             "title": f"Duty, damper {name}",
         }  # fmt: skip
         figures[f"force-{name}"] = {
             **data.traces(
                 clock, [("ideal faulty force", plan.ideal), ("expected force", expected[name])],
-                label="Force", unit="N", **common,
+                label="Force", unit="N", link=link, bands=bands,
             ),
             "title": f"Force, damper {name}",
         }  # fmt: skip
         figures[f"error-{name}"] = {
             **data.traces(
                 clock, [("expected less ideal", expected[name] - plan.ideal)],
-                label="Difference", unit="N", **common,
+                label="Difference", unit="N", link=link, bands=bands,
             ),
             "title": f"Expected less ideal force, damper {name}",
         }  # fmt: skip
@@ -90,12 +90,12 @@ def _answers(plans: Mapping[str, Plan], reaches: Sequence[tuple[str, Reach]], st
     worst = max(errors)
     out = [(n, r) for n, r in reaches if r.out_of_reach > REACHED]
     limited = {name: plan.limited for name, plan in plans.items() if plan.limited > REACHED}
-    near = f"The expected force is within {100 * worst:.2g} % of the ideal faulty force's range, rms."
+    near = f"Within {100 * worst:.2g} % rms of the range of the ideal faulty force."
     if out:
         mood, head = "bad", f"Part of {' and '.join(str(r.fault) for _, r in out)} is out of reach."
         where = "; ".join(
             f"{r.fault}: no duty gives the force {100 * r.out_of_reach:.1f} % of the time,"
-            f" {digits(r.missing_rms, 3)} N rms and at most {digits(r.missing_max, 3)} N are missing"
+            f" {digits(r.missing_rms, 3)} N rms, at most {digits(r.missing_max, 3)} N are missing"
             for _, r in out
         )
         why = "There the force is too large with no field at all: a field only adds to it."
@@ -118,7 +118,7 @@ def _answers(plans: Mapping[str, Plan], reaches: Sequence[tuple[str, Reach]], st
 
 
 def _faults(reaches: Sequence[tuple[str, Reach]], static: bool) -> Json:
-    rows = [
+    rows: list[Json] = [
         {
             "label": f"{r.fault}" if name == "fl" else f"{r.fault} ({name})",
             "before": r.paper, "after": r.paper if static else r.compensated, "noise": None,
@@ -166,7 +166,8 @@ def _bands(r: Recording, clock: Array, plan: Plan) -> list[Json]:
             if low < high:
                 shift = float(clock[part][0] - t[0])
                 out.append({"low": low + shift, "high": high + shift, "text": f.kind.short})
-    return out + [{"low": a, "high": b, "bad": True} for a, b in _stretches(clock, plan.out_of_reach)]
+    missed = _stretches(clock, plan.out_of_reach)
+    return out + [{"low": low, "high": high, "bad": True} for low, high in missed]
 
 
 def _stretches(clock: Array, flags: Flags) -> list[tuple[float, float]]:

@@ -104,11 +104,14 @@ def _environment() -> Environment:
 def digits(value: float | None, count: int = 4) -> str:
     """A number with so many significant digits, a dash for none.
 
-    Check: 0.25 is "0.25", -5.4e-8 is "−5.4×10⁻⁸".
+    Check: 0.25 is "0.25", 32659 is "32660", -5.4e-8 is "−5.4×10⁻⁸".
     """
     if value is None:
         return "–"
-    number, _, power = f"{value:.{count}g}".replace("-", "−").partition("e")
+    text = f"{value:.{count}g}"
+    if "e+" in text and abs(value) < 1e6:
+        text = f"{float(text):.0f}"
+    number, _, power = text.replace("-", "−").partition("e")
     if power:
         number += "×10" + power.replace("+", "").lstrip("0").translate(RAISED).replace("⁻⁰", "⁻")
     return number

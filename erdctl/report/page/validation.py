@@ -117,15 +117,15 @@ def _worst(scores: Mapping[K, Score]) -> tuple[K, Score]:
 
 
 def _levels(found: Validation, noise: float | None, limit: float | None) -> Json:
-    rows = []
+    rows: list[Json] = []
     for duty, s in found.by_duty.items():
-        mark = limit
+        mark: float | None = limit
         if limit is None and noise is not None and s.rms > 0.0:
             mark = s.nrmse * noise / s.rms
         rows.append({"label": data.percent(duty), "before": 0.0, "after": s.nrmse, "noise": mark})
     most = max([v for row in rows for v in (row["after"], row["noise"]) if v], default=1.0)
-    mark = "limit" if limit is not None else "noise" if noise is not None else ""
-    return {"rows": rows, "most": most, "mark": mark}
+    meaning = "limit" if limit is not None else "noise" if noise is not None else ""
+    return {"rows": rows, "most": most, "mark": meaning}
 
 
 def _tables(found: Validation) -> list[Json]:

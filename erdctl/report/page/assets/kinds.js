@@ -111,7 +111,8 @@ erd.lines = (spec) => {
         erd.span(ends[1], s.y);
       }
       for (const mark of spec.marks || []) erd.span(ends[1], [mark.value]);
-      return ends.map(erd.padded);
+      const [x, [low, high]] = ends.map(erd.padded);
+      return [series.every((s) => s.words) ? [x[0] / 1.1, x[1] * 1.1] : x, [low, high + 0.04 * (high - low)]];
     },
     draw(ctx, sx, sy, theme, inner) {
       const words = [];
@@ -205,7 +206,9 @@ erd.map = (spec) => {
       return i >= 0 && i < rows.length && j >= 0 && j < n ? centre(i, j) : null;
     },
     step(hit, way) {
-      const k = ((hit ? hit.index : -1) + way + n * rows.length) % (n * rows.length);
+      const filled = spec.counts.flat().map((count, k) => (count ? k : -1)).filter((k) => k >= 0);
+      const at = hit ? filled.indexOf(hit.index) : way > 0 ? -1 : 0;
+      const k = filled[(at + way + filled.length) % filled.length];
       return centre(Math.floor(k / n), k % n);
     },
   };

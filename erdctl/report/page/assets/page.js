@@ -62,8 +62,15 @@
 
   const all = () => { colour(); erd.redraw(); };
   erd.dark.addEventListener("change", all);
-  window.addEventListener("beforeprint", () => { erd.printing = true; all(); });
-  window.addEventListener("afterprint", () => { erd.printing = false; all(); });
+  // On paper: light colours, and figures as narrow as there, or their words would shrink.
+  const print = (on) => {
+    erd.printing = on;
+    document.documentElement.classList.toggle("printing", on);
+    colour();
+    for (const frame of erd.frames) frame.resize(on ? 400 : undefined);
+  };
+  window.addEventListener("beforeprint", () => print(true));
+  window.addEventListener("afterprint", () => print(false));
   colour();
   document.documentElement.dataset.ready = "true";
 })();

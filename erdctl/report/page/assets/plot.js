@@ -89,8 +89,8 @@ erd.Frame = class {
 
   chosen() { return document.activeElement === this.figure; }
 
-  resize() {
-    this.width = this.place.clientWidth || 600;
+  resize(width = this.place.clientWidth || 600) {
+    this.width = width;
     const rows = this.kind.rows ? 70 + 30 * this.kind.rows : null;
     const tall = Math.max(230, Math.min(400, Math.round(this.width * 0.62)));
     this.height = rows || (this.figure.dataset.compact ? 210 : tall);

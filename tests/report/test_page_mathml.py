@@ -1,0 +1,59 @@
+"""Equations of the catalogue become MathML, and what cannot be read stays text."""
+
+from __future__ import annotations
+
+import re
+from xml.etree import ElementTree
+
+import pytest
+
+from erdctl import effects
+from erdctl.paper import EQUATIONS
+from erdctl.report.page.mathml import GREEK, NAMESPACE, equation, symbol
+
+ALL = {e.name: e.equation for e in effects.catalogue()} | {
+    f"paper-{i}": text for i, text in enumerate(EQUATIONS)
+}
+
+
+def tags(text: str) -> list[str]:
+    root = ElementTree.fromstring(str(equation(text)))
+    return [element.tag.removeprefix(f"{{{NAMESPACE}}}") for element in root.iter()]
+
+
+def words(markup: str) -> str:
+    root = ElementTree.fromstring(markup)
+    return "".join(root.itertext()).replace("\u2061", "")
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_every_equation_is_typeset_whole(name: str) -> None:
+    text = ALL[name]
+    markup = str(equation(text))
+    assert markup.startswith("<math")
+    shown = words(markup)
+    for letter in set(re.findall(r"\d+(?:\.\d+)?|[A-Za-z]+", text)):
+        expected = GREEK.get(letter, letter)
+        if letter.endswith("dot"):
+            expected = letter[:-3]
+        for part in re.split(r"(?<=d)\d(?=[a-z])", expected):  # the order of a derivative
+            assert part in shown or part.rstrip("0123456789") in shown, (letter, shown)
+
+
+def test_check_values() -> None:
+    assert tags("g/2") == ["math", "mfrac", "mi", "mn"]
+    assert tags("v^beta") == ["math", "msup", "mi", "mi"]
+    assert words(str(symbol("T_d"))) == "Td"
+    assert tags("m d2x/dt2").count("msup") == 2
+    assert "−γ" in words(str(equation("(1 - a x)^-gamma")))
+    # A fraction's bar stands for the brackets that held its parts together.
+    assert words(str(equation("(a + b) / (2 c)"))) == "a+b2c"
+    assert tags("xdot")[1] == "mover"
+
+
+@pytest.mark.parametrize("text", ["F = (x", "F = |x", "x / ", "F = §", "^2", "<script>&"])
+def test_what_cannot_be_read_stays_text(text: str) -> None:
+    markup = str(equation(text))
+    assert markup.startswith('<code class="equation">')
+    assert "<script" not in markup
+    assert words(markup) == text
