@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import json
 from importlib import resources
@@ -12,7 +13,8 @@ import pytest
 from pages import TABLE_2, concealed, erdctl, mapped
 from places import FIXTURES
 
-from erdctl.report.page.data import Levels, misfit_maps, samples
+from erdctl.effect import Variable
+from erdctl.report.page.data import Levels, misfit_maps, profile, samples
 from erdctl.report.page.render import Run, digits
 from erdctl.report.page.words import joined
 
@@ -72,6 +74,40 @@ def test_maps_hold_the_misfit_of_their_cells() -> None:
     assert values.shape == (len(levels.duty), 25)
     assert found["most"] == 2.0
     assert found["y"]["names"][0] == "0 %"
+
+
+def numbers(coded: dict[str, str]) -> np.ndarray:
+    ((kind, text),) = coded.items()
+    return np.frombuffer(base64.b64decode(text), dtype=f"<{kind}")
+
+
+def test_profiles_hold_the_misfit_of_their_bins() -> None:
+    xdot = np.linspace(-0.1, 0.1, 60_000)
+    misfit = np.where(np.abs(xdot) < 0.01, 3.0, 1.0)
+    found = profile(
+        Variable.XDOT, xdot, {"model": misfit}, noise=1.0, region=(-0.01, 0.01, "47 %")
+    )  # fmt: skip
+    x, y = numbers(found["x"]["values"]), numbers(found["series"][0]["y"])
+    assert x[0] == pytest.approx(-100)  # mm/s
+    assert y[np.abs(x) < 6] == pytest.approx(3.0)
+    assert y[np.abs(x) > 14] == pytest.approx(1.0)
+    assert found["bands"] == [{"low": -10.0, "high": 10.0, "text": "47 %"}]
+    assert found["x"]["unit"] == "mm/s"
+
+
+def test_a_profile_over_few_levels_has_a_bin_for_each() -> None:
+    duty = np.repeat([0.0, 0.1, 0.3], 100)
+    found = profile(Variable.DUTY, duty, {"model": 10 * duty}, noise=None)
+    assert numbers(found["x"]["values"]) == pytest.approx([-5, 5, 5, 20, 20, 35])
+    assert numbers(found["series"][0]["y"]) == pytest.approx([0, 0, 1, 1, 3, 3])
+
+
+def test_what_comes_after_an_event_has_a_logarithmic_axis() -> None:
+    since = np.concatenate([[np.inf, 0.0], np.geomspace(1e-3, 1.0, 5_000)])
+    found = profile(Variable.SINCE_REVERSAL, since, {"model": np.ones(5_002)}, noise=None)
+    x = numbers(found["x"]["values"])
+    assert found["x"]["log"] is True
+    assert (x[0], x[-1]) == (pytest.approx(1.0), pytest.approx(1e3))  # ms
 
 
 def test_loops_offer_records_with_the_worst_first() -> None:

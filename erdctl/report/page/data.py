@@ -14,7 +14,7 @@ from erdctl.diagnose.locate import UNITS
 from erdctl.effect import Variable
 from erdctl.recording import Array, Index, Recording
 from erdctl.report.page.thin import keep, lines, reversals
-from erdctl.score import duty_levels
+from erdctl.score import MAX_LEVELS, duty_levels
 
 MOST = 40_000  # samples that a page holds: more lie on top of each other, and are slow to zoom
 RECORDS = 200  # that can be chosen from one by one
@@ -165,11 +165,7 @@ def profile(
     use = np.isfinite(values) & np.isfinite(next(iter(misfits.values())))
     use &= (values > 0) | (not logarithmic)
     v = values[use] * scale
-    # Edges from at most about 200,000 samples: a quantile of ten million costs a second.
-    edges = np.unique(np.quantile(v[:: max(1, len(v) // 200_000)], np.linspace(0, 1, BINS + 1)))
-    edges[[0, -1]] = v.min(), v.max()
-    if len(edges) < 3:  # levels of a duty that is nearly always the same
-        edges = np.linspace(v.min() - 0.5, v.max() + 0.5, 3)
+    edges = _edges(v)
     at = np.clip(np.searchsorted(edges, v, side="right") - 1, 0, len(edges) - 2)
     count = np.bincount(at, minlength=len(edges) - 1)
     corners = np.repeat(edges, 2)[1:-1]
@@ -188,6 +184,22 @@ def profile(
         "y": {"label": "RMS misfit", "unit": "N", "zero": True},
         "series": series, "bands": bands, "marks": marks,
     }  # fmt: skip
+
+
+def _edges(v: Array) -> Array:
+    """Bins of equal time, or one around each of a few levels.
+
+    From at most about 200,000 samples: a quantile of ten million costs a second.
+    """
+    some = v[:: max(1, len(v) // 200_000)]
+    found = np.unique(some)
+    if len(found) <= MAX_LEVELS:
+        half = np.diff(found, prepend=found[0] - 1.0, append=found[-1] + 1.0) / 2
+        half[[0, -1]] = half[1:-1].min() if len(found) > 1 else 0.5
+        return np.concatenate([found - half[:-1], found[-1:] + half[-1]])
+    edges = np.unique(np.quantile(some, np.linspace(0, 1, BINS + 1)))
+    edges[[0, -1]] = v.min(), v.max()
+    return edges
 
 
 LABELS = {

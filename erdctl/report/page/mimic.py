@@ -120,10 +120,10 @@ def _answers(plans: Mapping[str, Plan], reaches: Sequence[tuple[str, Reach]], st
 def _faults(reaches: Sequence[tuple[str, Reach]], static: bool) -> Json:
     rows: list[Json] = [
         {
-            "label": f"{r.fault}" if name == "fl" else f"{r.fault} ({name})",
+            "label": str(r.fault),
             "before": r.paper, "after": r.paper if static else r.compensated, "noise": None,
         }
-        for name, r in reaches
+        for _, r in reaches
     ]  # fmt: skip
     most = max((v for row in rows for v in (row["before"], row["after"])), default=1.0) or 1.0
     return {"rows": rows, "most": most, "before": "" if static else "paper's inverse"}
