@@ -73,7 +73,7 @@ def _words(header: Sequence[str]) -> list[int]:
 
 def _figures(results: Sequence[Json]) -> dict[str, Json]:
     """Each case: misfit of the paper's model over the noise, and the error that is left."""
-    groups: dict[str, list[Any]] = {"right name first": [], "wrong name or none": []}
+    groups: dict[str, list[Any]] = {"wrong name or none": [], "right name first": []}
     for r in results:
         paper, left = r["fresh"]["paper"], r["fresh"]["corrected"]
         if r["named"] is None or not r["hidden"] or paper <= 0.0 or r["level"] <= 0.0:
