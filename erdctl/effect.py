@@ -72,7 +72,7 @@ class Requirement(Enum):
     STEPS = "steps of the duty within a record"
     SPEEDS = "a range of speeds"
     STROKE = "a range of deflections"
-    FREQUENCIES = "motions of clearly different frequency or amplitude"
+    FREQUENCIES = "accelerations that no spring makes, that is of clearly different frequencies"
     TIME = "records of at least several seconds"
 
 

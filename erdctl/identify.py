@@ -9,8 +9,8 @@ import numpy as np
 
 from erdctl.assess import Fit, assess
 from erdctl.blocks import Block, pieces, sample
+from erdctl.coverage import Lack, unmet
 from erdctl.errors import InputProblem
-from erdctl.excitation import Need, unmet
 from erdctl.fit import fit
 from erdctl.model import Model, off_values
 from erdctl.parameters import Estimate
@@ -75,7 +75,7 @@ def identify(
     )
 
 
-def _held(needs: Mapping[str, Need]) -> dict[str, float]:
+def _held(needs: Mapping[str, Lack]) -> dict[str, float]:
     """Values for parameters that the data cannot identify, chosen so that the rest can be fitted.
 
     With one level of duty any beta will do, since sigma takes up the difference; without a field

@@ -10,6 +10,7 @@ import numpy as np
 
 from erdctl.assess import Fit, assess
 from erdctl.blocks import thinned
+from erdctl.coverage import untestable
 from erdctl.diagnose.choose import Choice, choose, confirm
 from erdctl.diagnose.compare import FINEST, Comparison, compare
 from erdctl.diagnose.crew import Progress, crew
@@ -19,8 +20,9 @@ from erdctl.diagnose.remains import Remainder, examine
 from erdctl.diagnose.scatter import NOTHING, Free, Scatter, errors
 from erdctl.diagnose.study import SHORTEST, Study, keeping, prepare
 from erdctl.diagnose.trial import Trial
-from erdctl.effect import Effect, Requirement
+from erdctl.effect import Effect
 from erdctl.errors import InputProblem
+from erdctl.excitation import Survey
 from erdctl.parameters import Parameters
 from erdctl.recording import Array, Recording
 from erdctl.score import Normalise, Validation, validate
@@ -109,11 +111,12 @@ def diagnose(
     study = prepare(recording, free)
     _enough(study)
     search = prepare(thinned(recording, SEARCH), free)
+    survey = Survey(recording, study.block.signals)
     if given is not None:
-        lacking = untestable(study, given.model.effects)
+        lacking = untestable(survey, given.model.effects)
         study, search = (keeping(s, given, lacking) for s in (study, search))
         candidates = [e for e in candidates if e not in given.model.effects]
-    missing = untestable(study, candidates)
+    missing = untestable(survey, candidates)
     testable = [e for e in candidates if e.name not in missing]
     with crew((search, study), jobs, progress) as workers:
         choice = choose(search, testable, most, workers, seed, given)
@@ -175,31 +178,6 @@ def _enough(study: Study) -> None:
             f"too short to diagnose: {PARTS} parts of {SHORTEST:g} s or more are left out in turn,"
             f" and this log has {count}; record at least {2 * PARTS * SHORTEST:g} s"
         )
-
-
-def untestable(study: Study, candidates: Sequence[Effect]) -> dict[str, str]:
-    """Effects that this recording cannot show, each with what is missing."""
-    s = study.block.signals
-    field = s.duty > 0
-    levels = len(np.unique(np.round(s.duty[field], 2)))
-    steps = any(np.ptp(s.duty[p]) > 0.02 for p in study.recording.slices)
-    longest = max(float(s.t[p][-1] - s.t[p][0]) for p in study.recording.slices)
-    met = {
-        Requirement.REVERSALS: len(s.turns[0]) > 4,
-        Requirement.FIELD: bool(field.any()),
-        Requirement.LEVELS: levels >= 3,
-        Requirement.STEPS: steps,
-        Requirement.SPEEDS: float(np.std(np.abs(s.xdot))) > 0.01 * float(np.abs(s.xdot).mean()),
-        Requirement.STROKE: float(np.ptp(s.x)) > 0.0,
-        Requirement.FREQUENCIES: True,
-        Requirement.TIME: longest > 2.0,
-    }
-    out = {}
-    for effect in candidates:
-        lacking = [r.value for r in effect.requires if not met[r]]
-        if lacking:
-            out[effect.name] = "the log has no " + " and no ".join(lacking)
-    return out
 
 
 def _findings(study: Study, choice: Choice) -> tuple[Finding, ...]:

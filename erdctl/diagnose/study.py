@@ -10,9 +10,9 @@ from itertools import pairwise
 import numpy as np
 
 from erdctl.blocks import Block, whole
+from erdctl.coverage import Lack, unmet
 from erdctl.diagnose.scatter import NOTHING, Free
 from erdctl.effect import Slot, Values
-from erdctl.excitation import Need, unmet
 from erdctl.model import Model
 from erdctl.parameters import Parameters
 from erdctl.recording import Array, Index, Recording
@@ -40,7 +40,7 @@ class Study:
     group: Index
     stretch: Index
     held: dict[str, float]
-    needs: dict[str, Need]
+    needs: dict[str, Lack]
     free: Free = NOTHING
 
     @cached_property
@@ -140,7 +140,7 @@ def keeping(study: Study, given: Parameters, untestable: Mapping[str, str]) -> S
         if effect.name in untestable:
             keys = [effect.key(q.symbol) for q in effect.quantities]
             held |= {key: given.values[key] for key in keys}
-            needs |= dict.fromkeys(keys, Need(lambda _: False, untestable[effect.name]))
+            needs |= dict.fromkeys(keys, Lack(untestable[effect.name]))
     return replace(study, held=held, needs=needs)
 
 
