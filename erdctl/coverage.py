@@ -1,7 +1,7 @@
 """Which parameters and effects a log can show, before anything is fitted.
 
-`identify`, `diagnose` and `inspect` all ask here, so that they cannot disagree. A demand that is met
-means "can be tested", one that is not "cannot be told from this log", never "absent".
+`identify`, `diagnose` and `inspect` all ask here, so that they cannot disagree. A demand that is
+met means "can be tested", one that is not "cannot be told from this log", never "absent".
 """
 
 from __future__ import annotations
@@ -43,7 +43,9 @@ class Bench:
     def sine(self, duty: str = "", most: float = 1.0) -> str:
         """A sine at up to `most` Hz that uses stroke and speed."""
         frequency = min(most, self.speed / (2 * pi * self.stroke))
-        return f"sine:freq={frequency:.3g},amp={self.stroke:.3g}{duty},duration={12 / frequency:.3g}"
+        return (
+            f"sine:freq={frequency:.3g},amp={self.stroke:.3g}{duty},duration={12 / frequency:.3g}"
+        )
 
     @property
     def field(self) -> str:
@@ -192,10 +194,10 @@ REQUIREMENTS: dict[Requirement, Demand[Survey]] = {
     Requirement.STROKE: Demand(
         "range of the deflection", "m", 1e-6, lambda s: s.stroke, lambda b: b.sine()
     ),
-    # With 0.1 m/s^2 a mass whose weight is a tenth of the force range makes 0.1 % of that range,
+    # With this even a mass that weighs as much as the whole force range makes but 0.1 % of that,
     # about the least that a bench resolves.
     Requirement.FREQUENCIES: Demand(
-        "acceleration that no spring makes, rms", "m/s^2", 0.1,
+        "acceleration that no spring makes, rms", "m/s^2", 0.01,
         lambda s: s.acceleration, lambda b: b.sweep,
     ),
     Requirement.TIME: Demand(
@@ -214,7 +216,7 @@ def parameters(survey: Survey) -> list[Cover]:
         for symbol, demands in PARAMETERS.items():
             checks = tuple(d.check(excitation, bench) for d in demands)
             first = next((d for d, c in zip(demands, checks, strict=True) if not c.met), None)
-            lack = first and Lack(first.reason, first.confounded)
+            lack = None if first is None else Lack(first.reason, first.confounded)
             out.append(Cover(f"{direction}.{symbol}", checks, lack))
     return out
 

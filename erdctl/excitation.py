@@ -126,11 +126,8 @@ class Survey:
     @property
     def longest(self) -> float:
         """Length of the longest record [s]."""
-        return max(float(self.signals.t[p][-1] - self.signals.t[p][0]) for p in self._parts)
-
-    @property
-    def _parts(self) -> list[slice]:
-        return self.recording.slices
+        starts, t = self.recording.starts, self.recording.t
+        return float((t[starts[1:] - 1] - t[starts[:-1]]).max())
 
     @cached_property
     def acceleration(self) -> float:
@@ -178,7 +175,7 @@ def _beyond_a_spring(s: Signals) -> float:
 
 
 def _against_acceleration(t: Array, x: Array, xdot: Array) -> Array | None:
-    """(7, m) x, xdot and 1 in either direction, then the acceleration; None for too short a stretch.
+    """(7, m) x, xdot and 1 in either direction, and the acceleration; None if too short for it.
 
     The acceleration is the mean velocity of a twelfth of a period ahead less that of one behind,
     over the time between: it follows the motion (3 % low at its own frequency), and averages the

@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import Annotated, Any
 
 import typer
-from typer.core import TyperGroup
+from typer.core import TyperCommand, TyperGroup, TyperOption
 
 # Blocks of a log are the parallelism here. Linear algebra threads on top of it fight for the same
 # cores: on 10 million rows they made `identify` ten times slower. NumPy reads this when it loads.
@@ -19,6 +19,32 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 from erdctl import __version__
 from erdctl.cli.options import EXIT_CODES
 from erdctl.errors import ErdctlError, ExitCode
+from erdctl.report.text import QUIET
+
+
+class Command(TyperCommand):
+    """A command with the options that all of them share."""
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        self.params.append(quiet_option())
+
+
+def quiet_option() -> TyperOption:
+    """`--quiet`, in force until the command ends."""
+
+    def keep(context: Any, parameter: Any, asked: bool) -> None:
+        if asked:
+            before = QUIET.set(True)
+            context.call_on_close(lambda: QUIET.reset(before))
+
+    return TyperOption(
+        param_decls=["--quiet", "-q"],
+        is_flag=True,
+        expose_value=False,
+        callback=keep,
+        help="No tables, remarks or progress on stderr: only warnings and errors.",
+    )
 
 
 class Guarded(TyperGroup):
@@ -51,8 +77,8 @@ def _end(message: str, code: ExitCode) -> typer.Exit:
 
 
 COMMANDS = (
-    "identify", "simulate", "validate", "diagnose", "prove", "mimic", "convert", "derive",
-    "effects", "schema",
+    "inspect", "identify", "simulate", "validate", "diagnose", "prove", "mimic", "convert",
+    "derive", "effects", "schema",
 )  # fmt: skip
 
 
@@ -89,7 +115,9 @@ def build(names: Sequence[str] = COMMANDS) -> typer.Typer:
     )
     app.callback()(root)
     for name in names:
-        app.command(name, epilog=EXIT_CODES)(import_module(f"erdctl.cli.{name}").command)
+        app.command(name, cls=Command, epilog=EXIT_CODES)(
+            import_module(f"erdctl.cli.{name}").command
+        )
     return app
 
 

@@ -26,6 +26,16 @@ Report = Callable[[str], None]
 FORCES = ("force", "force_model")
 
 
+@dataclass(frozen=True)
+class Channel:
+    """One of the contract's columns: the log's own column, times factor plus offset, is SI."""
+
+    name: str
+    column: str
+    factor: float
+    offset: float
+
+
 @dataclass(frozen=True, eq=False)
 class Log:
     """One or more logs as they were read.
@@ -33,11 +43,14 @@ class Log:
     table : all columns of the log, in its order and row by row as in the recording; mapped
         columns bear the contract's name and are SI (only if asked for)
     force_model : (n,) [N] if the log has it (only where force is needed)
+    channels : what was read, and from which columns;  others : columns that were not
     """
 
     recording: Recording
     table: pa.Table | None = None
     force_model: Array | None = None
+    channels: tuple[Channel, ...] = ()
+    others: tuple[str, ...] = ()
 
 
 def read_logs(
@@ -45,6 +58,7 @@ def read_logs(
     *,
     maps: Sequence[str] = (),
     need_force: bool,
+    want_force: bool = False,
     keep_table: bool = False,
     want_hash: bool = False,
     report: Report,
@@ -52,6 +66,7 @@ def read_logs(
     """Read and validate bench logs (any format of `Format`; "-" is standard input).
 
     maps : `--map` options, for all logs alike;  need_force : else force is read only if mapped
+    want_force : read force where there is one
     keep_table : keep all columns, for a single log;  want_hash : SHA-256 of each log
     report : takes a line for everything that was assumed or derived
 
@@ -70,6 +85,7 @@ def read_logs(
             path,
             mappings,
             need_force=need_force,
+            want_force=want_force,
             keep_table=keep_table,
             want_hash=want_hash,
             report=report,
@@ -88,6 +104,8 @@ def read_logs(
     return Log(
         concatenate(recordings),
         force_model=np.concatenate(models) if len(models) == len(logs) else None,
+        channels=tuple(dict.fromkeys(c for log in logs for c in log.channels)),
+        others=tuple(dict.fromkeys(name for log in logs for name in log.others)),
     )
 
 
@@ -96,6 +114,7 @@ def _read(
     mappings: Sequence[Mapping],
     *,
     need_force: bool,
+    want_force: bool,
     keep_table: bool,
     want_hash: bool,
     report: Report,
@@ -109,7 +128,7 @@ def _read(
         source,
         mappings,
         needed=["t", "x", "force"] if need_force else ["t", "x"],
-        left=() if need_force else FORCES,
+        left=() if need_force or want_force else FORCES,
         say=say,
     )
     wanted = source.columns if keep_table else tuple(column for column, _ in plan.values())
@@ -143,6 +162,11 @@ def _read(
         recording,
         table=_with_own_label(table, source, plan, starts, names) if keep_table else None,
         force_model=channels.get("force_model"),
+        channels=tuple(
+            Channel(target, column, float(convert.factor), float(convert.offset))
+            for target, (column, convert) in plan.items()
+        ),
+        others=tuple(c for c in source.columns if c not in {column for column, _ in plan.values()}),
     )
 
 

@@ -2,21 +2,44 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from contextvars import ContextVar
+
+QUIET = ContextVar("quiet", default=False)  # set for the time of one command by `--quiet`
+SERIOUS = ("warning", "error")
+BAR = 20  # characters
 
 
 def say(text: str, kind: str = "note") -> None:
-    """One remark for the user."""
-    print(f"erdctl: {kind}: {text}", file=sys.stderr)
+    """One remark for the user; of a quiet program only warnings and errors."""
+    if not QUIET.get() or kind in SERIOUS:
+        print(f"erdctl: {kind}: {text}", file=sys.stderr)
 
 
-def table(title: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """A table whose first column is text and whose other columns are numbers."""
-    if sys.stderr.isatty() and os.environ.get("TERM") != "dumb":
-        _rich(title, header, rows)
+def terminal() -> bool:
+    """Whether stderr can show more than lines of plain text."""
+    return sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
+
+
+def table(
+    title: str,
+    header: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    bars: Mapping[int, Sequence[float]] | None = None,
+) -> None:
+    """A table whose first column is text and whose other columns are numbers.
+
+    bars : values of columns to draw beside them on a terminal, all to one scale; one a row, and NaN
+        for a row without
+    """
+    if QUIET.get():
+        return
+    if terminal():
+        _rich(title, header, rows, bars or {})
         return
     widths = [max(len(row[i]) for row in [header, *rows]) for i in range(len(header))]
     print(title, file=sys.stderr)
@@ -26,17 +49,37 @@ def table(title: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> N
         print("  " + "  ".join([first, *rest]).rstrip(), file=sys.stderr)
 
 
-def _rich(title: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+def _rich(
+    title: str,
+    header: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    bars: Mapping[int, Sequence[float]],
+) -> None:
     # Imported here: it costs a third of the time of a whole run in a batch script.
+    from rich.bar import Bar
     from rich.console import Console
     from rich.table import Table
+    from rich.text import Text
 
-    out = Table(title=title, title_justify="left", title_style="bold")
+    values = [v for column in bars.values() for v in column if 0.0 < v < math.inf]
+    top = max(values, default=1.0)
+    console = Console(stderr=True)
+    out = Table(title=Text(title), title_justify="left", title_style="bold")
     for i, name in enumerate(header):
-        out.add_column(name, justify="left" if i == 0 else "right")
-    for row in rows:
-        out.add_row(*row)
-    Console(stderr=True).print(out)
+        out.add_column(Text(name), justify="left" if i == 0 else "right")
+        if i in bars:
+            out.add_column("", width=BAR)
+    for k, row in enumerate(rows):
+        cells: list[Bar | Text] = []
+        for i, cell in enumerate(row):
+            cells.append(Text(cell))
+            if i in bars:
+                value = bars[i][k]
+                # Infinite is full, unknown is empty.
+                length = min(value, top) if value > 0.0 else 0.0
+                cells.append(Bar(top, 0.0, length, width=BAR, color="cyan"))
+        out.add_row(*cells)
+    console.print(out)
 
 
 def number(value: float | None, digits: int = 4) -> str:
@@ -47,7 +90,7 @@ def number(value: float | None, digits: int = 4) -> str:
 @contextmanager
 def progress() -> Iterator[Callable[[str, str], None]]:
     """A line on stderr that shows stage, item and time, on a terminal only."""
-    if not sys.stderr.isatty() or os.environ.get("TERM") == "dumb":
+    if QUIET.get() or not terminal():
         yield lambda stage, what: None
         return
     from rich.console import Console

@@ -1,0 +1,144 @@
+"""`erdctl inspect`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from erdctl.cli.options import Logs, Maps
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from erdctl.coverage import Cover
+    from erdctl.inspect import Inspection
+    from erdctl.io.inspection import InspectionFile
+
+MOST = 40  # records in a table; the JSON has all
+
+
+def command(
+    logs: Logs,
+    as_json: Annotated[bool, typer.Option("--json", help="Everything as JSON on stdout.")] = False,
+    maps: Maps = [],
+) -> None:
+    """Say what is in a log, and what it can and cannot show, before anything is fitted.
+
+    Channels and their units, sampling rates, gaps, duty levels, stroke, speed and force reached, a
+    guess at the force noise; then every parameter of the paper's model and every effect of the
+    catalogue that the log cannot identify, with what was found, what is needed, and a drive that
+    would show it. identify and diagnose decide by the same rules.
+
+    \b
+    Examples:
+      erdctl inspect bench.csv
+      erdctl inspect bench.parquet --json
+      erdctl inspect lab.csv --map "t=Time[ms]" --map "x=Defl FL[mm]" --map "force=F_fl[N]" \\
+        --map "duty=PWM[%]"
+    """
+    from erdctl import effects
+    from erdctl.inspect import inspect
+    from erdctl.io import documents
+    from erdctl.io.inspection import to_json
+    from erdctl.io.logs import read_logs
+    from erdctl.report.text import progress, say
+
+    with progress() as step:
+        step("reading", ", ".join(logs))
+        log = read_logs(
+            logs, maps=maps, need_force=False, want_force=True, want_hash=as_json, report=say
+        )
+        step("inspecting", f"{len(log.recording)} samples")
+        found = inspect(log.recording, effects.catalogue())
+    document = to_json(found, log)
+    if as_json:
+        documents.write(document, "-")
+    else:
+        _show(found, document)
+
+
+def _show(found: Inspection, document: InspectionFile) -> None:
+    from erdctl.report.text import number, say, table
+
+    def span(ends: Sequence[float] | None, digits: int = 4) -> list[str]:
+        return ["-", "-"] if ends is None else [number(v, digits) for v in ends]
+
+    table(
+        f"{found.samples} samples, {found.duration:.6g} s in {len(found.records)} records",
+        ["channel", "column of the log", "times", "unit", "lowest", "highest"],
+        [
+            [c["name"], c["column"], number(c["factor"]), c["unit"], *span(c["range"])]
+            for c in document["channels"] if c["range"] is not None
+        ],
+    )  # fmt: skip
+    hot = any(r["temperature"] for r in document["records"])
+    rows = [
+        [
+            r["name"], str(r["samples"]), number(r["duration"]), number(r["rate"]),
+            str(r["gaps"]), number(1e3 * (r["x"][1] - r["x"][0])), number(r["speed"]),
+            " to ".join(number(100 * d, 3) for d in r["duty"]),
+            " to ".join(span(r["force"], 3)), *([span(r["temperature"])[1]] * hot),
+        ]
+        for r in document["records"][:MOST]
+    ]  # fmt: skip
+    header = ["record", "samples", "length [s]", "rate [Hz]", "gaps", "stroke [mm]",
+              "top speed [m/s]", "duty [%]", "force [N]", *(["top [degC]"] * hot)]  # fmt: skip
+    table("Records", header, rows)
+    if len(found.records) > MOST:
+        say(f"{len(found.records) - MOST} more records; --json lists all")
+    seconds = list(found.seconds_at.values())
+    table(
+        "Time at each duty level",
+        ["duty", "time [s]"],
+        [[f"{100 * d:g} %", number(s)] for d, s in found.seconds_at.items()],
+        bars={1: seconds},
+    )
+    for line in _remarks(found, document):
+        say(line)
+    _show_coverage("parameters of the paper's model", found.parameters)
+    _show_coverage("effects of the catalogue", found.effects)
+
+
+def _remarks(found: Inspection, document: InspectionFile) -> Iterator[str]:
+    yield f"xdot: {found.xdot}"
+    for r in found.records:
+        if r.gaps:
+            yield (
+                f"record '{r.name}': {r.missing} samples are missing in {r.gaps} gaps, the longest"
+                f" of {r.longest_gap:.4g} s at t = {r.gap_at:.6g} s"
+            )
+    if found.noise is None:
+        yield "no column force: what follows is what this motion and duty would show with one"
+    else:
+        yield (
+            f"force noise, from sample to sample: about {found.noise.rms:.2g} N rms (a guess,"
+            f" before any fit); the force comes in steps of {found.noise.resolution:.2g} N"
+        )
+        if found.mass is not None:
+            yield (
+                f"inertia: a mass below {found.mass:.2g} kg makes less force than that noise,"
+                " beyond what a spring would take up"
+            )
+    if document["other_columns"]:
+        yield f"columns that are not used: {', '.join(document['other_columns'])}"
+
+
+def _show_coverage(what: str, found: Sequence[Cover]) -> None:
+    """One line for what the log shows, and one for each reason why it does not show the rest."""
+    from erdctl.report.text import say
+
+    able = [c.name for c in found if c.lack is None]
+    say(f"{len(able)} of {len(found)} {what}: {', '.join(able) or 'none'}", "can be identified")
+    together: dict[tuple[str, ...], list[str]] = {}
+    for c in found:
+        if c.lack is not None:
+            measures = "; ".join(str(n) for n in c.checks if not n.met)
+            drives = " ".join(f"--drive {d}" for d in c.drives)
+            reason = "" if c.lack.reason == measures else f"{c.lack.reason}; "
+            together.setdefault((reason, measures, drives), []).append(c.name)
+    for (reason, measures, drives), names in together.items():
+        say(
+            f"{', '.join(names)}: {reason}{measures}; would show with {drives}",
+            "cannot be identified",
+        )

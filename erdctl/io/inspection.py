@@ -1,0 +1,196 @@
+"""An inspection as JSON, `"schema": "erdctl.inspection/1"`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, TypedDict
+
+import msgspec
+
+from erdctl.coverage import Cover
+from erdctl.inspect import ForceNoise, Inspection, Record, Span
+from erdctl.io.logs import Log
+from erdctl.io.units import UNITS
+
+SCHEMA = "erdctl.inspection/1"
+
+
+class LogEntry(TypedDict):
+    """A log file: name as given, SHA-256 of its bytes."""
+
+    name: str
+    sha256: str
+    rows: int
+
+
+class ChannelEntry(TypedDict):
+    """A column: what the log calls it; times factor plus offset it is in `unit`."""
+
+    name: str
+    column: str
+    unit: str
+    factor: float
+    offset: float
+    range: list[float] | None
+
+
+class RecordEntry(TypedDict):
+    """One record; lengths in m, times in s, rate in Hz, spans as [lowest, highest]."""
+
+    name: str
+    samples: int
+    duration: float
+    rate: float
+    jitter: float
+    gaps: int
+    missing_samples: int
+    longest_gap: float
+    longest_gap_at: float | None
+    x: list[float]
+    speed: float
+    duty: list[float]
+    force: list[float] | None
+    temperature: list[float] | None
+
+
+class LevelEntry(TypedDict):
+    """Time at one duty level [s]."""
+
+    duty: float
+    seconds: float
+
+
+class NoiseEntry(TypedDict):
+    """A guess at the force noise [N], and the smallest step of the force [N]."""
+
+    rms: float
+    resolution: float
+
+
+class NeedEntry(TypedDict):
+    """A measure of the log, and the least that is needed of it."""
+
+    what: str
+    unit: str
+    needed: float
+    found: float
+    met: bool
+
+
+class CoverEntry(TypedDict):
+    """Whether the log can show a parameter or effect; drives : as `simulate --drive` takes them."""
+
+    name: str
+    identifiable: bool
+    reason: str | None
+    needs: list[NeedEntry]
+    drives: list[str]
+
+
+class InspectionFile(TypedDict):
+    """What a log holds and what it can show."""
+
+    schema: str
+    logs: list[LogEntry]
+    channels: list[ChannelEntry]
+    other_columns: list[str]
+    samples: int
+    duration: float
+    xdot: str
+    records: list[RecordEntry]
+    duty_levels: list[LevelEntry]
+    noise: NoiseEntry | None
+    mass_at_noise: float | None
+    parameters: list[CoverEntry]
+    effects: list[CoverEntry]
+
+
+def to_json(found: Inspection, log: Log) -> InspectionFile:
+    """The document of an inspection."""
+    return {
+        "schema": SCHEMA,
+        "logs": [
+            {"name": s.name, "sha256": s.sha256, "rows": s.rows} for s in log.recording.sources
+        ],
+        "channels": [
+            {
+                "name": c.name,
+                "column": c.column,
+                "unit": UNITS.get(c.name, "") or "1",
+                "factor": c.factor,
+                "offset": c.offset,
+                "range": _range(log, c.name),
+            }
+            for c in log.channels
+        ],
+        "other_columns": list(log.others),
+        "samples": found.samples,
+        "duration": found.duration,
+        "xdot": found.xdot,
+        "records": [_record(r) for r in found.records],
+        "duty_levels": [{"duty": d, "seconds": s} for d, s in found.seconds_at.items()],
+        "noise": _noise(found.noise),
+        "mass_at_noise": found.mass,
+        "parameters": covers(found.parameters),
+        "effects": covers(found.effects),
+    }
+
+
+def covers(found: Sequence[Cover]) -> list[CoverEntry]:
+    """What a log can show, one entry for each parameter or effect."""
+    return [
+        {
+            "name": c.name,
+            "identifiable": c.lack is None,
+            "reason": None if c.lack is None else c.lack.reason,
+            "needs": [
+                {
+                    "what": n.what,
+                    "unit": n.unit,
+                    "needed": n.needed,
+                    "found": n.found,
+                    "met": n.met,
+                }
+                for n in c.checks
+            ],
+            "drives": list(c.drives),
+        }
+        for c in found
+    ]
+
+
+def _record(r: Record) -> RecordEntry:
+    return {
+        "name": r.name,
+        "samples": r.samples,
+        "duration": r.duration,
+        "rate": r.rate,
+        "jitter": r.jitter,
+        "gaps": r.gaps,
+        "missing_samples": r.missing,
+        "longest_gap": r.longest_gap,
+        "longest_gap_at": r.gap_at,
+        "x": [r.x.low, r.x.high],
+        "speed": r.speed,
+        "duty": [r.duty.low, r.duty.high],
+        "force": _ends(r.force),
+        "temperature": _ends(r.temperature),
+    }
+
+
+def _noise(noise: ForceNoise | None) -> NoiseEntry | None:
+    return None if noise is None else {"rms": noise.rms, "resolution": noise.resolution}
+
+
+def _ends(span: Span | None) -> list[float] | None:
+    return None if span is None else [span.low, span.high]
+
+
+def _range(log: Log, name: str) -> list[float] | None:
+    values = log.force_model if name == "force_model" else getattr(log.recording, name, None)
+    return None if values is None else _ends(Span.of(values))
+
+
+def json_schema() -> dict[str, Any]:
+    """The published JSON Schema of an inspection."""
+    return msgspec.json.schema(InspectionFile)
