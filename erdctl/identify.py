@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +19,7 @@ from erdctl.two_step import two_step
 
 SEARCH = 40_000  # samples for the search; the last step and the errors use all
 CORRELATED = 0.95
+Progress = Callable[[str, str], None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,11 +38,15 @@ class Identification:
 
 
 def identify(
-    recording: Recording, model: Model | None = None, *, robust: bool = False
+    recording: Recording,
+    model: Model | None = None,
+    *,
+    robust: bool = False,
+    progress: Progress = lambda stage, what: None,
 ) -> Identification:
     """Identify the paper's model, or one with effects, from a recording.
 
-    robust : weigh outliers down (Huber)
+    robust : weigh outliers down (Huber);  progress : told what is being done
     Both directions are fitted together, since they share the state F_ER.
     """
     model = model or Model()
@@ -52,8 +57,10 @@ def identify(
         raise InputProblem(f"the logs identify no parameter at all; for one, {first}")
     search = sample(recording, SEARCH)
     held = _held(needs)
+    progress("fitting", "the paper's two steps")
     steps = two_step(search, held)
-    values, evaluations, converged = _search(model, search, held, steps, robust)
+    values, evaluations, converged = _search(model, search, held, steps, robust, progress)
+    progress("fitting", f"last step and errors, {len(recording)} samples")
     blocks = pieces(recording)
     found = assess(
         model, blocks, values,
@@ -89,7 +96,12 @@ def _held(needs: Mapping[str, Lack]) -> dict[str, float]:
 
 
 def _search(
-    model: Model, block: Block, held: Mapping[str, float], steps: Mapping[str, float], robust: bool
+    model: Model,
+    block: Block,
+    held: Mapping[str, float],
+    steps: Mapping[str, float],
+    robust: bool,
+    progress: Progress,
 ) -> tuple[dict[str, float], int, bool]:
     """The best of several starts: the paper's procedure, a slow and a fast guess."""
     default = {n: q.start for n, q in model.quantities.items()} | off_values(model)
@@ -98,7 +110,8 @@ def _search(
         guess = {f"{d}.beta": beta for d in DIRECTIONS} | {f"{d}.T_d": T_d for d in DIRECTIONS}
         starts.append(default | guess | dict(held))
     results = []
-    for start in starts:
+    for number, start in enumerate(starts, start=1):
+        progress("fitting", f"all parameters, start {number} of {len(starts)}")
         values, count, done = fit(model, block, start=start, fixed=held, robust=robust)
         error = (block.force - model.force(block.signals, values)) * np.sqrt(block.weight)
         cost = float(np.dot(error, error) if not robust else np.abs(error).sum())

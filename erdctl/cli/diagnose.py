@@ -84,12 +84,12 @@ def command(
       erdctl diagnose bench.parquet --record-gains --record-offsets
       erdctl identify bench.csv | erdctl diagnose later.csv --params - -o diagnosis.json
     """
+    from erdctl.cli.reading import read_logs
     from erdctl.diagnose.diagnosis import Verdict, diagnose
     from erdctl.diagnose.scatter import Free
     from erdctl.errors import CheckFailed
     from erdctl.io import documents
     from erdctl.io.diagnosis import to_json
-    from erdctl.io.logs import read_logs
     from erdctl.report.text import progress, say
 
     check_report(report)
@@ -185,7 +185,11 @@ def _show(found: Diagnosis) -> None:
     ]
     rows.append(["all", *(f"{v.overall.nrmse:.4f}" for v in shown.values())])
     title = f"Verdict: {found.verdict.value}. NRMSE over the range, per PWM level"
-    table(title, ["", *shown], rows)
+    bars = {
+        i: [*(s.nrmse for s in v.by_duty.values()), v.overall.nrmse]
+        for i, v in enumerate(shown.values(), start=1)
+    }
+    table(title, ["", *shown], rows, bars)
     values = record_values(found)
     if values:
         header = [k for k in ("gain", "offset") if k in values[0]]

@@ -41,13 +41,14 @@ def command(
       erdctl identify a.csv b.csv --map "force=F_fl[N]" --map "x=Defl FL[mm]" -o damper.json
       erdctl identify bench.csv | erdctl validate - other.csv
     """
+    from erdctl.cli.reading import read_logs
     from erdctl.identify import identify
-    from erdctl.io.logs import read_logs
     from erdctl.io.parameters import write_parameters
-    from erdctl.report.text import say
+    from erdctl.report.text import progress, say
 
     log = read_logs(logs, maps=maps, need_force=True, want_hash=True, report=say)
-    found = identify(log.recording, robust=robust)
+    with progress() as step:
+        found = identify(log.recording, robust=robust, progress=step)
     parameters = _parameters(found, method, log.recording)
     write_parameters(parameters, output)
     _show(found, parameters)

@@ -38,17 +38,16 @@ def command(
         --map "duty=PWM[%]"
     """
     from erdctl import effects
+    from erdctl.cli.reading import read_logs
     from erdctl.inspect import inspect
     from erdctl.io import documents
     from erdctl.io.inspection import to_json
-    from erdctl.io.logs import read_logs
     from erdctl.report.text import progress, say
 
+    log = read_logs(
+        logs, maps=maps, need_force=False, want_force=True, want_hash=as_json, report=say
+    )
     with progress() as step:
-        step("reading", ", ".join(logs))
-        log = read_logs(
-            logs, maps=maps, need_force=False, want_force=True, want_hash=as_json, report=say
-        )
         step("inspecting", f"{len(log.recording)} samples")
         found = inspect(log.recording, effects.catalogue())
     document = to_json(found, log)

@@ -81,14 +81,14 @@ def command(
     from hashlib import sha256
 
     from erdctl.amplifier import Amplifier
+    from erdctl.cli.reading import read_logs
     from erdctl.errors import UsageProblem
     from erdctl.faults import Channel, on_channel, parse_fault
     from erdctl.io import documents, formats, pwm
-    from erdctl.io.logs import read_logs
     from erdctl.io.parameters import parse_parameters
     from erdctl.io.tables import output_format, write_table
     from erdctl.mimic import follow, mimic
-    from erdctl.report.text import say
+    from erdctl.report.text import progress, say
     from erdctl.signals import Signals
     from erdctl.simulate import remarks
 
@@ -116,10 +116,12 @@ def command(
     for line in remarks(parameters, recording):
         say(line)
     by_channel = {c.value: on_channel(faults, c) for c in Channel}
-    plans = {
-        c: mimic(parameters, recording, chosen, amplifier)
-        for c, chosen in by_channel.items() if chosen
-    }  # fmt: skip
+    plans = {}
+    with progress() as step:
+        for c, chosen in by_channel.items():
+            if chosen:
+                step("computing", f"the sequence of {c}")
+                plans[c] = mimic(parameters, recording, chosen, amplifier)
     healthy = follow(recording.duty, Signals.of(recording), amplifier)
     duties = dict.fromkeys(by_channel, healthy)
     duties |= {c: p.duty_paper if uncompensated else p.duty for c, p in plans.items()}

@@ -118,7 +118,7 @@ def _run(wish: Wish, seeds: Sequence[int], folder: Path, jobs: int | None) -> Pr
     from erdctl.prove.document import proof_of
     from erdctl.prove.run import Outcome, prove
     from erdctl.prove.tables import line
-    from erdctl.report.text import progress, say
+    from erdctl.report.text import QUIET, progress, say
     from erdctl.workers import cores
 
     scored = 0
@@ -131,7 +131,8 @@ def _run(wish: Wish, seeds: Sequence[int], folder: Path, jobs: int | None) -> Pr
         def on_outcome(outcome: Outcome) -> None:
             nonlocal scored
             scored += 1
-            print(line(outcome), file=sys.stderr, flush=True)
+            if not QUIET.get():
+                print(line(outcome), file=sys.stderr, flush=True)
             step("scored", f"{scored} of {len(seeds)}")
 
         step("scored", f"0 of {len(seeds)}")

@@ -44,7 +44,7 @@ def command(
     from erdctl.errors import UsageProblem
     from erdctl.io.parameters import read_parameters
     from erdctl.io.tables import append_column, write_table
-    from erdctl.report.text import say
+    from erdctl.report.text import progress, say
     from erdctl.simulate import remarks, simulate
 
     if (log is None) == (not drive):
@@ -53,7 +53,7 @@ def command(
         raise UsageProblem("PARAMS and LOG cannot both be stdin")
     parameters = read_parameters(params)
     if log is not None:
-        from erdctl.io.logs import read_logs
+        from erdctl.cli.reading import read_logs
 
         read = read_logs([log], maps=maps, need_force=False, keep_table=True, report=say)
         recording, table = read.recording, read.table
@@ -66,5 +66,7 @@ def command(
         table = table_of(recording)
     for line in remarks(parameters, recording):
         say(line)
-    force = simulate(parameters, recording, fault)
+    with progress() as step:
+        step("simulating", f"{len(recording)} samples")
+        force = simulate(parameters, recording, fault)
     write_table(append_column(table, "force_model", force), output, format and format.value)

@@ -45,9 +45,9 @@ def command(
       erdctl validate damper.json other.csv --json --fail-above 0.1
       erdctl simulate damper.json drive.csv | erdctl validate -
     """
+    from erdctl.cli.reading import read_logs
     from erdctl.errors import CheckFailed, InputProblem, UsageProblem
-    from erdctl.io.logs import read_logs
-    from erdctl.report.text import say
+    from erdctl.report.text import progress, say
     from erdctl.score import Normalise, validate
 
     if normalise not in list(Normalise):
@@ -75,7 +75,9 @@ def command(
         noise = parameters.provenance.get("noise_rms")
         for line in remarks(parameters, log.recording):
             say(line)
-        modelled = simulate(parameters, log.recording)
+        with progress() as step:
+            step("simulating", f"{len(log.recording)} samples")
+            modelled = simulate(parameters, log.recording)
     found = validate(log.recording, modelled, Normalise(normalise))
     if as_json:
         from erdctl.io import documents
@@ -125,7 +127,9 @@ def _show(found: Validation) -> None:
     by = f"NRMSE over the {found.normalise.value} of the measured force"
     rows = [row(f"{100 * d:g} %", s) for d, s in found.by_duty.items()]
     rows.append(row("all", found.overall))
-    table(f"{by}, per PWM level", header, rows)
-    table(f"{by}, per direction", header, [row(d, s) for d, s in found.by_direction.items()])
-    if len(found.by_record) > 1:
-        table(f"{by}, per record", header, [row(r, s) for r, s in found.by_record.items()])
+    levels = [s.nrmse for s in found.by_duty.values()]
+    table(f"{by}, per PWM level", header, rows, bars={3: [*levels, found.overall.nrmse]})
+    for split, scores in (("direction", found.by_direction), ("record", found.by_record)):
+        if split == "direction" or len(scores) > 1:
+            rows = [row(name, s) for name, s in scores.items()]
+            table(f"{by}, per {split}", header, rows, bars={3: [s.nrmse for s in scores.values()]})
