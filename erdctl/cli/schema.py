@@ -8,18 +8,30 @@ import typer
 
 
 def command(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="parameters or geometry.")],
+    name: Annotated[
+        str,
+        typer.Argument(
+            metavar="NAME",
+            help="parameters, geometry, inspection, validation, diagnosis, pwm or proof.",
+        ),
+    ],
 ) -> None:
     """Print the JSON Schema of a document that erdctl reads or writes.
 
+    parameters and geometry files; inspection (inspect --json), validation (validate --json),
+    diagnosis (diagnose), pwm (the manifest that mimic writes) and proof (prove).
+
     \b
-    Example:
+    Examples:
       erdctl schema parameters
+      erdctl schema diagnosis
     """
     from erdctl.errors import UsageProblem
-    from erdctl.io import documents, geometry, parameters
+    from erdctl.io import documents
+    from erdctl.io.shapes import SCHEMAS
+    from erdctl.prove import document
 
-    schemas = {"parameters": parameters.json_schema, "geometry": geometry.json_schema}
+    schemas = {**SCHEMAS, "proof": document.json_schema}
     if name not in schemas:
         raise UsageProblem(f"there are schemas of {', '.join(schemas)}, not of '{name}'")
     documents.write(schemas[name](), "-")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypedDict
 
 import msgspec
 
@@ -15,6 +15,7 @@ from erdctl.prove.run import Outcome
 from erdctl.prove.summary import Summary, summarise
 
 SCHEMA = "erdctl.proof/1"
+DERIVED = ("nrmse_paper", "nrmse_corrected", "nrmse_best", "removed")  # beside the errors of a case
 
 
 @dataclass(frozen=True)
@@ -42,17 +43,37 @@ def proof_of(wish: Wish, seeds: Sequence[int], outcomes: Sequence[Outcome]) -> P
     return Proof(SCHEMA, __version__, seeds[0], len(seeds), wish, results, failed)
 
 
+class ProofFile(TypedDict):
+    """The document: what a run gave, and what follows from it."""
+
+    schema: str
+    erdctl: str
+    seed: int
+    cases: int
+    wish: Wish
+    results: list[Result]
+    failed: list[Failed]
+    summary: Summary
+
+
+def json_schema() -> dict[str, Any]:
+    """The published JSON Schema of a proof."""
+    schema = msgspec.json.schema(ProofFile)
+    added = {name: {"type": ["number", "null"]} for name in DERIVED}
+    schema["$defs"]["Errors"]["properties"] |= added
+    return schema
+
+
 def to_json(proof: Proof) -> dict[str, Any]:
     """The document. What follows from the results is in it too, for readers without erdctl."""
     document: dict[str, Any] = msgspec.to_builtins(proof)
     for raw, result in zip(document["results"], proof.results, strict=True):
         errors = result.fresh
-        raw["fresh"] |= {
-            "nrmse_paper": errors.nrmse(errors.paper),
-            "nrmse_corrected": errors.nrmse(errors.corrected),
-            "nrmse_best": errors.nrmse(errors.best),
-            "removed": errors.removed,
-        }
+        figures = (
+            *map(errors.nrmse, (errors.paper, errors.corrected, errors.best)),
+            errors.removed,
+        )
+        raw["fresh"] |= dict(zip(DERIVED, figures, strict=True))
     return document | {"summary": msgspec.to_builtins(proof.summary)}
 
 

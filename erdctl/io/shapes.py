@@ -1,0 +1,266 @@
+"""The shapes of the JSON documents that erdctl writes for others to read, and their JSON Schemas.
+
+Parameter and geometry files, which erdctl reads as well, have theirs beside their readers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NotRequired, TypedDict
+
+import msgspec
+
+from erdctl.io import geometry, inspection, parameters
+from erdctl.io.inspection import LogEntry
+from erdctl.io.parameters import ParameterFile
+
+
+class Quantity(TypedDict):
+    """A number with its unit."""
+
+    value: float | None
+    unit: str
+
+
+class Measured(TypedDict):
+    """An estimate with its standard error, which is null where there is none."""
+
+    value: float | None
+    unit: str
+    stderr: float | None
+
+
+class Interval(TypedDict):
+    """Where: xdot, x, duty, t, since_reversal, since_duty_step or dissipated_energy, in SI."""
+
+    variable: str
+    low: float
+    high: float
+
+
+class AtDuty(TypedDict):
+    """NRMSE at one PWM level."""
+
+    duty: float
+    nrmse: float
+
+
+class Scores(TypedDict):
+    """Error of a model over a log: NRMSE over the range of the force, rms [N]."""
+
+    nrmse: float
+    nrmse_by_duty: list[AtDuty]
+    rms: float
+
+
+class Baseline(Scores):
+    """Error of the model that was to be answered for; `of` says which that is."""
+
+    of: str
+    params: NotRequired[ParameterFile]
+
+
+class Corrected(Scores):
+    """Error of the best model found, and its parameter file."""
+
+    params: ParameterFile
+
+
+class Mismatch(TypedDict):
+    """A region in which misfit gathers; share : part of the misfit energy that lies there."""
+
+    where: Interval
+    share: float
+    text: str
+
+
+class Evidence(TypedDict):
+    """Gain on data that the fit had not seen, over its scatter; the next best name."""
+
+    gain_unseen: float
+    gain_over_scatter: float
+    gain_over_scatter_of_groups: float
+    runner_up: str | None
+
+
+class Heldout(TypedDict):
+    """NRMSE on groups left out of the fit, without and with the effect."""
+
+    nrmse_before: float
+    nrmse_after: float
+
+
+class ToTell(TypedDict):
+    """A drive, as `simulate --drive` takes it, on which two look-alikes differ [N rms]."""
+
+    drive: str
+    difference: float
+    unit: str
+    against: str
+
+
+class Finding(TypedDict):
+    """One effect that the model had left out."""
+
+    effect: str
+    equivalent: list[str]
+    text: str
+    equation: str
+    source: str
+    parameters: dict[str, Measured]
+    where: Interval | None
+    evidence: Evidence
+    heldout: Heldout
+    test: NotRequired[ToTell]
+
+
+class Remaining(TypedDict):
+    """What is left: rms and what of it can be predicted [N], rms over the noise."""
+
+    rms: float
+    over_noise: float
+    misfit_rms: float
+    text: str
+
+
+class PerRecord(TypedDict):
+    """Gain and zero of one record, where they were free."""
+
+    name: str
+    gain: NotRequired[Measured]
+    offset: NotRequired[Measured]
+
+
+class Unseen(TypedDict):
+    """Scores on groups left out of the fit, before and after the correction."""
+
+    groups: int
+    before: Scores
+    after: Scores
+
+
+class DiagnosisFile(TypedDict):
+    """A diagnosis; verdict : adequate, explained or unexplained."""
+
+    schema: str
+    verdict: str
+    noise_rms: float
+    baseline: Baseline
+    refitted: NotRequired[Scores]
+    mismatch: list[Mismatch]
+    findings: list[Finding]
+    corrected: Corrected
+    heldout: NotRequired[Unseen]
+    remaining: Remaining
+    records: NotRequired[list[PerRecord]]
+    with_records: NotRequired[Scores]
+    not_testable: dict[str, str]
+    provenance: dict[str, Any]
+
+
+class Score(TypedDict):
+    """Misfit of a group of samples; NRMSE is null for an error on a force without range."""
+
+    nrmse: float | None
+    rms: float
+    samples: int
+
+
+class DutyScore(Score):
+    """Score at one PWM level."""
+
+    duty: float
+
+
+class DirectionScore(Score):
+    """Score of compression or release."""
+
+    direction: str
+
+
+class RecordScore(Score):
+    """Score of one record."""
+
+    record: str
+
+
+class ValidationFile(Score):
+    """Scores of a model on logs; normalise : the denominator of the NRMSE."""
+
+    schema: str
+    normalise: str
+    nrmse_by_duty: list[DutyScore]
+    nrmse_by_direction: list[DirectionScore]
+    nrmse_by_record: list[RecordScore]
+
+
+class Limits(TypedDict):
+    """Limits of the amplifier; null where there is none."""
+
+    duty_max: float
+    resolution: float
+    slew: Quantity | None
+    update_rate: Quantity | None
+
+
+class Hashed(TypedDict):
+    """The SHA-256 of a file's bytes."""
+
+    sha256: str
+
+
+class Emulation(TypedDict):
+    """How near one fault can be mimicked on one damper: NRMSE and the force out of reach."""
+
+    channel: str
+    fault: str
+    nrmse_compensated: float
+    nrmse_paper: float
+    nrmse_plain: NotRequired[float]
+    out_of_reach: float
+    missing_rms: Quantity
+    missing_max: Quantity
+
+
+class Correction(TypedDict):
+    """What the effects beyond the paper are worth for the sequence of one damper."""
+
+    channel: str
+    effects: list[str]
+    effects_of_the_force_channel: list[str]
+    nrmse: float
+    nrmse_plain: float
+    error_removed: float
+    fell_back: bool
+
+
+class PwmManifest(TypedDict):
+    """What whoever pushes a PWM sequence must know."""
+
+    schema: str
+    erdctl: str
+    carrier: Quantity
+    full_scale: Quantity
+    channels: list[str]
+    limits: Limits
+    parameters: Hashed
+    logs: list[LogEntry]
+    samples: int
+    sequence: str
+    schedule: list[str]
+    emulation: list[Emulation]
+    correction: list[Correction]
+
+
+def _of(shape: type) -> Callable[[], dict[str, Any]]:
+    return lambda: msgspec.json.schema(shape)
+
+
+SCHEMAS: dict[str, Callable[[], dict[str, Any]]] = {
+    "parameters": parameters.json_schema,
+    "geometry": geometry.json_schema,
+    "inspection": inspection.json_schema,
+    "validation": _of(ValidationFile),
+    "diagnosis": _of(DiagnosisFile),
+    "pwm": _of(PwmManifest),
+}
