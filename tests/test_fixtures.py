@@ -26,6 +26,7 @@ LOGS = (
     "schedule_60s.parquet",
     "schedule_hot.csv",
     "foreign.csv",
+    "late_amplifier.parquet",
 )
 # In each column's own unit; 1e-6 where not listed.
 LAST_DIGIT = {"force": 1e-3, "F_fl": 1e-3, "temperature": 1e-2, "Defl FL": 1e-4}
@@ -175,6 +176,18 @@ def test_the_noise_is_what_the_readme_says(name: str, oracle: Any) -> None:
     residual = np.concatenate(rest)
     assert np.std(residual) == pytest.approx(0.3, rel=0.02)
     assert abs(np.mean(residual)) < 0.01
+
+
+def test_the_hidden_dead_time_is_what_the_readme_says(oracle: Any) -> None:
+    log = read(FIXTURES / "late_amplifier.parquet")
+    plain, late = [], []
+    for _, record in log.groupby("record", sort=False):
+        t, x, xdot, duty = (record[c].to_numpy() for c in ("t", "x", "xdot", "duty"))
+        for shift, rest in ((0, plain), (4, late)):
+            acting = np.concatenate([np.full(shift, duty[0]), duty[: len(duty) - shift]])
+            rest.append(record["force"].to_numpy() - oracle.respond(t, x, xdot, acting).force)
+    assert np.std(np.concatenate(late)) == pytest.approx(0.3, rel=0.04)
+    assert np.std(np.concatenate(plain)) > 0.6
 
 
 def test_temperatures() -> None:

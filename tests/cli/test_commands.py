@@ -18,6 +18,8 @@ from places import FIXTURES, SHARED
 from pyarrow import csv
 from scipy.io import loadmat
 
+from erdctl.cli.app import COMMANDS
+
 Run = subprocess.CompletedProcess[bytes]
 ERDCTL = [sys.executable, "-m", "erdctl"]
 CAMPAIGN = FIXTURES / "healthy_campaign.parquet"
@@ -261,18 +263,13 @@ def test_schema_describes_the_document(identified: Path) -> None:
     assert "compression" in json.dumps(schema)
 
 
-COMMANDS = (
-    "identify", "simulate", "validate", "diagnose", "prove", "mimic", "convert", "derive",
-    "effects", "schema",
-)  # fmt: skip
-
-
 @pytest.mark.parametrize("command", COMMANDS)
 def test_help_has_examples_and_exit_codes(command: str) -> None:
     text = erdctl(command, "--help").stdout.decode()
     assert "Example" in text
     assert f"erdctl {command}" in text
     assert "Exit codes" in text
+    assert "--quiet" in text
 
 
 def test_no_command_is_undocumented() -> None:

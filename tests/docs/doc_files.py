@@ -1,0 +1,58 @@
+"""The files that examples in the help texts and the README name: the one place to add another.
+
+Each is made in the folder in which an example runs, and only if the example names it.
+"""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pandas as pd
+from places import FIXTURES
+
+Make = Callable[[Path], None]
+
+
+def copy(name: str) -> Make:
+    """A fixture under another name."""
+    return lambda path: shutil.copyfile(FIXTURES / name, path) and None
+
+
+def bench(*records: str) -> Make:
+    """Records of the campaign at 125 Hz, as CSV or Parquet; with a lab's names beside the own."""
+
+    def make(path: Path) -> None:
+        log = pd.read_parquet(FIXTURES / "healthy_campaign.parquet")
+        log = log[log["record"].isin(records)].iloc[::4]
+        log = log.assign(**{"F_fl": log["force"], "Defl FL": 1e3 * log["x"]})
+        if path.suffix == ".parquet":
+            log.to_parquet(path, index=False)
+        else:
+            log.to_csv(path, index=False)
+
+    return make
+
+
+FILES: dict[str, Make] = {
+    "bench.csv": bench("sine_2Hz_11mm_pwm0", "steps_1", "steps_3"),
+    "bench.parquet": bench("sine_2Hz_11mm_pwm0", "steps_1", "steps_3"),
+    "a.csv": bench("sine_2Hz_11mm_pwm0", "steps_1"),
+    "b.csv": bench("steps_2", "steps_3"),
+    "later.csv": bench("sine_0.5Hz_20mm_pwm0", "steps_2"),
+    "other.csv": bench("steps_2", "random_2"),
+    "new.csv": bench("steps_4", "random_2"),
+    "lab.csv": copy("foreign.csv"),
+    "drive.csv": copy("schedule_60s.csv"),
+    "damper.json": copy("table_2.json"),
+    "geometry.json": copy("geometry_inove.json"),
+}
+
+
+def place(folder: Path, command: str) -> None:
+    """Put the files that a command names into the folder in which it runs."""
+    words = command.replace("=", " ").replace(":", " ").split()
+    for name, make in FILES.items():
+        if name in words and not (folder / name).exists():
+            make(folder / name)

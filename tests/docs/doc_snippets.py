@@ -1,0 +1,139 @@
+"""Commands and their printed output out of Markdown files and help texts, and how they are run."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from doc_files import place
+from places import FIXTURES, SHARED
+
+# What a shortened command leaves out: a search over the whole catalogue takes half a minute, and
+# what it finds is tested in tests/diagnose. The log of the tutorial is searched in full.
+FEW_EFFECTS = " --effects coulomb_friction,time_skew"
+IN_FULL = "late_amplifier"
+ULPS = 3  # by how many units of its last digit a printed number may differ
+PART = 0.003  # or by which part of itself
+
+_FENCE = re.compile(r"^```(.*)$")
+_NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+
+
+@dataclass(frozen=True)
+class Block:
+    """A block of shell commands, and the output that the text prints for it, if any."""
+
+    line: int
+    code: str
+    output: str | None
+
+    @property
+    def commands(self) -> str:
+        """What runs of it: installing and the test suite are what CI does before it comes here."""
+        kept = [re.sub(r"^pip install [^&]*(&& )?", "", row) for row in self.code.splitlines()]
+        return "\n".join(shortened(row) for row in kept if row and "pytest" not in row)
+
+
+def shortened(command: str) -> str:
+    """The command, or the same with less to search."""
+    if "erdctl diagnose" in command and "--effects" not in command and IN_FULL not in command:
+        return command.replace("erdctl diagnose", "erdctl diagnose" + FEW_EFFECTS)
+    return command
+
+
+def blocks(path: Path) -> list[Block]:
+    """The `sh` blocks of a Markdown file; a plain block before the next heading is its output."""
+    found: list[Block] = []
+    inside: str | None = None
+    body: list[str] = []
+    start, open_to_output = 0, False
+    for number, row in enumerate(path.read_text().splitlines(), start=1):
+        fence = _FENCE.match(row)
+        if fence and inside is None:
+            inside, body, start = fence[1].split(" ")[0], [], number + 1
+        elif fence:
+            text = "\n".join(body)
+            if inside == "sh":
+                found.append(Block(start, text, None))
+                open_to_output = True
+            elif inside == "" and open_to_output:
+                found[-1] = Block(found[-1].line, found[-1].code, text)
+                open_to_output = False
+            inside = None
+        elif inside is not None:
+            body.append(row)
+        elif row.startswith("#"):
+            open_to_output = False
+    return found
+
+
+def inline(path: Path) -> list[str]:
+    """Whole commands in `code` of running text: those without placeholders."""
+    prose = re.sub(r"^```.*?^```", "", path.read_text(), flags=re.MULTILINE | re.DOTALL)
+    spans = re.findall(r"`(erdctl [^`]*)`", prose.replace("\n", " "))
+    whole = [s for s in spans if not re.search(r"\b[A-Z]{3,}\b|\.\.\.|\[", s)]
+    return list(dict.fromkeys(whole))
+
+
+def examples(help_text: str) -> list[str]:
+    """The commands under `Example:` or `Examples:` of a help text, continued lines joined."""
+    after = re.split(r"Examples?:\n", help_text, maxsplit=1)[1]
+    joined = re.sub(r"\\\n\s+", "", after.split("\n\n")[0])
+    return [row.strip() for row in joined.splitlines() if row.strip()]
+
+
+def workplace(folder: Path) -> Path:
+    """A folder like the project's own, with `fixtures`, `../shared` and `erdctl` of this source."""
+    work, programs = folder / "work", folder / "bin"
+    work.mkdir()
+    programs.mkdir()
+    (work / "fixtures").symlink_to(FIXTURES)
+    if SHARED.exists():
+        (folder / "shared").symlink_to(SHARED.parent)
+    program = programs / "erdctl"
+    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m erdctl "$@"\n')
+    program.chmod(0o755)
+    return work
+
+
+def run(command: str, work: Path) -> subprocess.CompletedProcess[str]:
+    """Run shell commands in a workplace; what they print on either stream is in `stdout`."""
+    place(work, command)
+    path = f"{work.parent / 'bin'}{os.pathsep}{os.environ['PATH']}"
+    return subprocess.run(
+        ["bash", "-euo", "pipefail", "-c", command.replace("/tmp/", f"{work}/")],
+        cwd=work, env={**os.environ, "PATH": path, "HOME": str(work.parent)},
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, stdin=subprocess.DEVNULL,
+    )  # fmt: skip
+
+
+def missing_lines(printed: str, actual: str) -> list[str]:
+    """Lines of a text's output that did not come, in their order, within the last digits."""
+    rows = iter(actual.splitlines())
+    missing = []
+    for want in filter(str.strip, printed.splitlines()):
+        if not any(alike(want, row) for row in rows):
+            missing.append(want)
+            rows = iter(actual.splitlines())
+    return missing
+
+
+def alike(want: str, got: str) -> bool:
+    """Whether two lines say the same but for spaces and the last digits of numbers."""
+    if _NUMBER.sub("#", want).split() != _NUMBER.sub("#", got).split():
+        return False
+    pairs = zip(_NUMBER.findall(want), _NUMBER.findall(got), strict=True)
+    return all(abs(float(a) - float(b)) <= allowed(a) for a, b in pairs)
+
+
+def allowed(number: str) -> float:
+    """By how much a printed number may be off."""
+    mantissa, _, exponent = number.partition("e")
+    decimals = len(mantissa.partition(".")[2])
+    last = 10.0 ** (int(exponent or 0) - decimals)
+    # A whole number counts something.
+    return max(ULPS * last, PART * abs(float(number))) if decimals or exponent else 0.0
