@@ -136,6 +136,14 @@ def test_simulate_long(logs: dict[str, Path]) -> None:
     compare(what, 1.5, "pyarrow reads and writes the same columns", ours, base)
 
 
+def test_inspect_long(logs: dict[str, Path]) -> None:
+    read = "import pyarrow.parquet as pq, sys; t = pq.read_table(sys.argv[1]);"
+    read += " [t[c].to_numpy() for c in ('t', 'x', 'xdot', 'duty', 'force')]"
+    ours = [[*ERDCTL, "inspect", str(logs["long"]), "--json"]]
+    base = [[*python(read), str(logs["long"])]]
+    compare(f"inspect, {ROWS:,} rows", 6.0, "pyarrow reads the same columns", ours, base)
+
+
 def test_identify_long(logs: dict[str, Path]) -> None:
     solve = (
         "import numpy as np, pyarrow.parquet as pq, sys; t = pq.read_table(sys.argv[1]);"
@@ -151,10 +159,10 @@ def test_identify_long(logs: dict[str, Path]) -> None:
     assert c_vis == pytest.approx(66, rel=0.01)
 
 
-@pytest.mark.parametrize("command", ["identify", "simulate"])
+@pytest.mark.parametrize("command", ["inspect", "identify", "simulate"])
 def test_memory_long(logs: dict[str, Path], command: str) -> None:
     out = str(logs["folder"] / ("m.json" if command == "identify" else "m.parquet"))
-    arguments = [str(logs["long"]), "-o", out]
+    arguments = [str(logs["long"]), *([] if command == "inspect" else ["-o", out])]
     if command == "simulate":
         arguments.insert(0, PARAMS)
     start = peak_mib([*ERDCTL, "--help"]) if ROWS < 5_000_000 else 0.0

@@ -112,6 +112,6 @@ def test_diagnoses(tmp_path: Path) -> None:
 
 
 def test_a_proof() -> None:
-    failed = Failed(number=2, seed=8, kind="pair", reason="no reason")
+    failed = Failed(number=2, seed=8, message="no convergence")
     seeds, wish = [7, 8], Wish(effects=("backlash",))
     check("proof", proof.to_json(proof.proof_of(wish, seeds, [result(), failed])))
