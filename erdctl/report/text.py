@@ -99,4 +99,5 @@ def progress() -> Iterator[Callable[[str, str], None]]:
     columns = SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn()
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("")
-        yield lambda stage, what: bar.update(task, description=f"{stage}: {what}")
+        # Drawn at once: a stage may be over before the next of ten pictures a second.
+        yield lambda stage, what: bar.update(task, description=f"{stage}: {what}", refresh=True)
