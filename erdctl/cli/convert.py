@@ -36,8 +36,12 @@ def command(
     """
     from erdctl.io.convert import read_converted
     from erdctl.io.tables import output_format, write_table
-    from erdctl.report.text import say
+    from erdctl.report.text import progress, say
 
     wanted = format and format.value
     output_format(output, wanted)  # a wrong suffix shows before a long reading
-    write_table(read_converted(log, maps=maps, say=say), output, wanted)
+    with progress() as step:
+        step("reading", log)
+        table = read_converted(log, maps=maps, say=say)
+        step("writing", output)
+        write_table(table, output, wanted)

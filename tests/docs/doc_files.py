@@ -10,7 +10,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pandas as pd
+import pytest
 from places import FIXTURES
+from typer.testing import CliRunner
+
+from erdctl.cli.app import build
 
 Make = Callable[[Path], None]
 
@@ -35,9 +39,34 @@ def bench(*records: str) -> Make:
     return make
 
 
+def converted(path: Path) -> None:
+    """The bench log in the format that the suffix says."""
+    source = path.with_suffix(".original.parquet")
+    FILES["bench.parquet"](source)
+    done = CliRunner().invoke(build(["convert"]), ["convert", str(source), str(path)])
+    assert done.exit_code == 0, done.stderr
+
+
+def lab_tdms(path: Path) -> None:
+    """A TDMS file as a lab writes it: own names, deflection in mm, force in kN."""
+    nptdms = pytest.importorskip("nptdms")
+    log = pd.read_csv(FIXTURES / "foreign.csv")
+    columns = {
+        "t": (1e-3 * log["Time"], "s"), "Defl FL": (log["Defl FL"], "mm"),
+        "F_fl": (1e-3 * log["F_fl"], "kN"), "duty": (0.01 * log["PWM"], "1"),
+    }  # fmt: skip
+    with nptdms.TdmsWriter(str(path)) as file:
+        file.write_segment([
+            nptdms.ChannelObject("bench", name, values.to_numpy(), {"unit_string": unit})
+            for name, (values, unit) in columns.items()
+        ])  # fmt: skip
+
+
 FILES: dict[str, Make] = {
     "bench.csv": bench("sine_2Hz_11mm_pwm0", "steps_1", "steps_3"),
     "bench.parquet": bench("sine_2Hz_11mm_pwm0", "steps_1", "steps_3"),
+    "bench.mf4": converted,
+    "bench.tdms": lab_tdms,
     "a.csv": bench("sine_2Hz_11mm_pwm0", "steps_1"),
     "b.csv": bench("steps_2", "steps_3"),
     "later.csv": bench("sine_0.5Hz_20mm_pwm0", "steps_2"),
