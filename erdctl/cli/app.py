@@ -51,7 +51,7 @@ def _end(message: str, code: ExitCode) -> typer.Exit:
 
 
 COMMANDS = (
-    "identify", "simulate", "validate", "diagnose", "prove", "mimic", "convert", "derive",
+    "identify", "simulate", "validate", "diagnose", "prove", "mimic", "plot", "convert", "derive",
     "effects", "schema",
 )  # fmt: skip
 

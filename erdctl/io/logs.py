@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pyarrow as pa
@@ -32,12 +32,14 @@ class Log:
 
     table : all columns of the log, in its order and row by row as in the recording; mapped
         columns bear the contract's name and are SI (only if asked for)
-    force_model : (n,) [N] if the log has it (only where force is needed)
+    force_model : (n,) [N] if the log has it (only where force is needed or wanted)
+    others : (n,) further columns that were asked for and are there
     """
 
     recording: Recording
     table: pa.Table | None = None
     force_model: Array | None = None
+    others: dict[str, Array] = field(default_factory=dict)
 
 
 def read_logs(
@@ -45,14 +47,18 @@ def read_logs(
     *,
     maps: Sequence[str] = (),
     need_force: bool,
+    want_force: bool = False,
     keep_table: bool = False,
     want_hash: bool = False,
+    others: Sequence[str] = (),
     report: Report,
 ) -> Log:
     """Read and validate bench logs (any format of `Format`; "-" is standard input).
 
-    maps : `--map` options, for all logs alike;  need_force : else force is read only if mapped
+    maps : `--map` options, for all logs alike
+    need_force : else force is read only if mapped, or with want_force where the log has it
     keep_table : keep all columns, for a single log;  want_hash : SHA-256 of each log
+    others : columns of numbers to read where they are there, of a single log
     report : takes a line for everything that was assumed or derived
 
     Records keep their names; of several logs they become "stem:record". A log without a column
@@ -70,8 +76,10 @@ def read_logs(
             path,
             mappings,
             need_force=need_force,
+            want_force=want_force or need_force,
             keep_table=keep_table,
             want_hash=want_hash,
+            others=others if len(paths) == 1 else (),
             report=report,
         )
         for path in paths
@@ -96,8 +104,10 @@ def _read(
     mappings: Sequence[Mapping],
     *,
     need_force: bool,
+    want_force: bool,
     keep_table: bool,
     want_hash: bool,
+    others: Sequence[str],
     report: Report,
 ) -> Log:
     source = open_source(path)
@@ -109,16 +119,21 @@ def _read(
         source,
         mappings,
         needed=["t", "x", "force"] if need_force else ["t", "x"],
-        left=() if need_force else FORCES,
+        left=() if want_force else FORCES,
         say=say,
     )
-    wanted = source.columns if keep_table else tuple(column for column, _ in plan.values())
+    planned = [column for column, _ in plan.values()]
+    extra = [name for name in others if name in source.columns and name not in planned]
+    wanted = source.columns if keep_table else (*planned, *extra)
     check_fits(source, len(wanted))
-    table, plan, digest = read_planned(source, plan, mappings, wanted, want_hash=want_hash, say=say)
+    table, plan, digest = read_planned(
+        source, plan, mappings, wanted, others=extra, want_hash=want_hash, say=say
+    )
     rows = table.num_rows
     if not rows:
         raise InputProblem("a header but no samples", file=source.name)
     place = Place(source.name, lambda sample: source.row_of(sample, rows))
+    found = {name: to_numbers(table.column(name), name, place) for name in extra}
     table = in_contract_names(table, plan, say)
     starts, names = _records(table, plan, place)
     narrow = table.schema.field("t").type == pa.float32()
@@ -143,6 +158,7 @@ def _read(
         recording,
         table=_with_own_label(table, source, plan, starts, names) if keep_table else None,
         force_model=channels.get("force_model"),
+        others=found,
     )
 
 

@@ -262,7 +262,7 @@ def test_schema_describes_the_document(identified: Path) -> None:
 
 
 COMMANDS = (
-    "identify", "simulate", "validate", "diagnose", "prove", "mimic", "convert", "derive",
+    "identify", "simulate", "validate", "diagnose", "prove", "mimic", "plot", "convert", "derive",
     "effects", "schema",
 )  # fmt: skip
 
