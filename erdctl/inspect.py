@@ -155,11 +155,9 @@ def _record(recording: Recording, index: int) -> Record:
 
 
 def _seconds_at(recording: Recording) -> dict[float, float]:
-    levels = duty_levels(recording.duty)
-    # Levels are multiples of a thousandth, see `duty_levels`.
-    seconds = np.bincount(np.round(1000.0 * levels).astype(np.intp), weights=recording.step)
-    held = np.bincount(np.round(1000.0 * levels).astype(np.intp))
-    return {level / 1000.0: float(seconds[level]) for level in np.flatnonzero(held).tolist()}
+    codes, levels = duty_levels(recording.duty)
+    seconds = np.bincount(codes, weights=recording.step, minlength=len(levels))
+    return dict(zip(levels.tolist(), seconds.tolist(), strict=True))
 
 
 def force_noise(recording: Recording) -> ForceNoise:

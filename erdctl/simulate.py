@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from erdctl.blocks import neighbours
 from erdctl.parameters import Parameters
-from erdctl.recording import Array, Recording
+from erdctl.recording import DIRECTIONS, Array, Recording
 from erdctl.signals import Signals
 
 UNITS = {"x": "m", "xdot": "m/s", "duty": ""}
@@ -41,6 +42,13 @@ def _force(parameters: Parameters, recording: Recording, faults: Sequence[str]) 
     found = factors([parse_fault(f) for f in faults], signals.t, signals.xdot, signals.starts)
     groups = {"gas": found.gas, "viscous": found.viscous, "yield": found.yield_}
     return prepared.force(parameters.values, groups)
+
+
+def without_lag(parameters: Parameters) -> Parameters:
+    """The static model of Eq. 9: the same parameters with T_d = 0."""
+    lags = [f"{d}.T_d" for d in DIRECTIONS]
+    still = {name: replace(parameters.estimates[name], value=0.0) for name in lags}
+    return replace(parameters, estimates={**parameters.estimates, **still})
 
 
 def remarks(parameters: Parameters, recording: Recording) -> list[str]:

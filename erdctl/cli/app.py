@@ -77,7 +77,7 @@ def _end(message: str, code: ExitCode) -> typer.Exit:
 
 
 COMMANDS = (
-    "inspect", "identify", "simulate", "validate", "diagnose", "prove", "mimic", "convert",
+    "inspect", "identify", "simulate", "validate", "diagnose", "prove", "mimic", "plot", "convert",
     "derive", "effects", "schema",
 )  # fmt: skip
 

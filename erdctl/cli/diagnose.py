@@ -8,6 +8,7 @@ import typer
 
 from erdctl.cli.options import Logs, Maps, Out
 from erdctl.cli.pages import Report, check_report
+from erdctl.cli.pictures import Plots
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -68,6 +69,7 @@ def command(
     ] = False,
     report: Report = None,
     maps: Maps = [],
+    plot: Plots = [],
 ) -> None:
     """Locate a mismatch, name the physics left out, and show the fit improve.
 
@@ -83,16 +85,19 @@ def command(
       erdctl diagnose bench.parquet --jobs 2 --max-effects 4
       erdctl diagnose bench.parquet --record-gains --record-offsets
       erdctl identify bench.csv | erdctl diagnose later.csv --params - -o diagnosis.json
+      erdctl diagnose bench.csv -o diagnosis.json --plot before-after.png --plot misfit:map.svg
     """
+    from erdctl.cli.pictures import draw, wanted
     from erdctl.cli.reading import read_logs
     from erdctl.diagnose.diagnosis import Verdict, diagnose
     from erdctl.diagnose.scatter import Free
     from erdctl.errors import CheckFailed
     from erdctl.io import documents
-    from erdctl.io.diagnosis import to_json
+    from erdctl.io.diagnosis import parameters, to_json
     from erdctl.report.text import progress, say
 
     check_report(report)
+    asked = wanted(plot, "before-after")
     given, file = _given(params, logs)
     log = read_logs(logs, maps=maps, need_force=True, want_hash=True, report=say)
     candidates = _candidates(only, exclude)
@@ -107,6 +112,10 @@ def command(
     documents.write(document, output)
     if report is not None:
         _report(found, document, report, seed)
+    if asked:
+        from erdctl.report.subjects import of_diagnosis
+
+        draw(asked, of_diagnosis(found, parameters(found)))
     _show(found)
     if fail_on_mismatch and found.verdict is not Verdict.ADEQUATE:
         raise CheckFailed(f"the paper's model does not hold: {found.verdict.value}")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from erdctl.cli.options import Logs, Maps, Out
+from erdctl.cli.pictures import Plots
 
 if TYPE_CHECKING:
     from erdctl.identify import Identification
@@ -29,6 +30,7 @@ def command(
         Method, typer.Option(help="Fit all parameters together, or as the paper does (Sec. 4).")
     ] = Method.JOINT,
     robust: Annotated[bool, typer.Option("--robust", help="Weigh outliers down (Huber).")] = False,
+    plot: Plots = [],
 ) -> None:
     """Identify the paper's ER damper model from bench logs.
 
@@ -40,17 +42,33 @@ def command(
       erdctl identify bench.parquet -o damper.json
       erdctl identify a.csv b.csv --map "force=F_fl[N]" --map "x=Defl FL[mm]" -o damper.json
       erdctl identify bench.csv | erdctl validate - other.csv
+      erdctl identify bench.csv -o damper.json --plot loops.png --plot yield-force:law.svg
     """
+    from erdctl.cli.pictures import draw, wanted
     from erdctl.cli.reading import read_logs
     from erdctl.identify import identify
     from erdctl.io.parameters import write_parameters
     from erdctl.report.text import progress, say
 
+    asked = wanted(plot, "loops")
     log = read_logs(logs, maps=maps, need_force=True, want_hash=True, report=say)
     with progress() as step:
         found = identify(log.recording, robust=robust, progress=step)
     parameters = _parameters(found, method, log.recording)
     write_parameters(parameters, output)
+    if asked:
+        from erdctl.report.subject import Subject
+        from erdctl.report.subjects import about
+        from erdctl.simulate import simulate
+
+        modelled = simulate(parameters, log.recording)
+        draw(
+            asked,
+            Subject(
+                recording=log.recording, modelled=modelled, parameters=parameters,
+                about=about(log.recording),
+            ),
+        )  # fmt: skip
     _show(found, parameters)
 
 

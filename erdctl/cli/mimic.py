@@ -8,12 +8,15 @@ import typer
 
 from erdctl.cli.options import Faults, Format, Maps, Out, Params
 from erdctl.cli.pages import Report, check_report
+from erdctl.cli.pictures import Plots
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from erdctl.cli.pictures import Wanted
     from erdctl.io.pwm import Sequence
     from erdctl.mimic import Correction, Plan
+    from erdctl.parameters import Parameters
     from erdctl.recording import Recording
 
 
@@ -60,6 +63,7 @@ def command(
     format: Annotated[
         Format | None, typer.Option(help="Format on stdout (CSV unless said).")
     ] = None,
+    plot: Plots = [],
 ) -> None:
     """Mimic faults on a healthy damper: the PWM sequence to push to the amplifiers (Sec. 6).
 
@@ -75,12 +79,14 @@ def command(
         --fault deformation=0.7@46 -o pwm.csv --report pwm.html
       erdctl mimic damper.json drive.csv --fault oil=0.5 --update-rate 200 -o pwm.mat
       erdctl mimic damper.json drive.csv --fault oil=0.5 | erdctl simulate damper.json -
+      erdctl mimic damper.json drive.csv --fault oil=0.5 -o pwm.csv --plot f-v.png --plot duty:v.png
     """
     import math
     from dataclasses import replace
     from hashlib import sha256
 
     from erdctl.amplifier import Amplifier
+    from erdctl.cli.pictures import wanted
     from erdctl.cli.reading import read_logs
     from erdctl.errors import UsageProblem
     from erdctl.faults import Channel, on_channel, parse_fault
@@ -99,6 +105,7 @@ def command(
     if duty is not None and not 0.0 <= duty <= 1.0:
         raise UsageProblem(f"--duty is a fraction from 0 to 1, not {duty:g}")
     check_report(report)
+    asked = wanted(plot, "mimic")
     amplifier = Amplifier(
         carrier=carrier, full_scale=full_scale, duty_max=duty_max, resolution=resolution,
         slew=math.inf if slew is None else slew, update_rate=update_rate,
@@ -151,7 +158,24 @@ def command(
         )  # fmt: skip
         page = mimic_page(plans, recording, healthy, static=uncompensated, run=run)
         write_report(page, report)
+    if asked:
+        _draw(asked, sequence, parameters)
     _show(plans)
+
+
+def _draw(asked: list[Wanted], sequence: Sequence, parameters: Parameters) -> None:
+    """Pictures of each faulty damper; of several, each has its name in the file's."""
+    import os
+    from dataclasses import replace
+
+    from erdctl.cli.pictures import draw
+    from erdctl.report.subjects import of_plan
+
+    for channel, plan in sequence.plans.items():
+        named = asked
+        if len(sequence.plans) > 1:
+            named = [replace(w, path=f"-{channel}".join(os.path.splitext(w.path))) for w in asked]
+        draw(named, of_plan(plan, parameters, sequence.recording, static=sequence.static))
 
 
 def _check_temperature(recording: Recording, limit: float, forced: bool) -> None:

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from erdctl.cli.options import Faults, Format, Maps, Out, Params
+from erdctl.cli.pictures import Plots
 
 
 def command(
@@ -28,6 +29,7 @@ def command(
     format: Annotated[
         Format | None, typer.Option(help="Format on stdout (CSV unless said).")
     ] = None,
+    plot: Plots = [],
 ) -> None:
     """Simulate the damper force over a log or a described drive.
 
@@ -40,7 +42,9 @@ def command(
       erdctl simulate damper.json --drive sine:freq=1,amp=0.01,duty=0.2
       erdctl simulate damper.json drive.csv --fault oil=0.5@15:31 --fault electrical=0.8@31:46
       erdctl simulate damper.json drive.csv | erdctl validate -
+      erdctl simulate damper.json drive.csv --fault oil=0.5 --plot faults.png -o out.parquet
     """
+    from erdctl.cli.pictures import draw, wanted
     from erdctl.errors import UsageProblem
     from erdctl.io.parameters import read_parameters
     from erdctl.io.tables import append_column, write_table
@@ -51,6 +55,7 @@ def command(
         raise UsageProblem("simulate needs either a LOG or --drive, e.g. --drive sine:freq=1")
     if params == "-" and log == "-":
         raise UsageProblem("PARAMS and LOG cannot both be stdin")
+    asked = wanted(plot, "faults" if fault else "loops")
     parameters = read_parameters(params)
     if log is not None:
         from erdctl.cli.reading import read_logs
@@ -70,3 +75,15 @@ def command(
         step("simulating", f"{len(recording)} samples")
         force = simulate(parameters, recording, fault)
     write_table(append_column(table, "force_model", force), output, format and format.value)
+    if asked:
+        from erdctl.report.subject import Subject
+        from erdctl.report.subjects import about, of_faults
+
+        draw(
+            asked,
+            Subject(
+                recording=recording, modelled=force, parameters=parameters,
+                cases=of_faults(parameters, recording, fault) if fault else {},
+                about=about(recording),
+            ),
+        )  # fmt: skip

@@ -8,6 +8,7 @@ import typer
 
 from erdctl.cli.options import Maps
 from erdctl.cli.pages import Report, check_report
+from erdctl.cli.pictures import Plots
 
 if TYPE_CHECKING:
     from erdctl.score import Score, Validation
@@ -33,6 +34,7 @@ def command(
     ] = "range",
     report: Report = None,
     maps: Maps = [],
+    plot: Plots = [],
 ) -> None:
     """Compare modelled and measured force: NRMSE per PWM level, direction and record.
 
@@ -44,7 +46,9 @@ def command(
       erdctl validate damper.json other.csv --report validation.html
       erdctl validate damper.json other.csv --json --fail-above 0.1
       erdctl simulate damper.json drive.csv | erdctl validate -
+      erdctl validate damper.json other.csv --plot loops.png --plot time:force.png
     """
+    from erdctl.cli.pictures import draw, wanted, wants
     from erdctl.cli.reading import read_logs
     from erdctl.errors import CheckFailed, InputProblem, UsageProblem
     from erdctl.report.text import progress, say
@@ -55,6 +59,7 @@ def command(
     check_report(report)
     want_hash = report is not None
     noise = None
+    asked, parameters = wanted(plot, "loops"), None
     if len(arguments) == 1:
         log = read_logs(arguments, maps=maps, need_force=True, want_hash=want_hash, report=say)
         modelled = log.force_model
@@ -97,6 +102,18 @@ def command(
             found, log.recording, modelled, noise=noise, limit=fail_above, run=run
         )
         write_report(page, report)
+    if asked:
+        from erdctl.report.subject import Subject
+        from erdctl.report.subjects import about, located
+
+        draw(
+            asked,
+            Subject(
+                recording=log.recording, modelled=modelled, parameters=parameters,
+                regions=located(log.recording, modelled) if wants(asked, "regions") else (),
+                about=about(log.recording),
+            ),
+        )  # fmt: skip
     if fail_above is not None:
         over = [f"{d:g}: {s.nrmse:.4f}" for d, s in found.by_duty.items() if s.nrmse > fail_above]
         if over:

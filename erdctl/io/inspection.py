@@ -123,7 +123,7 @@ def to_json(found: Inspection, log: Log) -> InspectionFile:
             }
             for c in log.channels
         ],
-        "other_columns": list(log.others),
+        "other_columns": list(log.unread),
         "samples": found.samples,
         "duration": found.duration,
         "xdot": found.xdot,

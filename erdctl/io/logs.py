@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pyarrow as pa
@@ -42,15 +42,17 @@ class Log:
 
     table : all columns of the log, in its order and row by row as in the recording; mapped
         columns bear the contract's name and are SI (only if asked for)
-    force_model : (n,) [N] if the log has it (only where force is needed)
-    channels : what was read, and from which columns;  others : columns that were not
+    force_model : (n,) [N] if the log has it (only where force is needed or wanted)
+    channels : what was read, and from which columns;  unread : columns that were not
+    others : (n,) further columns that were asked for and are there
     """
 
     recording: Recording
     table: pa.Table | None = None
     force_model: Array | None = None
     channels: tuple[Channel, ...] = ()
-    others: tuple[str, ...] = ()
+    unread: tuple[str, ...] = ()
+    others: dict[str, Array] = field(default_factory=dict)
 
 
 def read_logs(
@@ -61,13 +63,15 @@ def read_logs(
     want_force: bool = False,
     keep_table: bool = False,
     want_hash: bool = False,
+    others: Sequence[str] = (),
     report: Report,
 ) -> Log:
     """Read and validate bench logs (any format of `Format`; "-" is standard input).
 
-    maps : `--map` options, for all logs alike;  need_force : else force is read only if mapped
-    want_force : read force where there is one
+    maps : `--map` options, for all logs alike
+    need_force : else force is read only if mapped, or with want_force where the log has it
     keep_table : keep all columns, for a single log;  want_hash : SHA-256 of each log
+    others : columns of numbers to read where they are there, of a single log
     report : takes a line for everything that was assumed or derived
 
     Records keep their names; of several logs they become "stem:record". A log without a column
@@ -85,9 +89,10 @@ def read_logs(
             path,
             mappings,
             need_force=need_force,
-            want_force=want_force,
+            want_force=want_force or need_force,
             keep_table=keep_table,
             want_hash=want_hash,
+            others=others if len(paths) == 1 else (),
             report=report,
         )
         for path in paths
@@ -105,7 +110,7 @@ def read_logs(
         concatenate(recordings),
         force_model=np.concatenate(models) if len(models) == len(logs) else None,
         channels=tuple(dict.fromkeys(c for log in logs for c in log.channels)),
-        others=tuple(dict.fromkeys(name for log in logs for name in log.others)),
+        unread=tuple(dict.fromkeys(name for log in logs for name in log.unread)),
     )
 
 
@@ -117,6 +122,7 @@ def _read(
     want_force: bool,
     keep_table: bool,
     want_hash: bool,
+    others: Sequence[str],
     report: Report,
 ) -> Log:
     source = open_source(path)
@@ -128,16 +134,21 @@ def _read(
         source,
         mappings,
         needed=["t", "x", "force"] if need_force else ["t", "x"],
-        left=() if need_force or want_force else FORCES,
+        left=() if want_force else FORCES,
         say=say,
     )
-    wanted = source.columns if keep_table else tuple(column for column, _ in plan.values())
+    planned = [column for column, _ in plan.values()]
+    extra = [name for name in others if name in source.columns and name not in planned]
+    wanted = source.columns if keep_table else (*planned, *extra)
     check_fits(source, len(wanted))
-    table, plan, digest = read_planned(source, plan, mappings, wanted, want_hash=want_hash, say=say)
+    table, plan, digest = read_planned(
+        source, plan, mappings, wanted, others=extra, want_hash=want_hash, say=say
+    )
     rows = table.num_rows
     if not rows:
         raise InputProblem("a header but no samples", file=source.name)
     place = Place(source.name, lambda sample: source.row_of(sample, rows))
+    found = {name: to_numbers(table.column(name), name, place) for name in extra}
     table = in_contract_names(table, plan, say)
     starts, names = _records(table, plan, place)
     narrow = table.schema.field("t").type == pa.float32()
@@ -166,7 +177,8 @@ def _read(
             Channel(target, column, float(convert.factor), float(convert.offset))
             for target, (column, convert) in plan.items()
         ),
-        others=tuple(c for c in source.columns if c not in {column for column, _ in plan.values()}),
+        unread=tuple(c for c in source.columns if c not in {column for column, _ in plan.values()}),
+        others=found,
     )
 
 

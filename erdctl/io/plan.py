@@ -178,10 +178,13 @@ def read_planned(
     mappings: Sequence[Mapping],
     wanted: Sequence[str],
     *,
+    others: Sequence[str] = (),
     want_hash: bool = False,
     say: Report,
 ) -> tuple[pa.Table, Plan, str]:
     """The wanted columns, what is left to convert of them, and the hash of the file.
+
+    others : columns beside the plan's that hold numbers
 
     The channels of a container come on one time base, and a time of their own in seconds.
     Raises InputProblem for whole numbers of a sensor whose scale nobody states.
@@ -193,7 +196,7 @@ def read_planned(
     table, digest = read_source(
         source,
         wanted,
-        numbers=[column for target, (column, _) in plan.items() if target != RECORD],
+        numbers=[*(column for target, (column, _) in plan.items() if target != RECORD), *others],
         labels=[plan[RECORD][0]] if RECORD in plan else [],
         roles=Roles({column: target for target, (column, _) in plan.items()}, seconds, say),
         want_hash=want_hash,

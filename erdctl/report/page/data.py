@@ -38,10 +38,8 @@ class Levels:
     @classmethod
     def of(cls, recording: Recording) -> Levels:
         """As scores are split."""
-        by_sample = duty_levels(recording.duty)
-        ordered = np.sort(by_sample)
-        duty = np.concatenate([ordered[:1], ordered[1:][np.diff(ordered) > 0]])
-        return cls(duty, np.searchsorted(duty, by_sample))
+        codes, duty = duty_levels(recording.duty)
+        return cls(duty, codes.astype(np.intp))
 
     @property
     def names(self) -> list[str]:

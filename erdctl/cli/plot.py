@@ -1,0 +1,166 @@
+"""`erdctl plot`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from erdctl.cli.options import Faults, Logs, Maps
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from erdctl.io.logs import Log
+    from erdctl.report.subject import Subject
+
+
+def command(
+    logs: Logs,
+    output: Annotated[
+        str,
+        typer.Option("--output", "-o", metavar="FILE", help="Picture: .png, .svg or .pdf."),
+    ],
+    kind: Annotated[
+        str | None, typer.Option(metavar="KIND", help="One of the list above; loops, or faults.")
+    ] = None,
+    params: Annotated[
+        str | None,
+        typer.Option(metavar="PARAMS", help="Model to draw with the log; - is stdin."),
+    ] = None,
+    before: Annotated[
+        str | None, typer.Option(metavar="PARAMS", help="Model to compare that one with.")
+    ] = None,
+    fault: Faults = [],
+    record: Annotated[
+        list[str], typer.Option(metavar="NAME", help="Only this record. May be repeated.")
+    ] = [],
+    span: Annotated[
+        str | None,
+        typer.Option(metavar="START:END", help="Only this time of each record, in s."),
+    ] = None,
+    maps: Maps = [],
+) -> None:
+    """Draw a bench log, and models over it.
+
+    \b
+    Kinds:
+      loops         force against deflection and velocity, coloured by PWM level
+      static        the static model beside the dynamic one (--params)
+      time          force over time, measured and model, and their difference
+      motion        deflection, velocity and duty over time
+      duty          a mimic sequence, with the stretches out of reach
+      faults        healthy and with each --fault (--params)
+      mimic         force against velocity per mimicked fault (erdctl mimic --plot)
+      yield-force   yield force against duty, and the law (--params)
+      misfit        where the model misses: velocity, duty, located variable
+      before-after  loops of two models over the same samples (--before, --params)
+      peak-force    force at the peak velocity of each stroke
+      average       averaged force-velocity curve per PWM level
+      slow          gas force and seal drag from slow strokes without field
+
+    Time series keep the extremes of every pixel column, loops every pixel that a sample fills. A
+    log with force_model needs no --params.
+
+    \b
+    Examples:
+      erdctl plot bench.parquet -o loops.png
+      erdctl plot bench.parquet --params damper.json --kind time --span 2:5 -o force.svg
+      erdctl plot bench.csv --params new.json --before old.json --kind before-after -o both.pdf
+      erdctl plot drive.csv --params damper.json --fault oil=0.5 -o faults.png
+      erdctl plot dyno.csv --kind peak-force -o peaks.png
+    """
+    from erdctl.cli.pictures import Wanted, draw, prepare, wants
+    from erdctl.cli.reading import read_logs
+    from erdctl.report import pictures
+    from erdctl.report.picture import suffix
+    from erdctl.report.subjects import PROGRAMME
+    from erdctl.report.text import say
+
+    chosen = kind or ("faults" if fault else "loops")
+    pictures.get(chosen)
+    asked = [Wanted(chosen, output, suffix(output))]
+    window = _seconds(span)
+    stdin = [source for source in (*logs, params, before) if source == "-"]
+    if len(stdin) > 1:
+        from erdctl.errors import UsageProblem
+
+        raise UsageProblem("only one of LOG, --params and --before can be stdin")
+    others = PROGRAMME if wants(asked, "programme") else ()
+    prepare()
+    log = read_logs(logs, maps=maps, need_force=False, want_force=True, others=others, report=say)
+    subject = _subject(log, params, before, fault, regions=wants(asked, "regions"))
+    draw(asked, _part(subject, record, window))
+
+
+def _subject(
+    log: Log, params: str | None, before: str | None, faults: list[str], *, regions: bool
+) -> Subject:
+    from erdctl.errors import UsageProblem
+    from erdctl.io.parameters import read_parameters
+    from erdctl.report.subject import Subject
+    from erdctl.report.subjects import about, located, of_faults, programme
+    from erdctl.simulate import simulate
+
+    recording, modelled, earlier, cases, parameters = log.recording, log.force_model, None, {}, None
+    if params is not None:
+        parameters = read_parameters(params)
+        modelled = simulate(parameters, recording, faults)
+        if faults:
+            cases = of_faults(parameters, recording, faults)
+    elif faults:
+        raise UsageProblem("--fault needs --params")
+    if before is not None:
+        earlier = simulate(read_parameters(before), recording)
+    missing = modelled if earlier is None else earlier
+    return Subject(
+        recording=recording,
+        modelled=modelled,
+        before=earlier,
+        parameters=parameters,
+        cases=cases,
+        programme=programme(log.others),
+        regions=() if not regions or missing is None else located(recording, missing),
+        about=about(recording),
+    )
+
+
+def _seconds(span: str | None) -> tuple[float, float] | None:
+    from erdctl.errors import UsageProblem
+
+    if span is None:
+        return None
+    start, colon, end = span.partition(":")
+    try:
+        low, high = float(start or "-inf"), float(end or "inf")
+    except ValueError:
+        colon = ""
+        low = high = 0.0
+    if not colon or not low < high:
+        raise UsageProblem(f"--span is START:END in seconds, e.g. 2:5.5, not '{span}'")
+    return low, high
+
+
+def _part(subject: Subject, records: Sequence[str], window: tuple[float, float] | None) -> Subject:
+    import numpy as np
+
+    from erdctl.errors import UsageProblem
+    from erdctl.report.subject import cut
+
+    r = subject.recording
+    if not records and window is None:
+        return subject
+    unknown = [name for name in records if name not in r.names]
+    if unknown:
+        some = ", ".join(r.names[:8]) + (", ..." if len(r.names) > 8 else "")
+        raise UsageProblem(f"no record '{unknown[0]}' in the log; it has {some}")
+    keep = np.ones(len(r), dtype=bool)
+    if records:
+        chosen = np.array([name in records for name in r.names])
+        keep &= np.repeat(chosen, np.diff(r.starts))
+    if window is not None:
+        keep &= (r.t >= window[0]) & (r.t <= window[1])
+    rows = np.flatnonzero(keep)
+    if len(rows) < 2:
+        raise UsageProblem("--span and --record leave fewer than two samples")
+    return cut(subject, rows)

@@ -1,0 +1,139 @@
+"""What there is to draw: a recording, forces over it, and what was found out about them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from erdctl.recording import Array, Index, Recording
+from erdctl.score import Codes, duty_levels
+from erdctl.strokes import cycles
+
+if TYPE_CHECKING:
+    from erdctl.diagnose.locate import Region
+    from erdctl.parameters import Parameters
+
+Flags = npt.NDArray[np.bool_]
+
+# What a picture can need, and how a user can give it.
+NEEDS = {
+    "measured": "a measured force (column force)",
+    "modelled": "a modelled force: give a parameter file, or a log with a column force_model",
+    "before": "a second model to compare with: give it as --before",
+    "parameters": "a parameter file",
+    "cases": "faults: give them as --fault",
+    "acting": "faults that are mimicked: it is drawn by erdctl mimic",
+    "programme": "a mimic sequence: columns duty_healthy and out_of_reach, as erdctl mimic writes",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Programme:
+    """A duty sequence that mimics faults.
+
+    healthy : (n,) duty that it replaces [1];  out_of_reach : (n,) no duty gives the faulty force
+    """
+
+    healthy: Array
+    out_of_reach: Flags
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Subject:
+    """One thing to draw; whatever is None or empty is not there.
+
+    modelled : (n,) [N];  before : (n,) of the model before a correction [N]
+    cases : (n,) force of the healthy damper first, then with each fault alone [N]
+    acting : (n,) when each mimicked fault acts
+    regions : where a misfit was located, the sharpest first
+    names : of the measured and of the modelled force, and of the model before
+    about : a line on where this comes from
+    """
+
+    recording: Recording
+    modelled: Array | None = None
+    before: Array | None = None
+    parameters: Parameters | None = None
+    cases: Mapping[str, Array] = field(default_factory=dict)
+    acting: Mapping[str, Flags] = field(default_factory=dict)
+    programme: Programme | None = None
+    regions: tuple[Region, ...] = ()
+    names: tuple[str, str, str] = ("measured", "model", "model before")
+    about: str = ""
+
+    @property
+    def measured(self) -> Array | None:
+        """(n,) force of the log [N]."""
+        return self.recording.force
+
+    @property
+    def force(self) -> Array:
+        """(n,) the measured force, or else the modelled one [N]."""
+        found = self.measured if self.measured is not None else self.modelled
+        if found is None:
+            raise ValueError("nothing to draw: no force at all")
+        return found
+
+    @property
+    def residual(self) -> Array:
+        """(n,) measured less modelled force [N]."""
+        if self.measured is None or self.modelled is None:
+            raise ValueError("a residual needs a measured and a modelled force")
+        return self.measured - self.modelled
+
+    @cached_property
+    def codes(self) -> Codes:
+        """(n,) number of the PWM level of each sample."""
+        return self._levels[0]
+
+    @cached_property
+    def levels(self) -> Array:
+        """(l,) PWM levels [1]."""
+        return self._levels[1]
+
+    @cached_property
+    def _levels(self) -> tuple[Codes, Array]:
+        return duty_levels(self.recording.duty)
+
+    @cached_property
+    def cycles(self) -> tuple[Index, Index]:
+        """First sample (k,) and one behind the last (k,) of every cycle."""
+        return cycles(self.recording)
+
+    def lacks(self, needs: tuple[str, ...]) -> str | None:
+        """The first of some needs that is not met, in words; None if all are."""
+        for need in needs:
+            if need == "force":
+                if self.measured is None and self.modelled is None:
+                    return f"{NEEDS['measured']} or {NEEDS['modelled']}"
+                continue
+            found = getattr(self, need)
+            if found is None or (isinstance(found, Mapping) and not found):
+                return NEEDS[need]
+        return None
+
+
+def cut(subject: Subject, rows: Index) -> Subject:
+    """Some samples (k,) of a subject, ascending; records of which nothing is left are dropped."""
+    r = subject.recording
+    starts, first = np.unique(np.searchsorted(rows, r.starts), return_index=True)
+    names = [r.names[i] for i in np.maximum(first[1:] - 1, 0).tolist()]
+
+    def of(values: Array | None) -> Array | None:
+        return None if values is None else values[rows]
+
+    p = subject.programme
+    return replace(
+        subject,
+        recording=r.take(rows, starts.astype(np.intp), names),
+        modelled=of(subject.modelled),
+        before=of(subject.before),
+        cases={name: force[rows] for name, force in subject.cases.items()},
+        acting={name: flags[rows] for name, flags in subject.acting.items()},
+        programme=None if p is None else Programme(p.healthy[rows], p.out_of_reach[rows]),
+    )

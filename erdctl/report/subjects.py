@@ -1,0 +1,101 @@
+"""Results of the commands as subjects of pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from erdctl.faults import effectiveness
+from erdctl.recording import Array, Recording
+from erdctl.report.subject import Programme, Subject
+from erdctl.simulate import simulate
+
+if TYPE_CHECKING:
+    from erdctl.diagnose.diagnosis import Diagnosis
+    from erdctl.diagnose.locate import Region
+    from erdctl.mimic import Plan
+    from erdctl.parameters import Parameters
+
+PROGRAMME = ("duty_healthy", "out_of_reach")  # columns of a log that mimic wrote
+
+
+def about(recording: Recording) -> str:
+    """The logs and their size."""
+    logs = ", ".join(source.name for source in recording.sources[:3])
+    more = len(recording.sources) - 3
+    if more > 0:
+        logs += f" and {more} more"
+    return f"{logs}: {len(recording):,} samples" if logs else f"{len(recording):,} samples"
+
+
+def of_diagnosis(found: Diagnosis, parameters: Parameters) -> Subject:
+    """The model before and after the correction, over the diagnosed recording.
+
+    parameters : of the corrected model, with errors
+    """
+    recording, signals = found.study.recording, found.study.block.signals
+    base, best = found.choice.base, found.choice.best
+    before = base.model.force(signals, base.values)
+    name = "paper's model"
+    if found.given is not None:
+        before, name = found.given.model.force(signals, found.given.values), "given model"
+    effects = " + ".join(f.effect.name for f in found.findings)
+    return Subject(
+        recording=recording,
+        modelled=best.model.force(signals, best.values),
+        before=before,
+        parameters=parameters,
+        regions=found.mismatch,
+        names=("measured", f"with {effects}" if effects else "corrected model", name),
+        about=about(recording),
+    )
+
+
+def of_plan(
+    plan: Plan, parameters: Parameters, recording: Recording, *, static: bool = False
+) -> Subject:
+    """What a damper is to do while it mimics faults.
+
+    recording : motion and healthy duty;  static : the paper's inverse goes to the amplifiers
+    """
+    r = recording
+    return Subject(
+        recording=replace(r, duty=plan.duty_paper if static else plan.duty, force=plan.ideal),
+        modelled=plan.expected_paper if static else plan.expected,
+        parameters=parameters,
+        cases={"healthy": simulate(parameters, r)},
+        acting={
+            str(reach.fault): effectiveness(reach.fault, r.t, r.xdot, r.starts) < 1.0
+            for reach in plan.reaches
+        },
+        programme=Programme(r.duty, plan.out_of_reach),
+        names=("ideal faulty force", "force to expect", ""),
+        about=about(r),
+    )
+
+
+def of_faults(parameters: Parameters, recording: Recording, faults: list[str]) -> dict[str, Array]:
+    """Force (n,) [N] of the healthy damper, and with each fault alone."""
+    alone = {fault: simulate(parameters, recording, [fault]) for fault in faults}
+    return {"healthy": simulate(parameters, recording), **alone}
+
+
+def located(recording: Recording, modelled: Array) -> tuple[Region, ...]:
+    """Where a model misses a recording's measured force, the sharpest region first."""
+    from erdctl.diagnose.locate import locate
+    from erdctl.diagnose.study import prepare
+
+    if recording.force is None:
+        return ()
+    return tuple(locate(prepare(recording), (recording.force - modelled) ** 2))
+
+
+def programme(columns: Mapping[str, Array]) -> Programme | None:
+    """The sequence in a log that mimic wrote, out of its columns; None if it is no such log."""
+    if not set(PROGRAMME) <= set(columns):
+        return None
+    healthy, out_of_reach = (columns[name] for name in PROGRAMME)
+    return Programme(healthy, np.asarray(out_of_reach > 0.5))
