@@ -22,6 +22,7 @@ FEW = 8  # jumps, in at least
 PLACES = 3  # groups
 ORDER = 2  # of the residual's colour: more would learn the beat of a regular saw-tooth
 NEAR = 4  # samples next to a reversal, a step of the duty or the start of a record, left out
+SLOW = 0.2  # of the log's speed, rms: slower samples are left out too
 STAYS = 0.5  # of a jump that must be there in the mean of
 AFTER = 3  # samples, over that of as many before
 SHARE = 0.1  # of the square of all innovations that they must have
@@ -71,10 +72,14 @@ def _step(force: Array) -> float:
 
 
 def _quiet(study: Study) -> npt.NDArray[np.bool_]:
-    """(n,) samples in which no model jumps either: away from reversals, duty steps and starts."""
+    """(n,) samples in which no model jumps either: away from reversals, duty steps and starts.
+
+    A sign law that is a little wrong misses by something like a jump wherever the motion is slow.
+    """
     s, used = study.block.signals, study.block.weight > 0
     loud = np.zeros(len(s), dtype=np.bool_)
     loud[s.starts[:-1]] = True
     loud[1:] |= (s.duty[1:] != s.duty[:-1]) | (used[1:] != used[:-1])
     loud[1:] |= s.compressing[1:] != s.compressing[:-1]
-    return (np.convolve(loud, np.ones(2 * NEAR + 1), mode="same") < 0.5) & used
+    slow = np.abs(s.xdot) < SLOW * float(np.sqrt(np.mean(s.xdot**2)))
+    return (np.convolve(loud, np.ones(2 * NEAR + 1), mode="same") < 0.5) & used & ~slow
