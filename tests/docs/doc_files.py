@@ -74,7 +74,10 @@ FILES: dict[str, Make] = {
     "new.csv": bench("steps_4", "random_2"),
     "lab.csv": copy("foreign.csv"),
     "drive.csv": copy("schedule_60s.csv"),
+    "dyno.csv": bench("sine_2Hz_11mm_pwm0", "sine_0.5Hz_20mm_pwm0", "steps_1"),
     "damper.json": copy("table_2.json"),
+    "old.json": copy("table_2.json"),
+    "new.json": copy("table_2.json"),
     "geometry.json": copy("geometry_inove.json"),
 }
 
