@@ -26,13 +26,18 @@ MAPS = ["t=Zeit[ms]", "x=Hub<b>[mm]", "xdot=Hub/dt[mm/s]", "duty=PWM[%]", "force
 FOREIGN = ["t=Time[ms]", "x=Defl FL[mm]", "force=F_fl[N]", "duty=PWM[%]"]
 FAULTS = ["oil=0.2@15:31", "electrical=0.8@31:46"]
 
-DIAGNOSES = {
+HEALTHY = {
     "campaign": "healthy_campaign.parquet",
     "noisy_motion": "healthy_noisy_motion.csv",
     "schedule": "schedule_60s.csv",
     "hot": "schedule_hot.csv",
 }
-NAMES = (*DIAGNOSES, "rubbing", "validation", "foreign", "mimic", "proof")
+# What was hidden in a log, and what the first screen must name.
+CONCEALED = {
+    "late": ("late_amplifier.parquet", "input_delay", "input delay"),
+    "worn": ("worn_joint.parquet", "backlash", "backlash"),
+}
+NAMES = (*HEALTHY, *CONCEALED, "rubbing", "validation", "foreign", "mimic", "proof")
 
 
 def page(name: str, folder: Path) -> Path:
@@ -55,8 +60,12 @@ def erdctl(*words: str, code: int = 0) -> str:
 def _words(name: str, folder: Path) -> list[str]:
     """The command line of a page; none for that of the proof."""
     out = ["-o", str(folder / f"{name}.out.json")]
-    if name in DIAGNOSES:
-        return ["diagnose", str(FIXTURES / DIAGNOSES[name]), "--effects", FEW, "--jobs", "1", *out]
+    if name in HEALTHY:
+        return ["diagnose", str(FIXTURES / HEALTHY[name]), "--effects", FEW, "--jobs", "1", *out]
+    if name in CONCEALED:
+        log, effect, _ = CONCEALED[name]
+        few = ["--effects", f"{FEW},{effect}", "--jobs", "1"]
+        return ["diagnose", str(FIXTURES / log), *few, *out]
     if name == "rubbing":
         log = rubbing(folder)
         few = ["--effects", f"{FEW},backlash,force_drift", "--seed", "3", "--jobs", "1"]
