@@ -6,7 +6,8 @@ import os
 import signal
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
+from threading import Thread
 from typing import Any
 
 
@@ -29,9 +30,18 @@ def pool(jobs: int, begin: Callable[..., None] | None = None, *given: Any) -> Pr
 def _begin(begin: Callable[..., None] | None, given: tuple[Any, ...]) -> None:
     """The tasks are the parallelism; threads below them would fight for the same cores."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C ends a worker without a traceback
+    Thread(target=_end_with_parent, daemon=True).start()
     import scipy.linalg  # noqa: F401  # a library can be limited only once it is loaded
     from threadpoolctl import threadpool_limits
 
     threadpool_limits(1)
     if begin is not None:
         begin(*given)
+
+
+def _end_with_parent() -> None:
+    """A command that is killed cannot end its workers, which would wait for tasks for ever."""
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
