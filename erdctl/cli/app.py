@@ -105,11 +105,13 @@ def build(names: Sequence[str] = COMMANDS) -> typer.Typer:
         rich_markup_mode=None,  # Rich help takes longer to import than all else takes together
         context_settings={"help_option_names": ["-h", "--help"]},
         help=(
-            "Identify, simulate, validate and mimic electro-rheological dampers from bench logs."
+            "Identify, simulate, validate, diagnose and mimic electro-rheological dampers from bench"
+            " logs."
             "\n\n\b\nExamples:\n"
             "  erdctl identify bench.parquet -o damper.json\n"
             "  erdctl validate damper.json other.csv\n"
-            "  erdctl identify bench.csv | erdctl simulate - drive.csv | erdctl validate -"
+            "  erdctl identify bench.csv | erdctl simulate - drive.csv | erdctl validate -\n"
+            "  erdctl diagnose bench.parquet -o diagnosis.json --report diagnosis.html"
         ),
         epilog=EXIT_CODES,
     )
