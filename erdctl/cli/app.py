@@ -105,8 +105,8 @@ def build(names: Sequence[str] = COMMANDS) -> typer.Typer:
         rich_markup_mode=None,  # Rich help takes longer to import than all else takes together
         context_settings={"help_option_names": ["-h", "--help"]},
         help=(
-            "Identify, simulate, validate, diagnose and mimic electro-rheological dampers from bench"
-            " logs."
+            "Identify, simulate, validate, diagnose and mimic electro-rheological dampers from"
+            " bench logs."
             "\n\n\b\nExamples:\n"
             "  erdctl identify bench.parquet -o damper.json\n"
             "  erdctl validate damper.json other.csv\n"
