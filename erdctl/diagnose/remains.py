@@ -57,8 +57,9 @@ def examine(study: Study, residual: Array, seed: int = 0) -> Remainder:
     rng = np.random.default_rng(seed)
     s, weight = study.block.signals, study.block.weight
     inputs, since = features(s)
-    # Slow states (heat, wear) show over time, which a regression must not have from next door:
-    # noise has a memory too. So those are left out by groups, and states of motion by stretches.
+    # Slow states (heat, wear, sediment) show over time or travel, which a regression must not have
+    # from next door: noise has a memory too. So those are left out by groups, and states of motion
+    # by stretches.
     splits = (
         (np.column_stack([inputs, since]), study.group),
         (inputs, study.stretch),
@@ -197,7 +198,7 @@ def _regression(
 
 
 def features(s: Signals) -> tuple[Array, Array]:
-    """(n, m) motion, control and a little past; (n, 1) time in the record.
+    """(n, m) motion, control and a little past; (n, 2) time and distance travelled in the record.
 
     All that a damper's force may depend on, as far as it is in a log.
     """
@@ -213,4 +214,6 @@ def features(s: Signals) -> tuple[Array, Array]:
     for lag in past:
         before = np.maximum(index - lag, start)
         columns += [s.xdot[before], s.duty[before]]
-    return np.column_stack(columns), (s.t - s.t[start])[:, None]
+    total = np.concatenate([[0.0], np.cumsum(s.path[0][:-1])])
+    slow = [s.t - s.t[start], total - total[start]]
+    return np.column_stack(columns), np.column_stack(slow)
