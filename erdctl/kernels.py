@@ -50,6 +50,36 @@ def first_order(exponent: Array | float, source: Array, initial: Array, starts: 
     return out
 
 
+def follow(
+    target: Array,
+    exponent: Array | float,
+    turns: Index,
+    before: Array,
+    after: Array,
+    initial: Array,
+    starts: Index,
+) -> Array:
+    """What follows a target that is a straight line between samples, but jumps in some steps.
+
+        dy/ds + y = target,   s time over a time constant, or travel over a distance
+
+    target : (n,);  exponent : (n,) or one number, the step in s;  initial, starts : as above
+    turns : (k,) samples before the steps in which the target jumps, before, after : (k,) parts of
+    the exponent on either side of the jump
+    Returns (n,), exact.  Check: target -1, 1, 1, steps of 2 s, the jump in the middle of the first,
+    y[0] = -1: y = -1 + 2 (1 - exp(-1)) = 0.2642 as that step ends.
+    """
+    e = np.maximum(exponent, 1e-300)  # the step at the end of a record is 0, and not used
+    gone = -np.expm1(-e)
+    new = 1.0 - gone / e
+    of_old, of_new = np.broadcast_to(gone - new, target.shape), np.broadcast_to(new, target.shape)
+    source = np.zeros_like(target)
+    source[:-1] = of_old[:-1] * target[:-1] + of_new[:-1] * target[1:]
+    first = -np.expm1(-before) * np.exp(-after) * target[turns]
+    source[turns] = first - np.expm1(-after) * target[turns + 1]
+    return first_order(exponent, source, initial, starts)
+
+
 def _uniform(e: float, source: Array, out: Array) -> None:
     """Fill out[1:] where every step decays alike: one table of powers serves all segments."""
     n = len(out)

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.signal import lfilter
 
-from erdctl.kernels import first_order
+from erdctl.kernels import first_order, follow
 from erdctl.recording import Array
 
 
@@ -48,3 +48,12 @@ def test_uniform_equals_lfilter(seed: int, exponent: float, n: int) -> None:
     found = first_order(exponent, source, np.zeros(1), np.array([0, n]))
     expected = lfilter([0.0, 1.0], [1.0, -np.exp(-exponent)], source)
     assert np.abs(found - expected).max() <= 1e-9 * np.abs(expected).max(initial=1.0)
+
+
+def test_what_follows_a_target_that_jumps_within_a_step() -> None:
+    """The docstring's: -1 for one time constant, then 1 for one."""
+    part = np.array([1.0])
+    target, turns, starts = np.array([-1.0, 1.0, 1.0]), np.array([0]), np.array([0, 3])
+    y = follow(target, 2.0, turns, part, part, target[:1], starts)
+    assert y[1] == pytest.approx(1.0 - 2.0 * np.exp(-1.0), abs=1e-12)
+    assert y[2] == pytest.approx(1.0 - (1.0 - y[1]) * np.exp(-2.0), abs=1e-12)

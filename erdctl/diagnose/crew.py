@@ -105,7 +105,7 @@ def crew(studies: Sequence[Study], jobs: int, progress: Progress) -> Iterator[Cr
     """
     # The field's lag takes another path, which rounds otherwise, once a compiler is loaded. With it
     # loaded from the beginning results are the same in every process.
-    import erdctl.recurrences  # noqa: F401
+    import erdctl.recurrences  # noqa: F401  # only to load the compiler
 
     found = Crew(studies, jobs, progress)
     try:

@@ -17,7 +17,7 @@ from __future__ import annotations
 import numpy as np
 
 from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
-from erdctl.kernels import first_order
+from erdctl.kernels import follow
 from erdctl.quantity import Quantity, Scale
 from erdctl.recording import Array
 from erdctl.signals import Signals
@@ -27,12 +27,10 @@ def presliding_friction(s: Signals, p: Values) -> Array:
     """(1, n) state z, the force for F_c = 1 N [1]."""
     path, after = (distance / p["x_d"] for distance in s.path)
     way = np.where(s.compressing, 1.0, -1.0)
-    source = -np.expm1(-path) * way
     i, _ = s.turns
     before = np.maximum(path[i] - after, 0.0)
-    source[i] = -np.expm1(-before) * np.exp(-after) * way[i] - np.expm1(-after) * way[i + 1]
-    first = s.starts[:-1]
-    return first_order(path, source, np.sign(s.xdot[first]), s.starts)[None]
+    at_first = np.sign(s.xdot[s.starts[:-1]])
+    return follow(way, path, i, before, after, at_first, s.starts)[None]
 
 
 EFFECT = Effect(

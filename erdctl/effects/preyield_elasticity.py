@@ -17,7 +17,7 @@ from __future__ import annotations
 import numpy as np
 
 from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
-from erdctl.kernels import first_order
+from erdctl.kernels import follow
 from erdctl.quantity import Quantity, Scale
 from erdctl.recording import Array
 from erdctl.signals import Signals
@@ -29,15 +29,9 @@ def preyield_elasticity(force: Array, s: Signals, p: Values) -> Array:
     if x_d == 0.0:
         return force
     path, after = (distance / x_d for distance in s.path)
-    e = np.maximum(path, 1e-300)
-    gone = -np.expm1(-e)
-    new = 1.0 - gone / e
-    source = np.zeros_like(force)
-    source[:-1] = (gone - new)[:-1] * force[:-1] + new[:-1] * force[1:]
     i, _ = s.turns
     before = np.maximum(path[i] - after, 0.0)
-    source[i] = -np.expm1(-before) * np.exp(-after) * force[i] - np.expm1(-after) * force[i + 1]
-    return first_order(path, source, force[s.starts[:-1]], s.starts)
+    return follow(force, path, i, before, after, force[s.starts[:-1]], s.starts)
 
 
 EFFECT = Effect(

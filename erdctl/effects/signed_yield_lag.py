@@ -14,10 +14,8 @@ moderate frequencies, J. Rheol. 35 (1991) 399-425 (elastic stress that rebuilds 
 
 from __future__ import annotations
 
-import numpy as np
-
 from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
-from erdctl.kernels import first_order
+from erdctl.kernels import follow
 from erdctl.quantity import Quantity, Scale
 from erdctl.recording import Array
 from erdctl.signals import Signals
@@ -29,16 +27,9 @@ def signed_yield_lag(force: Array, s: Signals, p: Values) -> Array:
     if T_s == 0.0:
         return force
     decay = s.step / T_s if s.common_step is None else s.common_step / T_s
-    e = np.maximum(decay, 1e-300)  # the step at the end of a record is 0, and not used
-    gone = -np.expm1(-e)
-    new = 1.0 - gone / e
-    of_old, of_new = np.broadcast_to(gone - new, force.shape), np.broadcast_to(new, force.shape)
-    source = np.zeros_like(force)
-    source[:-1] = of_old[:-1] * force[:-1] + of_new[:-1] * force[1:]
     i, part = s.turns
     before, after = part * s.step[i] / T_s, (1.0 - part) * s.step[i] / T_s
-    source[i] = -np.expm1(-before) * np.exp(-after) * force[i] - np.expm1(-after) * force[i + 1]
-    return first_order(decay, source, force[s.starts[:-1]], s.starts)
+    return follow(force, decay, i, before, after, force[s.starts[:-1]], s.starts)
 
 
 EFFECT = Effect(

@@ -10,33 +10,10 @@ from pathlib import Path
 
 import pytest
 from places import FIXTURES
-
-pty = pytest.importorskip("pty", reason="this system has no pseudo terminals")
+from terminals import on_terminal
 
 LOG, TABLE_2 = str(FIXTURES / "healthy_noisy_motion.csv"), str(FIXTURES / "table_2.json")
 COLOUR = re.compile(r"\x1b\[[0-9;]*(?:3[0-7]|38;|9[0-7])[0-9;]*m")
-
-
-def on_terminal(*words: str, **env: str) -> str:
-    """What a command shows on stderr if that is a terminal."""
-    ours, theirs = pty.openpty()
-    command = [sys.executable, "-m", "erdctl", *words]
-    world = {k: v for k, v in os.environ.items() if k not in ("NO_COLOR", "FORCE_COLOR")}
-    world |= {"TERM": "xterm-256color", "COLUMNS": "120"} | env
-    with subprocess.Popen(command, stderr=theirs, stdout=subprocess.DEVNULL, env=world) as run:
-        os.close(theirs)
-        shown = bytearray()
-        while True:
-            try:
-                part = os.read(ours, 65536)
-            except OSError:  # Linux says so when the other end is closed
-                break
-            if not part:
-                break
-            shown += part
-    os.close(ours)
-    assert run.returncode == 0
-    return shown.decode()
 
 
 def piped(*words: str) -> subprocess.CompletedProcess[str]:

@@ -37,7 +37,7 @@ README, TUTORIAL = ROOT / "README.md", FIXTURES / "TUTORIAL.md"
 
 def all_examples() -> list[str]:
     group = typer.main.get_command(build())
-    texts = [group.help, *(c.help for c in group.commands.values())]  # type: ignore[attr-defined]
+    texts = [group.help, *(c.help for c in group.commands.values())]  # type: ignore[attr-defined]  # a group
     return list(dict.fromkeys(e for text in texts for e in examples(text or "")))
 
 

@@ -172,7 +172,7 @@ def test_a_straight_line_stays_one(a: list[float], b: list[float], late: float) 
     try:
         got = table(force=(force, force), x=(x, 2.0 * x + 1.0))
     except InputProblem as problem:
-        assert "overlap" in str(problem) or "no samples for" in str(problem)  # noqa: PT017
+        assert "overlap" in str(problem) or "no samples for" in str(problem)  # noqa: PT017  # may also pass
         return
     t = got["t"].to_numpy()
     assert np.isin(t, force).all()
