@@ -169,7 +169,7 @@ def _likelier(study: Study, rival: Trial, best: Trial) -> bool:
     extra = len(rival.model.quantities) - len(best.model.quantities)
     if extra < 0:
         return not compare(study, rival, best).real
-    return extra == 0 and rival.score < best.score
+    return extra == 0 and compare(study, best, rival).gain > 0.0
 
 
 def _lesser(

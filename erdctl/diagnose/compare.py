@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,12 +22,15 @@ class Comparison:
     gain : relative reduction of the unseen mean square
     clear, steady : see `Study.clearly`, on errors of fits that have left the group out
     size : root of the reduction over the range of the force
+    before, after : the mean squares themselves, of the same samples [N^2]
     """
 
     gain: float
     clear: float
     steady: float
     size: float
+    before: float
+    after: float
 
     @property
     def real(self) -> bool:
@@ -39,9 +42,10 @@ class Comparison:
 def compare(study: Study, worse: Trial, better: Trial) -> Comparison:
     """The gain of one trial over another."""
     # Where a channel makes samples doubtful for one of them, both go without.
-    common = worse.study if worse.study is not study else better.study
+    weight = np.minimum(worse.study.block.weight, better.study.block.weight)
+    common = replace(study, block=study.block._replace(weight=weight))
     clear, steady = common.clearly(worse.unseen, better.unseen)
-    less = worse.score - better.score
-    gain = less / worse.score if worse.score > 0.0 else 0.0
-    size = float(np.sqrt(max(less, 0.0))) / float(np.ptp(study.block.force))
-    return Comparison(gain, clear, steady, size)
+    before, after = (float(np.average(t.unseen**2, weights=weight)) for t in (worse, better))
+    gain = (before - after) / before if before > 0.0 else 0.0
+    size = float(np.sqrt(max(before - after, 0.0))) / float(np.ptp(study.block.force))
+    return Comparison(gain, clear, steady, size, before, after)

@@ -194,15 +194,16 @@ def _findings(study: Study, choice: Choice) -> tuple[Finding, ...]:
         alone = best.model.force(study.block.signals, {**best.values, **effect.off})
         absent = without.model.force(study.block.signals, without.values)
         regions = [r for f in (alone, absent) for r in locate(best.study, (with_all - f) ** 2)[:1]]
+        gain = compare(study, without, best)
         found.append(
             Finding(
                 effect=effect,
                 equivalent=tuple(name for name, _ in choice.rivals[effect.name]),
                 test=telling_apart(study, best, choice.rivals[effect.name]),
-                gain=compare(study, without, best),
+                gain=gain,
                 where=regions[0] if regions else None,
-                before=float(np.sqrt(without.score)) / scale,
-                after=float(np.sqrt(best.score)) / scale,
+                before=float(np.sqrt(gain.before)) / scale,
+                after=float(np.sqrt(gain.after)) / scale,
                 runner_up=runner,
             )
         )

@@ -8,6 +8,7 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
+import numpy.typing as npt
 
 from erdctl.blocks import Block, whole
 from erdctl.coverage import Lack, unmet
@@ -20,7 +21,7 @@ from erdctl.signals import Signals
 
 GROUPS = 24  # stretches left out in turn, if the log has fewer records than that
 SHORTEST = 0.8  # s; of what is judged by itself: longer than noise remembers
-SEEN = 1e-3  # part of a doubtful sample in another that makes that one doubtful
+SEEN = 0.5  # part of a sample that may come from doubtful ones
 UNCERTAIN = 3.0  # standard deviations of xdot's noise within which its sign is not known
 
 
@@ -100,16 +101,21 @@ def sure(study: Study, model: Model, values: Values) -> Study:
     """The study without the samples that a force channel fills from doubtful ones.
 
     A channel that is late shows the turn of a record late, too: with its uncertain direction, and
-    drawn out over the samples between which the force jumps.
+    drawn out over the samples between which the force jumps. One that averages dilutes both.
     """
     channel = model.of(Slot.CHANNEL)
     if not channel:
         return study
     s = study.block.signals
-    doubt, sign = uncertain(s).astype(np.float64), s.sign
+    unsure = uncertain(s)
+    unsure[1:] |= unsure[:-1]  # and the samples that share a step with them
+    unsure[:-1] |= unsure[1:]
+    turned = s.turns[0]
+    unsure[turned] = unsure[turned + 1] = True
+    doubt = unsure.astype(np.float64)
     for effect in channel:
-        doubt, sign = (effect.act(column, s, effect.local(values)) for column in (doubt, sign))
-    weight = np.where((doubt > SEEN) | (np.abs(sign) < 1.0 - SEEN), 0.0, study.block.weight)
+        doubt = effect.act(doubt, s, effect.local(values))
+    weight = np.where(doubt > SEEN, 0.0, study.block.weight)
     return replace(study, block=study.block._replace(weight=weight))
 
 
@@ -173,14 +179,14 @@ def stretches(recording: Recording, group: Index) -> Index:
     return out
 
 
-def uncertain(signals: Signals) -> Array:
+def uncertain(signals: Signals) -> npt.NDArray[np.bool_]:
     """(n,) whether the direction of motion cannot be trusted.
 
     A differentiated, noisy deflection has the wrong sign at some samples next to reversals, and a
     sign law turns each into an error of twice the yield force. These samples say nothing about the
     physics; the noise of xdot is what it holds above the frequencies of its motion.
     """
-    out = np.zeros(len(signals), dtype=bool)
+    out = np.zeros(len(signals), dtype=np.bool_)
     for a, b in zip(signals.starts[:-1].tolist(), signals.starts[1:].tolist(), strict=True):
         xdot = signals.xdot[a:b]
         if b - a < 32:
