@@ -90,6 +90,7 @@ def choose(
             best, _, _ = _climb(study, best, candidates, left, seen, crew, seed)
     best = _prune(study, base, best, seen, crew)
     best = _second_look(study, base, best, most, seen, crew)
+    best = _as_good_as_seen(study, base, best, seen, crew)
     rivals: dict[str, tuple[tuple[str, Trial], ...]] = {}
     for effect in _beyond(base, best):
         found = _rivals(study, best, effect, candidates, singles, seen, crew)
@@ -187,14 +188,20 @@ def _lesser(
 def _prune(
     study: Study, base: Trial, best: Trial, seen: dict[frozenset[str], Trial], crew: Crew
 ) -> Trial:
-    """Remove effects that others have made useless, the one with the least evidence first."""
+    """Remove effects that others have made useless, the one with the least evidence first.
+
+    Losses that scatter hides one by one may be clear together: then the last of them stays.
+    """
+    top = min(seen.values(), key=lambda t: t.score)
     while _beyond(base, best):
         lesser = _lesser(study, base, best, seen, crew)
         worth = [(compare(study, t, best), t) for t in lesser]
         useless = [(c.clear, i, t) for i, (c, t) in enumerate(worth) if not c.real]
-        if not useless:
+        missed = compare(study, best, top).real  # already: then it is no reason to keep anything
+        fit = [t for *_, t in sorted(useless) if missed or not compare(study, t, top).real]
+        if not fit:
             return best
-        best = min(useless)[-1]
+        best = fit[0]
     return best
 
 
@@ -208,6 +215,19 @@ def _second_look(
     more = [t for k, t in seen.items() if k > key and len(k) == len(key) + 1]
     better = [t for t in more if compare(study, best, t).real]
     return _prune(study, base, min(better, key=lambda t: t.score), seen, crew) if better else best
+
+
+def _as_good_as_seen(
+    study: Study, base: Trial, best: Trial, seen: dict[frozenset[str], Trial], crew: Crew
+) -> Trial:
+    """Pruning goes one way down from one hypothesis; another of that size may have done better."""
+    while True:
+        size = len(key_of(best.effects))
+        even = [t for k, t in seen.items() if len(k) == size and t.score < best.score]
+        better = [t for t in even if _likelier(study, t, best)]
+        if not better:
+            return best
+        best = _prune(study, base, min(better, key=lambda t: t.score), seen, crew)
 
 
 def _rivals(
