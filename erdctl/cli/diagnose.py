@@ -54,7 +54,7 @@ def command(
             help="The same for the zero of the force [N], mean 0; a common offset stays a finding.",
         ),
     ] = False,
-    max_effects: Annotated[int, typer.Option(min=1, max=6, help="Name at most so many.")] = 3,
+    max_effects: Annotated[int, typer.Option(min=1, max=6, help="Name at most so many.")] = 5,
     seed: Annotated[int, typer.Option(help="Of the regression that looks at what remains.")] = 0,
     jobs: Annotated[
         int | None,

@@ -21,6 +21,7 @@ from erdctl.effect import Effect
 from erdctl.parameters import Parameters
 
 BEAM = 3  # hypotheses that are extended side by side
+WIDE = 3  # effects up to which they are; what comes fourth is seen beside any good three
 TIE = 2.0  # below that many times their scatter two hypotheses cannot be told apart
 CONFIRM = 12  # steps of a search from where another has ended
 
@@ -136,7 +137,7 @@ def _climb(
         elif depth:
             break
         # Also hypotheses that gain nothing alone: one may be worth something beside another.
-        pool = (better or more)[:BEAM]
+        pool = (better or more)[: BEAM if depth + 1 < WIDE else 1]
     return best, rest or examine(best.study, best.residual, seed), singles
 
 

@@ -94,7 +94,7 @@ def diagnose(
     recording: Recording,
     candidates: Sequence[Effect],
     *,
-    most: int = 3,
+    most: int = 5,
     seed: int = 0,
     given: Parameters | None = None,
     free: Free = NOTHING,
