@@ -83,8 +83,8 @@ def test_magnetorheological_damper(text: str, plain: float) -> None:
     """From one stroke to the other at another frequency; an expert working by hand reached 0.04.
 
     Every record was smoothed over the same part of its cycle before it was published: the ramps at
-    reversals are alike at 0.1, 0.5 and 3 Hz and at every current, and the force is rounded the finer
-    the more samples a cycle has. Taken for compliance they would be too soft for a faster motion.
+    reversals are alike at 0.1, 0.5 and 3 Hz and at every current, and the force is rounded the
+    finer the more samples a cycle has. Taken for compliance they are too soft for a faster motion.
     """
     found = diagnosis("mr_sine.parquet", text)
     names = named(found)
