@@ -199,10 +199,10 @@ def _prune(
         worth = [(compare(study, t, best), t) for t in lesser]
         useless = [(c.clear, i, t) for i, (c, t) in enumerate(worth) if not c.real]
         missed = compare(study, best, top).real  # already: then it is no reason to keep anything
-        fit = [t for *_, t in sorted(useless) if missed or not compare(study, t, top).real]
-        if not fit:
+        idle = [t for *_, t in sorted(useless) if missed or not compare(study, t, top).real]
+        if not idle:
             return best
-        best = fit[0]
+        best = idle[0]
     return best
 
 

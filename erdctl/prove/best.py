@@ -21,6 +21,7 @@ from erdctl.fit import fit
 from erdctl.model import Model
 from erdctl.paper import QUANTITIES
 from erdctl.recording import DIRECTIONS
+from erdctl.signals import Signals
 
 SEARCH = 6_000  # samples of the search; the best starts are then fitted to all
 LOOK = 6  # evaluations that rank a start
@@ -57,6 +58,16 @@ def best_fit(study: Study, effects: Sequence[Effect], damper: Values, diagnosed:
     if all(name in diagnosed for name in model.quantities):
         full.append({n: diagnosed[n] for n in model.quantities})
     return _ranked(study, model, full, SHARPEN)[0]
+
+
+def acts(effects: Sequence[Effect], signals: Signals) -> bool:
+    """Whether the model can hold these effects together: the plant knows no such bounds."""
+    model = Model(tuple(effects))
+    try:
+        model.force(signals, _defaults(model))
+    except ValueError:  # how a model refuses effects that cannot act together
+        return False
+    return True
 
 
 def damper_values(key: Mapping[str, Any]) -> dict[str, float]:

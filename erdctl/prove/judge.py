@@ -16,7 +16,7 @@ from erdctl.io.diagnosis import to_json
 from erdctl.io.logs import read_logs
 from erdctl.model import Model
 from erdctl.plant import CATALOGUE
-from erdctl.prove.best import best_fit, damper_values
+from erdctl.prove.best import acts, best_fit, damper_values
 from erdctl.prove.case import Sealed, opened
 from erdctl.prove.score import Errors, Found, Hidden, Place, located, naming
 from erdctl.recording import Array, Recording
@@ -134,8 +134,9 @@ def _errors(sealed: Sealed, found: Diagnosis, key: Mapping[str, Any]) -> Errors:
     best = None
     if hidden and all(name in CATALOGUE for name in hidden):
         truth = [effects.get(name) for name in hidden]
-        reached = best_fit(found.study, truth, damper_values(key), corrected.values)
-        best = rms(reached.model, reached.values)
+        if acts(truth, signals):
+            reached = best_fit(found.study, truth, damper_values(key), corrected.values)
+            best = rms(reached.model, reached.values)
     return Errors(
         paper=rms(base.model, base.values),
         corrected=rms(corrected.model, corrected.values),
