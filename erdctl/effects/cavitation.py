@@ -1,19 +1,23 @@
-"""Release force lost after each reversal, until the void is taken up.
+"""Release force lost until the void that compression left is taken up.
 
-    F_viscous, F_yield -> (1 - lambda) of them in release while d < x_v
+    V grows by g dx in compression, up to x_v, and shrinks by |dx| in release, down to 0
+    F_viscous, F_yield -> (1 - lambda min(1, V / (e x_v))) of them in release
 
-d : (n,) distance since the reversal into release [m], the integral of |xdot|
-x_v : distance at which the void is taken up [m], x_v >= 0, off at 0
-lambda : part of the force that is lost [1], 0..1, 1 by default
-At d = x_v the force returns within the travel of one sample, so that it is continuous in x_v. What
-came before a record is unknown: until its first reversal no force is lost.
-Valid for a void that each stroke forms anew, whatever its speed.
-Check: x_v = 2 mm, lambda = 0.8, d = 1 mm and 3 mm in release: 0.2 and 1 of both forces.
+dx : travel of the piston [m];  V : what of the void release has yet to take up [m], 0 as a record
+begins;  x_v : the largest void [m], x_v >= 0, off at 0
+g : void left by a metre of compression [1];  lambda : part of the force that is lost [1], 0..1
+e : part of x_v over which the force returns [1], 0..1; at 0 within the travel of one sample, so
+that it is continuous in x_v
+Valid for a void that forms and is taken up whatever the speed.
+Check: x_v = 2 mm, g = 100, lambda = 0.8, e = 0: 1 mm and 3 mm after full compression 0.2 and 1 of
+both forces; g = 0.5, after 2 mm of compression: 0.5 mm and 1.5 mm into release 0.2 and 1.
 Source: S. Duym, R. Stiens, K. Reybrouck, Evaluation of shock absorber models, Vehicle System
 Dynamics 27 (1997) 109-127 (vapour that must be taken up before the pressure builds up).
 """
 
 from __future__ import annotations
+
+from itertools import product
 
 import numpy as np
 
@@ -30,10 +34,41 @@ def cavitation(s: Signals, p: Values) -> dict[str, Array]:
     x_v = p["x_v"]
     if x_v == 0.0:
         return {}
-    edge = np.maximum(np.minimum(s.path[0], 2.0 * x_v), NEGLIGIBLE)
-    void = np.clip(0.5 + (x_v - s.path_since_reversal) / edge, 0.0, 1.0)
-    left = np.where(s.compressing, 1.0, 1.0 - p["lambda"] * void)
+    void, gone = _void(s, x_v, p["g"])
+    sample = np.minimum(s.path[0], 2.0 * void)
+    edge = np.maximum(np.maximum(sample, p["e"] * x_v), NEGLIGIBLE)
+    lost = np.clip((void - gone + 0.5 * sample) / edge, 0.0, 1.0)
+    left = np.where(s.compressing, 1.0, 1.0 - p["lambda"] * lost)
     return {"viscous": left, "yield": left}
+
+
+def _void(s: Signals, x_v: float, growth: float) -> tuple[Array, Array]:
+    """(n,) void as each sample's stroke began, and distance travelled in that stroke [m]."""
+    path, after = s.path
+    total = np.concatenate([[0.0], np.cumsum(path[:-1])])
+    turns = s.turns[0]
+    first = np.concatenate([s.starts[:-1], turns + 1])  # sample with which each stroke begins
+    began = np.concatenate([total[s.starts[:-1]], total[turns + 1] - after])
+    order = np.argsort(first, kind="stable")
+    first, began = first[order], began[order]
+    travel = np.diff(began, append=total[-1]).tolist()
+    fresh = (order < len(s.starts) - 1).tolist()
+    void, now = np.zeros(len(first)), 0.0
+    for k, up in enumerate(s.compressing[first].tolist()):
+        void[k] = now = 0.0 if fresh[k] else now
+        now = min(now + growth * travel[k], x_v) if up else max(now - travel[k], 0.0)
+    stroke = np.repeat(np.arange(len(first)), np.diff(first, append=len(s)))
+    return void[stroke], total - began[stroke]
+
+
+def guesses(s: Signals) -> list[dict[str, float]]:
+    """Starts of a search: voids that every compression fills, and such as only long ones do."""
+    stroke = float(np.ptp(s.x)) / 2
+    sizes = [part * stroke for part in (0.003, 0.01, 0.03, 0.1, 0.3)]
+    return [
+        {"x_v": max(size, 1e-6), "g": g, "lambda": 1.0, "e": 0.1}
+        for size, g in product(sizes, (10.0, 1.0))
+    ]
 
 
 EFFECT = Effect(
@@ -41,20 +76,30 @@ EFFECT = Effect(
     stage=Stage.FLUID,
     slot=Slot.SCALE,
     title="release force lost until the void is taken up",
-    equation="F_viscous, F_yield -> (1 - lambda) of them in release while d < x_v",
+    equation="F_viscous, F_yield -> (1 - lambda min(1, V / (e x_v))) of them in release;"
+    " dV = g dx up to x_v in compression, dV = dx down to 0 in release",
     source="Duym, Stiens and Reybrouck, Vehicle System Dynamics 27 (1997) 109-127",
-    validity="a void that each stroke forms anew",
+    validity="a void that forms and is taken up whatever the speed",
     requires=(Requirement.REVERSALS,),
     shows=Variable.SINCE_REVERSAL,
     quantities=(
         Quantity(
-            symbol="x_v", unit="m", title="distance at which the void is taken up",
+            symbol="x_v", unit="m", title="largest void, as travel that takes it up",
             low=1e-6, high=0.5, start=2e-3, scale=Scale.LOG,
         ),
         Quantity(
             symbol="lambda", unit="1", title="part of the force that is lost",
             low=0.0, high=1.0, start=1.0, off=1.0,
         ),
+        Quantity(
+            symbol="g", unit="1", title="void left by a metre of compression",
+            low=0.05, high=100.0, start=10.0, off=10.0, scale=Scale.LOG,
+        ),
+        Quantity(
+            symbol="e", unit="1", title="part of x_v over which the force returns",
+            low=0.0, high=1.0, start=0.1,
+        ),
     ),
     apply=cavitation,
+    guesses=guesses,
 )  # fmt: skip
