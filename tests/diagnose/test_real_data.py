@@ -83,9 +83,9 @@ def held_out(found: Diagnosis, held: Recording) -> tuple[float, float]:
 def test_magnetorheological_damper(text: str, plain: float) -> None:
     """From one stroke to the other at another frequency; an expert working by hand reached 0.04.
 
-    Every record was smoothed over the same part of its cycle before it was published: the ramps at
-    reversals are alike at 0.1, 0.5 and 3 Hz and at every current, and the force is rounded the
-    finer the more samples a cycle has. Taken for compliance they are too soft for a faster motion.
+    Inferred: every record was smoothed over about the same part of its cycle, as the ramps at
+    reversals and the rounding of the force suggest. The effect was made with both strokes in view,
+    so this guards what was reached; it is no proof on unknown data.
     """
     found = diagnosis("mr_sine.parquet", text)
     names = named(found)
