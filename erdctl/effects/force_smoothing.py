@@ -16,8 +16,8 @@ Source: S. W. Smith, The Scientist and Engineer's Guide to Digital Signal Proces
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from itertools import pairwise
+from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,71 +26,103 @@ from erdctl.quantity import Quantity
 from erdctl.recording import Array, Index
 from erdctl.signals import Signals
 
-FINEST = 1e-9  # of a record: a window narrower than that is lost in rounding
+FINEST = 1e-9  # of a log: a window narrower than that is lost in rounding
 
 
 def force_smoothing(column: Array, s: Signals, p: Values) -> Array:
     """(n,) the column as the smoothed force channel shows it."""
     if p["w"] == 0.0:
         return column
-    turn, before, after = _lines(column, s)
-    out = np.empty_like(column)
-    for a, b in pairwise(s.starts.tolist()):
-        t = s.t[a:b] - s.t[a]  # small numbers, whatever the clock says
-        part = slice(a, b)
-        half = np.minimum(np.minimum(t, t[-1] - t), 0.5 * p["w"] * _cycle(s, part))
-        until = _integral(t, column[part], turn[part], before[part], after[part])
-        wide = half > FINEST * t[-1]
-        low, high = t[wide] - half[wide], t[wide] + half[wide]
-        out[part] = column[part]
-        out[a:b][wide] = (until(high) - until(low)) / (high - low)
+    lines, windows = _lines(s), _windows(s, p["w"])
+    y = lines.values(column)
+    until = np.concatenate([[0.0], np.cumsum(0.5 * (y[1:] + y[:-1]) * np.diff(lines.clock))])
+    low, high = (until[i] + a * y[i] + b * y[i + 1] for i, a, b in (windows.low, windows.high))
+    out = column.copy()
+    out[windows.wide] = (high - low) / windows.width
     return out
 
 
-def _cycle(s: Signals, part: slice) -> float:
-    """Cycle of the motion of one record [s]; 0 if it has none, as nothing turns then."""
-    speed = float(np.sqrt(np.mean(s.xdot[part] ** 2)))
-    return 2.0 * np.pi * float(np.std(s.x[part])) / speed if speed > 0.0 else 0.0
+class _Lines(NamedTuple):
+    """The force as straight lines between nodes: the samples, and two more at each turn.
 
+    Where the motion turns the force may jump, and each side goes on as it came.
 
-def _lines(column: Array, s: Signals) -> tuple[Array, Array, Array]:
-    """(n,) for the step after each sample: time until the motion turns, slopes before and after.
-
-    Where it turns the force may jump, and each side goes on as it came; all else is one line.
+    clock : (m,) time of the nodes, records in a row [s];  sample : (n,) the nodes that are samples
+    turn : (k,) samples before a turn;  ahead, behind : (k,) how far lines are drawn on to the turn
+    from the two samples before it and the two after it [1]
     """
-    step, turn = s.step, s.step.copy()
-    slope = np.diff(column, append=column[-1:]) / np.where(step > 0, step, 1.0)
-    slope[step == 0] = 0.0
-    before, after = slope.copy(), slope.copy()
+
+    clock: Array
+    sample: Index
+    turn: Index
+    ahead: Array
+    behind: Array
+
+    def values(self, column: Array) -> Array:
+        """(m,) of the nodes."""
+        y, i = np.empty(len(self.clock)), self.turn
+        y[self.sample] = column
+        y[self.sample[i] + 1] = column[i] + self.ahead * (column[i] - column[i - 1])
+        y[self.sample[i] + 2] = column[i + 1] - self.behind * (column[i + 2] - column[i + 1])
+        return y
+
+
+@lru_cache(maxsize=1)
+def _lines(s: Signals) -> _Lines:
+    """The same for every column of a fit."""
+    n, step = len(s), s.step
     i, part = s.turns
-    inner = (i > 0) & (step[i - 1] > 0) & (step[np.minimum(i + 1, len(s) - 1)] > 0)
-    i = i[inner]
-    turn[i] = part[inner] * step[i]
-    before[i], after[i] = slope[i - 1], slope[i + 1]
-    return turn, before, after
+    near = np.minimum(i + 1, n - 1)
+    inner = (i > 0) & (step[i - 1] > 0) & (step[near] > 0)
+    i, part, near = i[inner], part[inner], near[inner]
+    sample = np.arange(n) + 2 * np.searchsorted(i, np.arange(n))
+    time = np.concatenate([[0.0], np.cumsum(step[:-1])])
+    clock = np.empty(n + 2 * len(i))
+    clock[sample] = time
+    clock[sample[i] + 1] = clock[sample[i] + 2] = time[i] + part * step[i]
+    ahead, behind = part * step[i] / step[i - 1], (1.0 - part) * step[i] / step[near]
+    return _Lines(clock, sample, i, ahead, behind)
 
 
-def _integral(
-    t: Array, y: Array, turn: Array, before: Array, after: Array
-) -> Callable[[Array], Array]:
-    """The integral of one record's lines from its beginning to any times."""
+Weights = tuple[Index, Array, Array]  # nodes before some times, what they and the next weigh since
 
-    def start(i: Index, e: Array) -> Array:
-        return e * (y[i] + 0.5 * e * before[i])
 
-    def end(i: Index, e: Array) -> Array:
-        return e * (y[i + 1] - 0.5 * e * after[i])
+class _Windows(NamedTuple):
+    """Windows of samples that have one: which do, how long, from when, until when."""
 
-    every = np.arange(len(t) - 1)
-    total = np.zeros(len(t))
-    total[1:] = np.cumsum(start(every, turn[:-1]) + end(every, np.diff(t) - turn[:-1]))
+    wide: Index
+    width: Array
+    low: Weights
+    high: Weights
 
-    def until(u: Array) -> Array:
-        i = np.clip(np.searchsorted(t, u, side="right") - 1, 0, len(t) - 2)
-        e, rest = u - t[i], t[i + 1] - u
-        return np.where(e <= turn[i], total[i] + start(i, e), total[i + 1] - end(i, rest))
 
-    return until
+@lru_cache(maxsize=1)
+def _windows(s: Signals, w: float) -> _Windows:
+    """The same for every column of a fit."""
+    lines = _lines(s)
+    t = lines.clock[lines.sample]
+    first, last, records = s.starts[:-1], s.starts[1:] - 1, np.diff(s.starts)
+    begin, end = np.repeat(t[first], records), np.repeat(t[last], records)
+    half = np.minimum(np.minimum(t - begin, end - t), 0.5 * w * np.repeat(_cycles(s), records))
+    wide = np.flatnonzero(half > FINEST * t[-1])
+    low, high = t[wide] - half[wide], t[wide] + half[wide]
+    return _Windows(wide, high - low, _weights(lines.clock, low), _weights(lines.clock, high))
+
+
+def _weights(clock: Array, times: Array) -> Weights:
+    i = np.clip(np.searchsorted(clock, times, side="right") - 1, 0, len(clock) - 2)
+    since, whole = times - clock[i], clock[i + 1] - clock[i]
+    later = 0.5 * since**2 / np.where(whole > 0, whole, 1.0)
+    return i, since - later, later
+
+
+def _cycles(s: Signals) -> Array:
+    """(r,) cycle of the motion of each record [s]; 0 if it has none, as nothing turns then."""
+    first, count = s.starts[:-1], np.diff(s.starts)
+    mean = np.repeat(np.add.reduceat(s.x, first) / count, count)
+    travel = np.add.reduceat((s.x - mean) ** 2, first)
+    speed = np.add.reduceat(s.xdot**2, first)
+    return 2.0 * np.pi * np.sqrt(travel / np.where(speed > 0, speed, np.inf))
 
 
 EFFECT = Effect(
