@@ -66,7 +66,7 @@ def guesses(s: Signals) -> list[dict[str, float]]:
     stroke = float(np.ptp(s.x)) / 2
     sizes = [part * stroke for part in (0.003, 0.01, 0.03, 0.1, 0.3)]
     return [
-        {"x_v": max(size, 1e-6), "g": g, "lambda": 1.0, "e": 0.1}
+        {"x_v": max(size, 1e-6), "g": g, "lambda": 1.0, "e": 0.5}
         for size, g in product(sizes, (10.0, 1.0))
     ]
 
@@ -97,7 +97,7 @@ EFFECT = Effect(
         ),
         Quantity(
             symbol="e", unit="1", title="part of x_v over which the force returns",
-            low=0.0, high=1.0, start=0.1,
+            low=0.0, high=1.0, start=0.5,
         ),
     ),
     apply=cavitation,

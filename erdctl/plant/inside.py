@@ -22,8 +22,6 @@ from erdctl.plant.plant import Physics, Side
 MOUNT = 1
 COLUMN = 2
 
-LAST_BUBBLES = 0.1  # of the largest void
-
 
 class Instant(NamedTuple):
     """What is known before the speed at the end of a fine step is.
@@ -67,10 +65,9 @@ def fluid(x: float, v: float, way: float, i: Instant, up: Side, down: Side, p: P
     now = i.way0 if way == 0.0 else way
     left = 1.0
     if i.void > 0.0 and now < 0.0:
-        # The chamber holds vapour until its void is all but taken up; the last bubbles give way.
-        left = 1.0 - i.void / (LAST_BUBBLES * p.void)
-        if left <= 0.0:
-            return 0.0
+        # The gas that came out of the oil is squeezed back at p V = const.
+        bubbles = p.bubbles * p.void
+        left = bubbles / (bubbles + i.void)
     state = yield_state(v, way, i, up, down, p)
     if p.signed == 0.0:
         state *= direction(x, v, way, p)

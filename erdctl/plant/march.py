@@ -147,9 +147,12 @@ def march(
             way = way if now == 0.0 else now
         bend = bent(bend, xp1 - xp, p)
         travel = xp1 - xp
-        void = (
-            min(void + p.void_growth * travel, p.void) if travel > 0.0 else max(void + travel, 0.0)
-        )
+        if p.void > 0.0:
+            # The larger the void, the more of what compression leaves the base valve refills.
+            if travel > 0.0:
+                void = p.void - (p.void - void) * math.exp(-p.void_growth * travel / p.void)
+            else:
+                void = max(void + travel, 0.0)
         hot += step * (p.heating * max(power, 0.0) - p.cooling * hot)
         xp, vp = xp1, vp1
     return F

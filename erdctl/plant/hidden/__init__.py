@@ -21,7 +21,7 @@ UNITS = {
     "skew": "s", "threshold": "1", "screening": "1", "rise": "1", "decay": "1", "dead_time": "s",
     "slew": "s", "v_y": "m/s", "lead": "1/s", "T_d": "s", "flow_index": "1", "v_ref": "m/s",
     "turbulent": "N s2/m2", "mass": "kg", "fluid_spring": "m/N", "void": "m", "void_growth": "1",
-    "heating": "K/J", "cooling": "1/s", "thin": "1/K", "weaken": "1/K", "F_c": "N", "F_s": "N",
+    "bubbles": "1", "heating": "K/J", "cooling": "1/s", "thin": "1/K", "weaken": "1/K", "F_c": "N", "F_s": "N",
     "F_k": "N", "v_s": "m/s", "F_p": "N", "x_p": "m", "preload": "N", "closing": "1/m",
     "polytropic": "1", "taper": "1/m", "groove": "1/m2", "oil": "1", "electrical": "1",
     "deformation": "1", "onset": "s", "drift": "N/s", "bumps": "N", "bump_pitch": "m",

@@ -50,7 +50,7 @@ def _compressible(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
 
 def _cavitation(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     """Compression leaves a void of up to s times the stroke, which release must take up first."""
-    return plant.with_physics(void=s * by.x, void_growth=q["growth"])
+    return plant.with_physics(void=s * by.x, void_growth=q["growth"], bubbles=q["bubbles"])
 
 
 def _fade(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
@@ -91,7 +91,8 @@ EFFECTS = (
     ),
     Hidden(
         "cavitation", "void", "", 1e-7, 0.02, 1.0, _cavitation,
-        ("physics.void", "physics.void_growth"), {"growth": (0.6, 1.0)},
+        ("physics.void", "physics.void_growth", "physics.bubbles"),
+        {"growth": (0.6, 1.0), "bubbles": (0.02, 0.2)},
     ),
     Hidden(
         "thermal_fade", "slow loss", "", 1e-3, 0.4, 8.0, _fade,
