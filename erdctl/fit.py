@@ -10,6 +10,7 @@ linear in the amplitudes, and all parameters are searched. Nothing here names an
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -23,6 +24,7 @@ from erdctl.recording import Array
 STEP = 1e-5  # of a one-sided difference, in units of the search
 HUBER = 1.345  # tuning constant for 95 % efficiency under normal noise
 SINGULAR = 1e-10  # relative eigenvalue of the scaled normal matrix below which a direction is flat
+FINISH = 8  # steps of a search that is to end where the best is
 SHORTEST = 1e-5  # s; a time constant of exactly 0 has no derivative, a search stays above
 
 
@@ -145,17 +147,22 @@ class _Projected:
         high = np.array([a.high for a in self.axes])
         start = np.array([a.forth(a.value) for a in self.axes])
         start = np.clip(start, low + 1e-9 * (high - low), high - 1e-9 * (high - low))
-        found = least_squares(
+        search = partial(
+            least_squares,
             lambda p: self.root * self.solve(p)[1],
-            start,
             bounds=(low, high),
             diff_step=STEP,
-            x_scale="jac" if not self.model.separable else np.maximum(np.abs(start), 1e-2),
+            x_scale="jac",
             ftol=1e-8,
             xtol=1e-7,
             gtol=1e-12,
-            max_nfev=max_evaluations,
         )
+        found = search(start, max_nfev=max_evaluations)
+        if found.status == 0 and max_evaluations >= FINISH:
+            # This search keeps off the bounds, and creeps where the best lies on one; the other
+            # goes along them, but from far away is caught there.
+            end = search(found.x, method="dogbox", max_nfev=max_evaluations // 4)
+            found = min(found, end, key=lambda f: f.cost)
         return self.solve(found.x)[0], bool(found.status > 0)
 
 
