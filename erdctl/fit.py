@@ -25,6 +25,7 @@ STEP = 1e-5  # of a one-sided difference, in units of the search
 HUBER = 1.345  # tuning constant for 95 % efficiency under normal noise
 SINGULAR = 1e-10  # relative eigenvalue of the scaled normal matrix below which a direction is flat
 FINISH = 8  # steps of a search that is to end where the best is
+NEAR = 1e-4  # of the range of a search, from a bound that it was driven to
 SHORTEST = 1e-5  # s; a time constant of exactly 0 has no derivative, a search stays above
 
 
@@ -164,6 +165,13 @@ class _Projected:
             end = search(found.x, method="dogbox", max_nfev=max_evaluations // 4)
             found = min(found, end, key=lambda f: f.cost)
         return self.solve(found.x)[0], bool(found.status > 0)
+
+
+def at_bound(q: Quantity, value: float) -> bool:
+    """Whether a search has driven a parameter to one of its bounds."""
+    axis = _Axis.of(q, value)
+    near = NEAR * (axis.high - axis.low)
+    return not axis.low + near < axis.forth(value) < axis.high - near
 
 
 class _Axis(NamedTuple):

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from erdctl.diagnose.companies import companies, jointly
 from erdctl.diagnose.compare import LEAST, compare
 from erdctl.diagnose.crew import Crew, Task
-from erdctl.diagnose.grow import extension, grown, key_of
+from erdctl.diagnose.grow import Seen, extension, grown, key_of
 from erdctl.diagnose.remains import Remainder, examine
 from erdctl.diagnose.screen import Screen
 from erdctl.diagnose.study import Study
@@ -58,7 +58,8 @@ def confirm(study: Study, found: Choice, crew: Crew) -> Choice:
         Task("all samples", t.effects, (t.values,), CONFIRM, scatter=t.scatter)
         for t in again.values()
     ]
-    seen = {k: _must(t) for k, t in zip(again, crew.run(study, tasks), strict=True)}
+    seen = Seen(_must(t) for t in crew.run(study, tasks))
+    seen.descents.update((key, key_of(found.best.effects)) for key in again)
     base = seen[key_of(found.base.effects)]
     best = _prune(study, base, seen[key_of(found.best.effects)], seen, crew)
     names = [e.name for e in _beyond(base, best)]
@@ -77,7 +78,7 @@ def choose(
 ) -> Choice:
     """Search for the effects, at most `most`, that the recording shows beside a given model."""
     base = _base(study, given, crew)
-    seen = {key_of(base.effects): base}
+    seen = Seen([base])
     best, rest, singles = _climb(study, base, candidates, most, seen, crew, seed)
     if rest.real:
         alone = best
@@ -85,7 +86,7 @@ def choose(
         for trial in crew.run(study, joint):
             if trial is not None and _takes_over(study, best, trial):
                 best = trial
-                seen[key_of(trial.effects)] = trial
+                seen.keep(trial)
         if best is not alone:
             left = most - len(_beyond(base, best))
             best, _, _ = _climb(study, best, candidates, left, seen, crew, seed)
@@ -104,7 +105,7 @@ def choose(
         rivals[name] = tuple(found[:2])
     lesser = _lesser(study, base, best, seen, crew)
     without = {e.name: trial for e, trial in zip(_beyond(base, best), lesser, strict=True)}
-    return Choice(base, best, tuple(singles), without, rivals)
+    return Choice(seen[key_of(base.effects)], best, tuple(singles), without, rivals)
 
 
 def _climb(
@@ -112,7 +113,7 @@ def _climb(
     best: Trial,
     candidates: Sequence[Effect],
     most: int,
-    seen: dict[frozenset[str], Trial],
+    seen: Seen,
     crew: Crew,
     seed: int,
 ) -> tuple[Trial, Remainder, list[Trial]]:
@@ -174,21 +175,22 @@ def _likelier(study: Study, rival: Trial, best: Trial) -> bool:
     return extra == 0 and compare(study, best, rival).gain > 0.0
 
 
-def _lesser(
-    study: Study, base: Trial, best: Trial, seen: dict[frozenset[str], Trial], crew: Crew
-) -> list[Trial]:
-    """The best trial without each of its effects in turn, but for those of the base."""
+def _lesser(study: Study, base: Trial, best: Trial, seen: Seen, crew: Crew) -> list[Trial]:
+    """The best trial without each of its effects in turn, but for those of the base.
+
+    Searched for from where the larger one ended, too: else an effect may owe its worth to a smaller
+    hypothesis that was stuck, and not to what it adds.
+    """
     rests = [tuple(e for e in best.effects if e is not out) for out in _beyond(base, best)]
-    new = [rest for rest in rests if key_of(rest) not in seen]
+    new = [rest for rest in rests if (key_of(rest), key_of(best.effects)) not in seen.descents]
     tasks = [Task("second pass", rest, (best.values,), scatter=best.scatter) for rest in new]
     for rest, trial in zip(new, crew.run(study, tasks), strict=True):
-        seen[key_of(rest)] = _must(trial)
+        seen.descents.add((key_of(rest), key_of(best.effects)))
+        seen.keep(_must(trial))
     return [seen[key_of(rest)] for rest in rests]
 
 
-def _prune(
-    study: Study, base: Trial, best: Trial, seen: dict[frozenset[str], Trial], crew: Crew
-) -> Trial:
+def _prune(study: Study, base: Trial, best: Trial, seen: Seen, crew: Crew) -> Trial:
     """Remove effects that others have made useless, the one with the least evidence first.
 
     Losses that scatter hides one by one may be clear together: then the last of them stays.
@@ -207,7 +209,7 @@ def _prune(
 
 
 def _second_look(
-    study: Study, base: Trial, best: Trial, most: int, seen: dict[frozenset[str], Trial], crew: Crew
+    study: Study, base: Trial, best: Trial, most: int, seen: Seen, crew: Crew
 ) -> Trial:
     """What another effect had put in the shade may be worth its place once that one is gone."""
     key = key_of(best.effects)
@@ -218,9 +220,7 @@ def _second_look(
     return _prune(study, base, min(better, key=lambda t: t.score), seen, crew) if better else best
 
 
-def _as_good_as_seen(
-    study: Study, base: Trial, best: Trial, seen: dict[frozenset[str], Trial], crew: Crew
-) -> Trial:
+def _as_good_as_seen(study: Study, base: Trial, best: Trial, seen: Seen, crew: Crew) -> Trial:
     """Pruning goes one way down from one hypothesis; another of that size may have done better."""
     while True:
         size = len(key_of(best.effects))
@@ -237,7 +237,7 @@ def _rivals(
     effect: Effect,
     candidates: Sequence[Effect],
     singles: Sequence[Trial],
-    seen: dict[frozenset[str], Trial],
+    seen: Seen,
     crew: Crew,
 ) -> list[tuple[str, Trial]]:
     """Effects that explain as much in the place of one: no worse by more than scatter."""
@@ -250,14 +250,14 @@ def _rivals(
     if key_of(rest) not in seen:
         task = Task("second pass", rest, (best.values,), scatter=best.scatter)
         (base,) = crew.run(study, [task])
-        seen[key_of(rest)] = _must(base)
+        seen.keep(_must(base))
     new = [r for r in dict.fromkeys(likely) if r.name in keys and keys[r.name] not in seen]
     screen = Screen(study, seen[key_of(rest)]) if new else None
     prospects = [screen.look(rival) for rival in new] if screen else []
     tasks = [extension("look-alikes", seen[key_of(rest)], p) for p in prospects if p is not None]
     for trial in crew.run(study, tasks):
         if trial is not None:
-            seen[key_of(trial.effects)] = trial
+            seen.keep(trial)
     found = []
     for name, key in keys.items():
         if key not in seen:

@@ -9,6 +9,7 @@ from erdctl.diagnose.screen import Prospect, Screen
 from erdctl.diagnose.study import Study
 from erdctl.diagnose.trial import Trial, fresh_start
 from erdctl.effect import Effect, Slot
+from erdctl.fit import at_bound
 
 HOPE = 0.4  # of the most promising effect's gain: worth a full trial
 ALWAYS = 4  # effects that get one in any case
@@ -20,12 +21,30 @@ def key_of(effects: Iterable[Effect]) -> frozenset[str]:
     return frozenset(e.name for e in effects)
 
 
+class Seen(dict[frozenset[str], Trial]):
+    """Trials by the names of their effects; of several searches for the same, the best.
+
+    descents : the names of trials that were also searched for from where a larger one had ended,
+        each with the names of that
+    """
+
+    def __init__(self, trials: Iterable[Trial]) -> None:
+        super().__init__((key_of(t.effects), t) for t in trials)
+        self.descents: set[tuple[frozenset[str], frozenset[str]]] = set()
+
+    def keep(self, trial: Trial) -> None:
+        """A trial, unless a better one of the same effects is there."""
+        key = key_of(trial.effects)
+        if key not in self or trial.score < self[key].score:
+            self[key] = trial
+
+
 def grown(
     study: Study,
     pool: Sequence[Trial],
     candidates: Sequence[Effect],
     stage: str,
-    seen: dict[frozenset[str], Trial],
+    seen: Seen,
     crew: Crew,
 ) -> list[Trial]:
     """Hypotheses with one effect more than those of the pool, none of them seen before."""
@@ -41,7 +60,7 @@ def grown(
         trials = crew.run(study, [tasks.pop(0) for tasks in waiting.values()])
         for key, trial in zip(list(waiting), trials, strict=True):
             if trial is not None:
-                seen[key] = trial
+                seen.keep(trial)
                 grown.append(trial)
             if trial is not None or not waiting[key]:
                 del waiting[key]
@@ -89,8 +108,19 @@ def _unlike(prospects: Sequence[Prospect]) -> list[Prospect]:
 def extension(stage: str, parent: Trial, prospect: Prospect) -> Task:
     """The trial of one effect more, from the parent's values."""
     starts = [{**parent.values, **guess} for guess in prospect.starts]
-    if prospect.effect.slot is Slot.SERIES:
-        # Without the lag that stands in for the compliance.
-        starts.append({**parent.values, **fresh_start(0.005, 0.4), **prospect.starts[0]})
+    series = prospect.effect.slot is Slot.SERIES
+    if series or _cornered(parent):
+        # Without the lag that stands in for a compliance, or that vanished for want of the effect.
+        fresh = fresh_start(0.005 if series else 0.05, 0.4)
+        starts.append({**parent.values, **fresh, **prospect.starts[0]})
     effects = (*parent.effects, prospect.effect)
     return Task(stage, effects, tuple(starts), scatter=parent.scatter)
+
+
+def _cornered(trial: Trial) -> bool:
+    """Whether a shape parameter of the paper's was driven to a bound, from where no search returns.
+
+    What stands in for a missing effect may be pushed as far as it goes.
+    """
+    ends = fresh_start(0.0, 0.0).keys() - trial.study.held.keys()
+    return any(at_bound(trial.model.quantities[name], trial.values[name]) for name in ends)
