@@ -28,6 +28,7 @@ TIMES = (
     3.0,
     10.0,
 )  # of a parameter's own start, where nothing in a log sets a scale
+DELAYS = 6  # of those of a time, from a sample to half of the longest record
 MOST = 30  # starts for one effect
 
 
@@ -122,6 +123,8 @@ def starts(effect: Effect, study: Study) -> list[dict[str, float]]:
 def _axis(q: Quantity, study: Study) -> list[float]:
     r = study.recording
     assert r.force is not None
+    s = study.block.signals
+    longest = float((s.t[s.starts[1:] - 1] - s.t[s.starts[:-1]]).max())
     stroke, force = float(np.ptp(r.x)) / 2, float(np.ptp(r.force))
     speed = float(np.abs(r.xdot).max())
     work = float(np.abs(r.force * r.xdot * r.step).sum()) / len(r.names)
@@ -136,6 +139,8 @@ def _axis(q: Quantity, study: Study) -> list[float]:
             values = [p / stroke for p in (0.1, 0.5)] + ([-0.3 / stroke] if q.low < 0 else [])
         case "1/m^2":
             values = [0.0, 0.5 / stroke**2] + ([-0.3 / stroke**2] if q.low < 0 else [])
+        case "s" if q.start < longest:
+            values = np.geomspace(s.typical_step, longest / 2, DELAYS).tolist()
         case "1/J":
             values = [p / work for p in (0.03, 0.3)]
         case _ if q.low < 0 < q.high:
