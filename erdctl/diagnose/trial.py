@@ -104,7 +104,8 @@ def _fitted(
     max_evaluations: int,
     scatter: Scatter | None = None,
 ) -> tuple[dict[str, float], Array, int]:
-    full = {**{n: q.start for n, q in model.quantities.items()}, **start, **study.held}
+    given = {**start, **study.held}  # perhaps of a larger model
+    full = {n: given.get(n, q.start) for n, q in model.quantities.items()}
     block = study.block if scatter is None else scatter.shared(study.block)
     values, count, _ = fit(
         model, block, start=full, fixed=study.held, max_evaluations=max_evaluations
