@@ -18,7 +18,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from erdctl import __version__
 from erdctl.cli.options import EXIT_CODES
-from erdctl.errors import ErdctlError, ExitCode
+from erdctl.core.errors import ErdctlError, ExitCode
 from erdctl.report.text import QUIET
 
 

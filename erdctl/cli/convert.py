@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from erdctl.cli.options import Format, Maps
+from erdctl.cli.options import Maps, OutputFormat
 
 
 def command(
@@ -16,7 +16,7 @@ def command(
     ],
     maps: Maps = [],
     format: Annotated[
-        Format | None, typer.Option(help="Format of OUT, whatever its suffix; stdout: CSV.")
+        OutputFormat | None, typer.Option(help="Format of OUT, whatever its suffix; stdout: CSV.")
     ] = None,
 ) -> None:
     """Convert a log between CSV, Parquet, Arrow, MAT, MDF4 and TDMS.

@@ -24,13 +24,13 @@ def command(
       erdctl derive fixtures/geometry_inove.json
       erdctl derive geometry.json | erdctl simulate - drive.csv
     """
-    from erdctl.geometry import derive
+    from erdctl.core.recording import DIRECTIONS
     from erdctl.io.geometry import read_geometry
     from erdctl.io.parameters import write_parameters
-    from erdctl.model import Model
-    from erdctl.paper import QUANTITIES
-    from erdctl.parameters import Estimate, Parameters
-    from erdctl.recording import DIRECTIONS
+    from erdctl.model.composed import Model
+    from erdctl.model.geometry import derive
+    from erdctl.model.paper import QUANTITIES
+    from erdctl.model.parameters import Estimate, Parameters
     from erdctl.report.text import number, say, table
 
     given = read_geometry(geometry)

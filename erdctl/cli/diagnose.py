@@ -13,10 +13,10 @@ from erdctl.cli.pictures import Plots
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from erdctl.core.recording import Recording
     from erdctl.diagnose.diagnosis import Diagnosis
-    from erdctl.effect import Effect
-    from erdctl.parameters import Parameters
-    from erdctl.recording import Recording
+    from erdctl.model.effect import Effect
+    from erdctl.model.parameters import Parameters
 
 WORTHWHILE = 60_000  # samples times effects from which the second that a process needs is worth it
 
@@ -89,9 +89,9 @@ def command(
     """
     from erdctl.cli.pictures import draw, wanted
     from erdctl.cli.reading import read_logs
+    from erdctl.core.errors import CheckFailed
     from erdctl.diagnose.diagnosis import Verdict, diagnose
-    from erdctl.diagnose.scatter import Free
-    from erdctl.errors import CheckFailed
+    from erdctl.diagnose.record_effects import Free
     from erdctl.io import documents
     from erdctl.io.diagnosis import parameters, to_json
     from erdctl.report.text import progress, say
@@ -125,7 +125,7 @@ def _given(params: str | None, logs: Sequence[str]) -> tuple[Parameters | None, 
     """The parameters of a file, and its name and hash."""
     import hashlib
 
-    from erdctl.errors import UsageProblem
+    from erdctl.core.errors import UsageProblem
     from erdctl.io import documents
     from erdctl.io.parameters import parse_parameters
 
@@ -140,7 +140,7 @@ def _given(params: str | None, logs: Sequence[str]) -> tuple[Parameters | None, 
 
 def _candidates(only: Sequence[str], exclude: Sequence[str]) -> list[Effect]:
     from erdctl import effects
-    from erdctl.errors import InputProblem, UsageProblem
+    from erdctl.core.errors import InputProblem, UsageProblem
 
     def names(options: Sequence[str]) -> list[str]:
         return [name.strip() for option in options for name in option.split(",") if name.strip()]
@@ -155,7 +155,7 @@ def _candidates(only: Sequence[str], exclude: Sequence[str]) -> list[Effect]:
 
 def _jobs(recording: Recording, candidates: Sequence[Effect]) -> int:
     """As many processes as cores, where the work is worth starting them."""
-    from erdctl.workers import cores
+    from erdctl.core.workers import cores
 
     return cores() if len(recording) * len(candidates) > WORTHWHILE else 1
 
@@ -165,9 +165,9 @@ def _report(found: Diagnosis, document: dict[str, Any], path: str, seed: int) ->
 
     from erdctl.cli.pages import write_report
     from erdctl.io.diagnosis import baseline, parameters
+    from erdctl.model.simulate import simulate
     from erdctl.report.page.diagnosis import diagnosis_page
     from erdctl.report.page.render import Run
-    from erdctl.simulate import simulate
 
     recording = found.study.recording
     before, after = (simulate(p, recording) for p in (baseline(found), parameters(found)))

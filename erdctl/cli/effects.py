@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from erdctl.effect import Effect
+    from erdctl.model.effect import Effect
 
 
 def command(
@@ -24,7 +24,7 @@ def command(
       erdctl effects coulomb_friction
     """
     from erdctl import effects
-    from erdctl.errors import InputProblem, UsageProblem
+    from erdctl.core.errors import InputProblem, UsageProblem
     from erdctl.io import documents
 
     try:

@@ -11,8 +11,8 @@ from erdctl.cli.options import Logs, Maps, Out
 from erdctl.cli.pictures import Plots
 
 if TYPE_CHECKING:
-    from erdctl.identify import Identification
-    from erdctl.parameters import Parameters
+    from erdctl.estimate.identify import Identification
+    from erdctl.model.parameters import Parameters
 
 
 class Method(StrEnum):
@@ -46,7 +46,7 @@ def command(
     """
     from erdctl.cli.pictures import draw, wanted
     from erdctl.cli.reading import read_logs
-    from erdctl.identify import identify
+    from erdctl.estimate.identify import identify
     from erdctl.io.parameters import write_parameters
     from erdctl.report.text import progress, say
 
@@ -57,9 +57,9 @@ def command(
     parameters = _parameters(found, method, log.recording)
     write_parameters(parameters, output)
     if asked:
+        from erdctl.model.simulate import simulate
         from erdctl.report.subject import Subject
         from erdctl.report.subjects import about
-        from erdctl.simulate import simulate
 
         modelled = simulate(parameters, log.recording)
         draw(
@@ -75,10 +75,10 @@ def command(
 def _parameters(found: Identification, method: Method, recording: object) -> Parameters:
     from dataclasses import replace
 
-    from erdctl.errors import InputProblem
+    from erdctl.core.errors import InputProblem
+    from erdctl.core.recording import Recording
     from erdctl.io.parameters import provenance
-    from erdctl.parameters import Parameters
-    from erdctl.recording import Recording
+    from erdctl.model.parameters import Parameters
 
     assert isinstance(recording, Recording)
     estimates = dict(found.joint)

@@ -11,8 +11,8 @@ from erdctl.cli.options import Logs, Maps
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from erdctl.coverage import Cover
-    from erdctl.inspect import Inspection
+    from erdctl.bench.identifiability import Cover
+    from erdctl.bench.inspection import Inspection
     from erdctl.io.inspection import InspectionFile
 
 MOST = 40  # records in a table; the JSON has all
@@ -38,8 +38,8 @@ def command(
         --map "duty=PWM[%]"
     """
     from erdctl import effects
+    from erdctl.bench.inspection import inspect
     from erdctl.cli.reading import read_logs
-    from erdctl.inspect import inspect
     from erdctl.io import documents
     from erdctl.io.inspection import to_json
     from erdctl.report.text import progress, say

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from erdctl.cli.options import Faults, Format, Maps, Out, Params
+from erdctl.cli.options import Faults, Maps, Out, OutputFormat, Params
 from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
 
@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from erdctl.cli.pictures import Wanted
+    from erdctl.core.recording import Recording
     from erdctl.io.pwm import Sequence
     from erdctl.mimic import Correction, Plan
-    from erdctl.parameters import Parameters
-    from erdctl.recording import Recording
+    from erdctl.model.parameters import Parameters
 
 
 def command(
@@ -61,7 +61,7 @@ def command(
     report: Report = None,
     maps: Maps = [],
     format: Annotated[
-        Format | None, typer.Option(help="Format on stdout (CSV unless said).")
+        OutputFormat | None, typer.Option(help="Format on stdout (CSV unless said).")
     ] = None,
     plot: Plots = [],
 ) -> None:
@@ -85,18 +85,18 @@ def command(
     from dataclasses import replace
     from hashlib import sha256
 
-    from erdctl.amplifier import Amplifier
     from erdctl.cli.pictures import wanted
     from erdctl.cli.reading import read_logs
-    from erdctl.errors import UsageProblem
-    from erdctl.faults import Channel, on_channel, parse_fault
+    from erdctl.core.errors import UsageProblem
+    from erdctl.core.signals import Signals
     from erdctl.io import documents, formats, pwm
     from erdctl.io.parameters import parse_parameters
     from erdctl.io.tables import output_format, write_table
     from erdctl.mimic import follow, mimic
+    from erdctl.model.amplifier import Amplifier
+    from erdctl.model.faults import Corner, on_channel, parse_fault
+    from erdctl.model.simulate import remarks
     from erdctl.report.text import progress, say
-    from erdctl.signals import Signals
-    from erdctl.simulate import remarks
 
     if not fault:
         raise UsageProblem("mimic needs at least one --fault, e.g. --fault oil=0.5@15:31")
@@ -122,7 +122,7 @@ def command(
         recording = replace(recording, duty=recording.duty * 0.0 + duty)
     for line in remarks(parameters, recording):
         say(line)
-    by_channel = {c.value: on_channel(faults, c) for c in Channel}
+    by_channel = {c.value: on_channel(faults, c) for c in Corner}
     plans = {}
     with progress() as step:
         for c, chosen in by_channel.items():
@@ -179,7 +179,7 @@ def _draw(asked: list[Wanted], sequence: Sequence, parameters: Parameters) -> No
 
 
 def _check_temperature(recording: Recording, limit: float, forced: bool) -> None:
-    from erdctl.errors import InputProblem
+    from erdctl.core.errors import InputProblem
     from erdctl.report.text import say
 
     if recording.temperature is None:

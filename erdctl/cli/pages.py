@@ -20,7 +20,7 @@ def check_report(path: str | None) -> None:
     """Refuse a name before the work, not after it."""
     from pathlib import Path
 
-    from erdctl.errors import UsageProblem
+    from erdctl.core.errors import UsageProblem
 
     if path is None:
         return

@@ -83,7 +83,7 @@ def command(
     window = _seconds(span)
     stdin = [source for source in (*logs, params, before) if source == "-"]
     if len(stdin) > 1:
-        from erdctl.errors import UsageProblem
+        from erdctl.core.errors import UsageProblem
 
         raise UsageProblem("only one of LOG, --params and --before can be stdin")
     others = PROGRAMME if wants(asked, "programme") else ()
@@ -96,11 +96,11 @@ def command(
 def _subject(
     log: Log, params: str | None, before: str | None, faults: list[str], *, regions: bool
 ) -> Subject:
-    from erdctl.errors import UsageProblem
+    from erdctl.core.errors import UsageProblem
     from erdctl.io.parameters import read_parameters
+    from erdctl.model.simulate import simulate
     from erdctl.report.subject import Subject
     from erdctl.report.subjects import about, located, of_faults, programme
-    from erdctl.simulate import simulate
 
     recording, modelled, earlier, cases, parameters = log.recording, log.force_model, None, {}, None
     if params is not None:
@@ -126,7 +126,7 @@ def _subject(
 
 
 def _seconds(span: str | None) -> tuple[float, float] | None:
-    from erdctl.errors import UsageProblem
+    from erdctl.core.errors import UsageProblem
 
     if span is None:
         return None
@@ -144,7 +144,7 @@ def _seconds(span: str | None) -> tuple[float, float] | None:
 def _part(subject: Subject, records: Sequence[str], window: tuple[float, float] | None) -> Subject:
     import numpy as np
 
-    from erdctl.errors import UsageProblem
+    from erdctl.core.errors import UsageProblem
     from erdctl.report.subject import cut
 
     r = subject.recording

@@ -75,7 +75,7 @@ def command(
       erdctl prove --kind null --colour pink --cases 40
       erdctl prove --seed 5017 --cases 1 --keep case
     """
-    from erdctl.errors import ComputationProblem
+    from erdctl.core.errors import ComputationProblem
     from erdctl.io import documents
     from erdctl.prove.case import Wish, check
     from erdctl.prove.document import to_json
@@ -115,11 +115,11 @@ def command(
 def _run(wish: Wish, seeds: Sequence[int], folder: Path, jobs: int | None) -> Proof:
     import sys
 
+    from erdctl.core.workers import cores
     from erdctl.prove.document import proof_of
     from erdctl.prove.run import Outcome, prove
     from erdctl.prove.tables import line
     from erdctl.report.text import QUIET, progress, say
-    from erdctl.workers import cores
 
     scored = 0
     say("nrmse on fresh records, without noise: paper's model, corrected, best that can be reached")
@@ -157,7 +157,7 @@ def _folder(keep: str | None) -> AbstractContextManager[Path]:
     from pathlib import Path
     from tempfile import TemporaryDirectory
 
-    from erdctl.errors import UsageProblem
+    from erdctl.core.errors import UsageProblem
 
     @contextmanager
     def place() -> Iterator[Path]:
@@ -182,7 +182,7 @@ def _must_exist(output: str) -> None:
     """A proof takes long; that its file cannot be written is said before, not after."""
     from pathlib import Path
 
-    from erdctl.errors import UsageProblem
+    from erdctl.core.errors import UsageProblem
 
     parent = Path(output).absolute().parent
     if output != "-" and not parent.is_dir():

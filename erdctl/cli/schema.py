@@ -26,7 +26,7 @@ def command(
       erdctl schema parameters
       erdctl schema diagnosis
     """
-    from erdctl.errors import UsageProblem
+    from erdctl.core.errors import UsageProblem
     from erdctl.io import documents
     from erdctl.io.shapes import SCHEMAS
     from erdctl.prove import document

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from erdctl.cli.options import Faults, Format, Maps, Out, Params
+from erdctl.cli.options import Faults, Maps, Out, OutputFormat, Params
 from erdctl.cli.pictures import Plots
 
 
@@ -27,7 +27,7 @@ def command(
     fault: Faults = [],
     maps: Maps = [],
     format: Annotated[
-        Format | None, typer.Option(help="Format on stdout (CSV unless said).")
+        OutputFormat | None, typer.Option(help="Format on stdout (CSV unless said).")
     ] = None,
     plot: Plots = [],
 ) -> None:
@@ -45,11 +45,11 @@ def command(
       erdctl simulate damper.json drive.csv --fault oil=0.5 --plot faults.png -o out.parquet
     """
     from erdctl.cli.pictures import draw, wanted
-    from erdctl.errors import UsageProblem
+    from erdctl.core.errors import UsageProblem
     from erdctl.io.parameters import read_parameters
     from erdctl.io.tables import append_column, write_table
+    from erdctl.model.simulate import remarks, simulate
     from erdctl.report.text import progress, say
-    from erdctl.simulate import remarks, simulate
 
     if (log is None) == (not drive):
         raise UsageProblem("simulate needs either a LOG or --drive, e.g. --drive sine:freq=1")
@@ -64,7 +64,7 @@ def command(
         recording, table = read.recording, read.table
         assert table is not None
     else:
-        from erdctl.drive import drives
+        from erdctl.bench.drive import drives
         from erdctl.io.tables import table_of
 
         recording = drives(drive)

@@ -11,7 +11,7 @@ from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
 
 if TYPE_CHECKING:
-    from erdctl.score import Score, Validation
+    from erdctl.score.nrmse import Score, Validation
 
 SCHEMA = "erdctl.validation/1"
 
@@ -50,9 +50,9 @@ def command(
     """
     from erdctl.cli.pictures import draw, wanted, wants
     from erdctl.cli.reading import read_logs
-    from erdctl.errors import CheckFailed, InputProblem, UsageProblem
+    from erdctl.core.errors import CheckFailed, InputProblem, UsageProblem
     from erdctl.report.text import progress, say
-    from erdctl.score import Normalise, validate
+    from erdctl.score.nrmse import Normalise, validate
 
     if normalise not in list(Normalise):
         raise UsageProblem(f"--normalise takes {', '.join(Normalise)}, not '{normalise}'")
@@ -70,7 +70,7 @@ def command(
             )
     else:
         from erdctl.io.parameters import read_parameters
-        from erdctl.simulate import remarks, simulate
+        from erdctl.model.simulate import remarks, simulate
 
         params, *logs = arguments
         if params == "-" and "-" in logs:

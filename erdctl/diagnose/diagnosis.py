@@ -8,24 +8,24 @@ from enum import StrEnum
 
 import numpy as np
 
-from erdctl.assess import Fit, assess
-from erdctl.blocks import thinned
-from erdctl.coverage import untestable
-from erdctl.diagnose.choose import Choice, choose, confirm
-from erdctl.diagnose.compare import FINEST, Comparison, compare
-from erdctl.diagnose.crew import Progress, crew
-from erdctl.diagnose.distinguish import Test, telling_apart
-from erdctl.diagnose.locate import Region, locate
-from erdctl.diagnose.remains import Remainder, examine
-from erdctl.diagnose.scatter import NOTHING, Free, Scatter, errors
-from erdctl.diagnose.study import SHORTEST, Study, keeping, prepare
-from erdctl.diagnose.trial import Trial
-from erdctl.effect import Effect
-from erdctl.errors import InputProblem
-from erdctl.excitation import Survey
-from erdctl.parameters import Parameters
-from erdctl.recording import Array, Recording
-from erdctl.score import Normalise, Validation, validate
+from erdctl.bench.excitation import Survey
+from erdctl.bench.identifiability import untestable
+from erdctl.core.blocks import thinned
+from erdctl.core.errors import InputProblem
+from erdctl.core.recording import Array, Recording
+from erdctl.diagnose.comparison import FINEST, Comparison, compare
+from erdctl.diagnose.discriminating_drive import Test, telling_apart
+from erdctl.diagnose.executor import Progress, crew
+from erdctl.diagnose.hypothesis import Trial
+from erdctl.diagnose.problem import SHORTEST, Study, keeping, prepare
+from erdctl.diagnose.record_effects import NOTHING, Free, Scatter, errors
+from erdctl.diagnose.residual.localisation import Region, locate
+from erdctl.diagnose.residual.predictability import Remainder, examine
+from erdctl.diagnose.search import Choice, choose, confirm
+from erdctl.estimate.covariance import Fit, assess
+from erdctl.model.effect import Effect
+from erdctl.model.parameters import Parameters
+from erdctl.score.nrmse import Normalise, Validation, validate
 
 SEARCH = 12_000  # samples for the search among hypotheses; what it finds is fitted to all
 PARTS = 5  # of a log that must be there to be left out in turn

@@ -11,8 +11,8 @@ from importlib import import_module
 from importlib.util import find_spec
 from pkgutil import iter_modules
 
-from erdctl.effect import Effect
-from erdctl.errors import InputProblem
+from erdctl.core.errors import InputProblem
+from erdctl.model.effect import Effect
 
 GROUP = "erdctl.effects"
 

@@ -9,7 +9,7 @@ between two samples, the motion of the nearer one sets in in part, so that the f
 in g.
 Valid for a joint without damping of its own, with a clamp much stiffer than the damper.
 With a compliance in series the joint is its: after a reversal the spring unloads, then the play is
-crossed without force, then it loads again (`erdctl.series`).
+crossed without force, then it loads again (`erdctl.model.series_compliance`).
 The play is followed along the integral of xdot: noise in x does not open the joint.
 Check: x = 0, 1, 2, 1, 0 mm from the lower flank, g = 2 mm gives x_p - x_p0 = 0, 1, 2, 2, 2 mm.
 Source: M. Nordin, P.-O. Gutman, Controlling mechanical systems with backlash: a survey,
@@ -18,16 +18,16 @@ Automatica 38 (2002) 1633-1649; the play operator of Krasnosel'skii and Pokrovsk
 
 from __future__ import annotations
 
-from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
-from erdctl.quantity import Quantity, Scale
-from erdctl.signals import Signals
+from erdctl.core.quantity import Quantity, Scale
+from erdctl.core.signals import Signals
+from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
 
 
 def backlash(s: Signals, p: Values) -> Signals:
     """Motion of the piston from that of the rod."""
     if p["g"] == 0.0:
         return s
-    from erdctl.recurrences import play
+    from erdctl.model.recurrences import play
 
     lost, engaged = play(s.xdot, s.step, s.starts, s.compressing, s.rests, p["g"])
     return s.with_motion(s.x - lost, s.xdot * engaged, engaged)

@@ -11,10 +11,10 @@ compensation methods for the control of machines with friction, Automatica 30 (1
 
 from __future__ import annotations
 
-from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
-from erdctl.quantity import Quantity
-from erdctl.recording import Array
-from erdctl.signals import Signals
+from erdctl.core.quantity import Quantity
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
 
 
 def coulomb_friction(s: Signals, p: Values) -> Array:

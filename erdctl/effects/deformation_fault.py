@@ -5,7 +5,7 @@
 f : effectiveness that is left [1], 0..1, off at 1
 t_0 : onset [s], in the time of each record as logged
 From t_0 on the factor acts; it sets in over four samples about t_0, so that the force is
-continuous in t_0. Which forces it takes is what `erdctl.faults` says, for mimic and simulate too.
+continuous in t_0. Which forces it takes `erdctl.model.faults` says, for mimic and simulate too.
 Valid for a fault that sets in at once and stays; a record that ends before t_0 is healthy.
 Check: f = 0.5, t_0 = 15 s: 10 N of gas, 6 N of viscous and 4 N of yield force, 20 N at 14 s, are
 15 N at 16 s.
@@ -14,10 +14,10 @@ Source: the ER damper paper, Eq. 23.
 
 from __future__ import annotations
 
-from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
-from erdctl.faults import ONSET, FaultKind, onsets, set_in
-from erdctl.recording import Array
-from erdctl.signals import Signals
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.faults import ONSET, FaultKind, onsets, set_in
 
 
 def deformation_fault(s: Signals, p: Values) -> dict[str, Array]:

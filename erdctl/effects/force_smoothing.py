@@ -21,10 +21,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
-from erdctl.quantity import Quantity
-from erdctl.recording import Array, Index
-from erdctl.signals import Signals
+from erdctl.core.quantity import Quantity
+from erdctl.core.recording import Array, Index
+from erdctl.core.signals import Signals
+from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
 
 FINEST = 1e-9  # of a log: a window narrower than that is lost in rounding
 

@@ -16,10 +16,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
-from erdctl.quantity import Quantity, Scale
-from erdctl.recording import Array
-from erdctl.signals import Signals
+from erdctl.core.quantity import Quantity, Scale
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
 
 FULL = 0.95  # of the gas volume displaced; no damper is built to go beyond
 

@@ -5,7 +5,7 @@
 x, x_p : (n,) stroke of the rod and of the piston [m];  F : (n,) damper force [N]
 s_m : compliance of the mount [m/N], s_m >= 0, off at 0;  its stiffness is k_m = 1 / s_m
 Valid for a mount that is linear and has little damping of its own. Simulated free-running,
-with the force that the model itself makes (`erdctl.series`).
+with the force that the model itself makes (`erdctl.model.series_compliance`).
 Check: held at x = 10 mm with a gas spring of 1000 N/m and s_m = 1e-4 m/N:
 F = k x / (1 + k s_m) = 10 / 1.1 = 9.0909 N.
 Source: M. C. Constantinou, M. D. Symans, Experimental study of seismic response of buildings with
@@ -14,8 +14,8 @@ supplemental fluid dampers, Struct. Design Tall Build. 2 (1993) 93-132; J. C. Ma
 
 from __future__ import annotations
 
-from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
-from erdctl.quantity import Quantity, Scale
+from erdctl.core.quantity import Quantity, Scale
+from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
 
 
 def mount_compliance(p: Values) -> float:

@@ -16,11 +16,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
-from erdctl.kernels import follow
-from erdctl.quantity import Quantity, Scale
-from erdctl.recording import Array
-from erdctl.signals import Signals
+from erdctl.core.quantity import Quantity, Scale
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.kernels import follow
 
 
 def preyield_elasticity(force: Array, s: Signals, p: Values) -> Array:

@@ -15,10 +15,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
-from erdctl.quantity import Quantity, Scale
-from erdctl.recording import Array
-from erdctl.signals import Signals
+from erdctl.core.quantity import Quantity, Scale
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
 
 
 def rise_decay_asymmetry(s: Signals, p: Values) -> Array:

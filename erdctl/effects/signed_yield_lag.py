@@ -14,11 +14,11 @@ moderate frequencies, J. Rheol. 35 (1991) 399-425 (elastic stress that rebuilds 
 
 from __future__ import annotations
 
-from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
-from erdctl.kernels import follow
-from erdctl.quantity import Quantity, Scale
-from erdctl.recording import Array
-from erdctl.signals import Signals
+from erdctl.core.quantity import Quantity, Scale
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.kernels import follow
 
 
 def signed_yield_lag(force: Array, s: Signals, p: Values) -> Array:

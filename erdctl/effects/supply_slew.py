@@ -13,17 +13,17 @@ Source: P. Horowitz, W. Hill, The Art of Electronics, 3rd ed. (2015), Sec. 4.4 (
 
 from __future__ import annotations
 
-from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
-from erdctl.quantity import Quantity, Scale
-from erdctl.recording import Array
-from erdctl.signals import Signals
+from erdctl.core.quantity import Quantity, Scale
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
 
 
 def supply_slew(s: Signals, p: Values) -> Array:
     """(n,) duty that reaches the electrodes [1], its mean over each step."""
     if p["T_full"] == 0.0:
         return s.duty
-    from erdctl.recurrences import rate_limited
+    from erdctl.model.recurrences import rate_limited
 
     duty: Array = rate_limited(s.duty, s.step, s.starts, 1.0 / p["T_full"])
     return duty

@@ -20,17 +20,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from erdctl.effect import Effect, Requirement, Slot, Stage, Values, Variable
-from erdctl.quantity import Quantity, Scale
-from erdctl.recording import Array
-from erdctl.signals import Signals
+from erdctl.core.quantity import Quantity, Scale
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
 
 
 def thermal_fade(parts: Mapping[str, Array], s: Signals, p: Values) -> dict[str, Array]:
     """Factors of the viscous and the yield force, (n,) each [1]."""
     if p["a_v"] == 0.0 and p["a_y"] == 0.0:
         return {}
-    from erdctl.recurrences import fading
+    from erdctl.model.recurrences import fading
 
     viscous, yielding = fading(
         parts["viscous"], parts["yield"], s.xdot, s.step, s.starts, p["a_v"], p["a_y"], p["tau"]

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 import pyarrow as pa
 
-from erdctl.recording import Array
+from erdctl.core.recording import Array
 
 MOST_BYTES = 2**31 - 1  # of one text array: its offsets are 32-bit
 

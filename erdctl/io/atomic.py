@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import BinaryIO
 
-from erdctl.errors import ComputationProblem, UsageProblem
+from erdctl.core.errors import ComputationProblem, UsageProblem
 
 STDOUT = "-"
 

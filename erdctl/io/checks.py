@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from erdctl.errors import InputProblem
-from erdctl.recording import Array, Index
+from erdctl.core.errors import InputProblem
+from erdctl.core.recording import Array, Index
 
 LARGEST = 1e12  # in any unit of the contract; more is a bit pattern, not a measurement
 _BLOCK = 1 << 16

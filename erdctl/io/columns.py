@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pyarrow as pa
 
+from erdctl.core.recording import Array, Index
 from erdctl.io.arrays import view
 from erdctl.io.checks import Place
-from erdctl.recording import Array, Index
 
 
 def to_numbers(column: pa.ChunkedArray, name: str, place: Place) -> Array:

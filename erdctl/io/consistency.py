@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from erdctl.core.recording import Array, Index
 from erdctl.io.checks import Place
-from erdctl.recording import Array, Index
 
 # Whatever independent noise does, at this correlation it changes the slope by less than 10 %.
 CERTAIN = 0.95

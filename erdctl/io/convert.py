@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pyarrow as pa
 
-from erdctl.errors import InputProblem
+from erdctl.core.errors import InputProblem
 from erdctl.io.memory import check_fits
 from erdctl.io.plan import in_contract_names, plan_columns, read_planned
 from erdctl.io.sources import open_source

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 
 import pyarrow as pa
 
-from erdctl.errors import InputProblem
+from erdctl.core.errors import InputProblem
 from erdctl.io.csv_out import as_csv_text
 
 # The path of a file, or the bytes of a stream.

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 
 import pyarrow as pa
 
-from erdctl.errors import UsageProblem
+from erdctl.core.errors import UsageProblem
 from erdctl.io.stored import header
 
 ROWS = 1 << 16  # formatted at a time

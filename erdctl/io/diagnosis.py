@@ -9,11 +9,11 @@ from typing import Any
 from msgspec import to_builtins
 
 from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict
-from erdctl.diagnose.likeness import likeness
-from erdctl.diagnose.locate import Region
+from erdctl.diagnose.residual.localisation import Region
+from erdctl.diagnose.residual.resemblance import likeness
 from erdctl.io.parameters import provenance, to_document
-from erdctl.parameters import Estimate, Parameters
-from erdctl.score import Validation
+from erdctl.model.parameters import Estimate, Parameters
+from erdctl.score.nrmse import Validation
 
 SCHEMA = "erdctl.diagnosis/1"
 FITTED = "the paper's model, fitted to these logs"

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 import msgspec
 
-from erdctl.errors import InputProblem, UsageProblem
+from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.io.atomic import output
 
 T = TypeVar("T", bound=msgspec.Struct)

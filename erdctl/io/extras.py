@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-from erdctl.errors import ComputationProblem
+from erdctl.core.errors import ComputationProblem
 
 
 class MissingLibrary(ComputationProblem):

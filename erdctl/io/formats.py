@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from enum import Enum
 
-from erdctl.errors import InputProblem
+from erdctl.core.errors import InputProblem
 
 
 class Format(Enum):

@@ -7,9 +7,9 @@ from typing import Any
 
 import msgspec
 
-from erdctl.errors import InputProblem
-from erdctl.geometry import Geometry
+from erdctl.core.errors import InputProblem
 from erdctl.io import documents
+from erdctl.model.geometry import Geometry
 
 SCHEMA = "erdctl.geometry/1"
 # SI units by field; alpha carries volts per metre to the power beta, which no unit library writes.

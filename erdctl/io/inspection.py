@@ -7,8 +7,8 @@ from typing import Any, TypedDict
 
 import msgspec
 
-from erdctl.coverage import Cover
-from erdctl.inspect import ForceNoise, Inspection, Record, Span
+from erdctl.bench.identifiability import Cover
+from erdctl.bench.inspection import Inspection, NoiseFloor, RecordSummary, Span
 from erdctl.io.logs import Log
 from erdctl.io.units import UNITS
 
@@ -159,7 +159,7 @@ def covers(found: Sequence[Cover]) -> list[CoverEntry]:
     ]
 
 
-def _record(r: Record) -> RecordEntry:
+def _record(r: RecordSummary) -> RecordEntry:
     return {
         "name": r.name,
         "samples": r.samples,
@@ -178,7 +178,7 @@ def _record(r: Record) -> RecordEntry:
     }
 
 
-def _noise(noise: ForceNoise | None) -> NoiseEntry | None:
+def _noise(noise: NoiseFloor | None) -> NoiseEntry | None:
     return None if noise is None else {"rms": noise.rms, "resolution": noise.resolution}
 
 

@@ -9,7 +9,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import pyarrow as pa
 
-from erdctl.errors import InputProblem, UsageProblem
+from erdctl.core.errors import InputProblem, UsageProblem
+from erdctl.core.recording import Array, Index, Recording, Source, concatenate
 from erdctl.io.arrays import arrow, runs_of_text
 from erdctl.io.checks import Place, check_time, check_values, remark_on_time
 from erdctl.io.columns import to_numbers, to_records
@@ -19,7 +20,6 @@ from erdctl.io.plan import Plan, in_contract_names, plan_columns, read_planned
 from erdctl.io.sources import STDIN, TableSource, open_source
 from erdctl.io.stored import si, with_unit
 from erdctl.io.units import RECORD, Conversion, Mapping, parse_maps
-from erdctl.recording import Array, Index, Recording, Source, concatenate
 
 Report = Callable[[str], None]
 
@@ -27,7 +27,7 @@ FORCES = ("force", "force_model")
 
 
 @dataclass(frozen=True)
-class Channel:
+class ColumnMap:
     """One of the contract's columns: the log's own column, times factor plus offset, is SI."""
 
     name: str
@@ -50,7 +50,7 @@ class Log:
     recording: Recording
     table: pa.Table | None = None
     force_model: Array | None = None
-    channels: tuple[Channel, ...] = ()
+    channels: tuple[ColumnMap, ...] = ()
     unread: tuple[str, ...] = ()
     others: dict[str, Array] = field(default_factory=dict)
 
@@ -174,7 +174,7 @@ def _read(
         table=_with_own_label(table, source, plan, starts, names) if keep_table else None,
         force_model=channels.get("force_model"),
         channels=tuple(
-            Channel(target, column, float(convert.factor), float(convert.offset))
+            ColumnMap(target, column, float(convert.factor), float(convert.offset))
             for target, (column, convert) in plan.items()
         ),
         unread=tuple(c for c in source.columns if c not in {column for column, _ in plan.values()}),
@@ -210,7 +210,7 @@ def _recording(
         own = {n: plan[n][0] for n in ("t", "x", "xdot")}
         check_consistency(t, x, xdot, starts, place, sources=own)
     else:
-        from erdctl.motion import derive_xdot
+        from erdctl.bench.differentiation import derive_xdot
 
         xdot, note = derive_xdot(t, x, starts, file=place.file, row_of=place.row_of)
         say(f"no column xdot; {note}")

@@ -9,13 +9,13 @@ from typing import Any
 import msgspec
 
 from erdctl import __version__
-from erdctl.errors import InputProblem
+from erdctl.core.errors import InputProblem
+from erdctl.core.quantity import Quantity
+from erdctl.core.recording import DIRECTIONS, Recording
 from erdctl.io import documents
-from erdctl.model import Model
-from erdctl.paper import QUANTITIES
-from erdctl.parameters import Estimate, Parameters
-from erdctl.quantity import Quantity
-from erdctl.recording import DIRECTIONS, Recording
+from erdctl.model.composed import Model
+from erdctl.model.paper import QUANTITIES
+from erdctl.model.parameters import Estimate, Parameters
 
 SCHEMA = "erdctl.parameters/1"
 
@@ -112,7 +112,7 @@ def _check_together(parameters: Parameters, name: str) -> None:
     """Refuse effects that no model can hold at once, before a command begins with them."""
     import numpy as np
 
-    from erdctl.signals import Signals
+    from erdctl.core.signals import Signals
 
     t, still = np.array([0.0, 1e-3]), np.zeros(2)
     moment = Signals(t, still, still + 1e-3, still, np.array([1e-3, 0.0]), np.array([0, 2]))

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from erdctl import __version__
-from erdctl.amplifier import Amplifier
-from erdctl.errors import UsageProblem
+from erdctl.core.errors import UsageProblem
+from erdctl.core.recording import Array, Recording
 from erdctl.io.atomic import output
 from erdctl.mimic import Plan
-from erdctl.recording import Array, Recording
+from erdctl.model.amplifier import Amplifier
 
 SCHEMA = "erdctl.pwm/1"
 CHANNELS = ("fl", "fr", "rl", "rr")

@@ -15,7 +15,7 @@ from erdctl.io.inspection import LogEntry
 from erdctl.io.parameters import ParameterFile
 
 
-class Quantity(TypedDict):
+class QuantityDocument(TypedDict):
     """A number with its unit."""
 
     value: float | None
@@ -30,7 +30,7 @@ class Measured(TypedDict):
     stderr: float | None
 
 
-class Interval(TypedDict):
+class IntervalDocument(TypedDict):
     """Where: xdot, x, duty, t, since_reversal, since_duty_step or dissipated_energy, in SI."""
 
     variable: str
@@ -69,7 +69,7 @@ class Corrected(Scores):
 class Mismatch(TypedDict):
     """A region in which misfit gathers; share : part of the misfit energy that lies there."""
 
-    where: Interval
+    where: IntervalDocument
     share: float
     text: str
 
@@ -99,7 +99,7 @@ class ToTell(TypedDict):
     against: str
 
 
-class Finding(TypedDict):
+class FindingDocument(TypedDict):
     """One effect that the model had left out."""
 
     effect: str
@@ -108,7 +108,7 @@ class Finding(TypedDict):
     equation: str
     source: str
     parameters: dict[str, Measured]
-    where: Interval | None
+    where: IntervalDocument | None
     evidence: Evidence
     heldout: Heldout
     test: NotRequired[ToTell]
@@ -148,7 +148,7 @@ class DiagnosisFile(TypedDict):
     baseline: Baseline
     refitted: NotRequired[Scores]
     mismatch: list[Mismatch]
-    findings: list[Finding]
+    findings: list[FindingDocument]
     corrected: Corrected
     heldout: NotRequired[Unseen]
     remaining: Remaining
@@ -158,7 +158,7 @@ class DiagnosisFile(TypedDict):
     provenance: dict[str, Any]
 
 
-class Score(TypedDict):
+class ScoreDocument(TypedDict):
     """Misfit of a group of samples; NRMSE is null for an error on a force without range."""
 
     nrmse: float | None
@@ -166,25 +166,25 @@ class Score(TypedDict):
     samples: int
 
 
-class DutyScore(Score):
+class DutyScore(ScoreDocument):
     """Score at one PWM level."""
 
     duty: float
 
 
-class DirectionScore(Score):
+class DirectionScore(ScoreDocument):
     """Score of compression or release."""
 
     direction: str
 
 
-class RecordScore(Score):
+class RecordScore(ScoreDocument):
     """Score of one record."""
 
     record: str
 
 
-class ValidationFile(Score):
+class ValidationFile(ScoreDocument):
     """Scores of a model on logs; normalise : the denominator of the NRMSE."""
 
     schema: str
@@ -194,13 +194,13 @@ class ValidationFile(Score):
     nrmse_by_record: list[RecordScore]
 
 
-class Limits(TypedDict):
+class LimitsDocument(TypedDict):
     """Limits of the amplifier; null where there is none."""
 
     duty_max: float
     resolution: float
-    slew: Quantity | None
-    update_rate: Quantity | None
+    slew: QuantityDocument | None
+    update_rate: QuantityDocument | None
 
 
 class Hashed(TypedDict):
@@ -218,11 +218,11 @@ class Emulation(TypedDict):
     nrmse_paper: float
     nrmse_plain: NotRequired[float]
     out_of_reach: float
-    missing_rms: Quantity
-    missing_max: Quantity
+    missing_rms: QuantityDocument
+    missing_max: QuantityDocument
 
 
-class Correction(TypedDict):
+class CorrectionDocument(TypedDict):
     """What the effects beyond the paper are worth for the sequence of one damper."""
 
     channel: str
@@ -239,17 +239,17 @@ class PwmManifest(TypedDict):
 
     schema: str
     erdctl: str
-    carrier: Quantity
-    full_scale: Quantity
+    carrier: QuantityDocument
+    full_scale: QuantityDocument
     channels: list[str]
-    limits: Limits
+    limits: LimitsDocument
     parameters: Hashed
     logs: list[LogEntry]
     samples: int
     sequence: str
     schedule: list[str]
     emulation: list[Emulation]
-    correction: list[Correction]
+    correction: list[CorrectionDocument]
 
 
 def _of(shape: type) -> Callable[[], dict[str, Any]]:

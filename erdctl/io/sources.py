@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 import pyarrow as pa
 
-from erdctl.errors import ComputationProblem, InputProblem, UsageProblem
+from erdctl.core.errors import ComputationProblem, InputProblem, UsageProblem
 from erdctl.io import csv_in
 from erdctl.io.csv_in import Data
 from erdctl.io.formats import ARROW_END, ARROW_FILE, CONTAINERS, Format, by_content

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 import pyarrow as pa
 
-from erdctl.errors import InputProblem
+from erdctl.core.errors import InputProblem
 from erdctl.io.units import UNITS, Conversion, WrongUnit, between, examples, name_and_unit
 
 _KEY = b"unit"

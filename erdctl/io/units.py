@@ -9,8 +9,8 @@ from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from erdctl.errors import InputProblem, UsageProblem
-from erdctl.recording import Array
+from erdctl.core.errors import InputProblem, UsageProblem
+from erdctl.core.recording import Array
 
 if TYPE_CHECKING:
     import pint

@@ -22,14 +22,14 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from erdctl.amplifier import Amplifier
-from erdctl.effect import Slot
-from erdctl.faults import FaultFactors
-from erdctl.model import Model
-from erdctl.paper import field_law
-from erdctl.recording import DIRECTIONS, Array
-from erdctl.response import Prepared
-from erdctl.signals import Signals
+from erdctl.core.recording import DIRECTIONS, Array
+from erdctl.core.signals import Signals
+from erdctl.model.amplifier import Amplifier
+from erdctl.model.composed import Model
+from erdctl.model.effect import Slot
+from erdctl.model.faults import FaultFactors
+from erdctl.model.paper import field_law
+from erdctl.model.response import Prepared
 
 NODES = np.linspace(0.0, 1.0, 1501) ** 6  # of a tabulated law, which is steepest where it sets in
 

@@ -26,11 +26,11 @@ import numpy as np
 from scipy.linalg import LinAlgError, solveh_banded
 from scipy.sparse import csr_matrix
 
-from erdctl.amplifier import Amplifier
+from erdctl.core.recording import Array, Index
+from erdctl.core.signals import Signals
 from erdctl.mimic.inverse import Laws, follow
-from erdctl.model import Model
-from erdctl.recording import Array, Index
-from erdctl.signals import Signals
+from erdctl.model.amplifier import Amplifier
+from erdctl.model.composed import Model
 
 COLOURS = 48  # simulations for one derivative, at most
 CELLS = 12_000_000  # numbers in one derivative, at most: 100 MB
@@ -46,7 +46,7 @@ ENOUGH = 2e-3  # a step that improves by a smaller part is the last
 
 
 @dataclass(frozen=True, eq=False)
-class Task:
+class Target:
     """What is to be reached, by which damper, under which amplifier.
 
     ideal : (n,) force [N];  laws : steady yield laws of either direction
@@ -103,7 +103,7 @@ class Mesh:
     base: Index
 
 
-def improve(task: Task, duty: Array) -> tuple[Array, int]:
+def improve(task: Target, duty: Array) -> tuple[Array, int]:
     """A better duty sequence (n,) than the given one, and the number of steps it took.
 
     The given one comes back if none is better.
@@ -119,7 +119,9 @@ def improve(task: Task, duty: Array) -> tuple[Array, int]:
         return _descend(task, duty, u, ceiling, nudge)
 
 
-def _descend(task: Task, duty: Array, u: Array, ceiling: Array, nudge: float) -> tuple[Array, int]:
+def _descend(
+    task: Target, duty: Array, u: Array, ceiling: Array, nudge: float
+) -> tuple[Array, int]:
     best, cost = duty, task.miss(duty)
     mesh = _mesh(State.of(task, u, ceiling), nudge)
     damping, taken = 1e-3, 0
@@ -154,13 +156,13 @@ class State:
     Under an amplifier of any resolution: a small change would be lost in its steps, or be one.
     """
 
-    task: Task
+    task: Target
     u: Array
     ceiling: Array
     force: Array
 
     @classmethod
-    def of(cls, task: Task, u: Array, ceiling: Array) -> State:
+    def of(cls, task: Target, u: Array, ceiling: Array) -> State:
         """The state of a task at u."""
         smooth = replace(task, amplifier=replace(task.amplifier, resolution=0.0))
         return cls(smooth, u, ceiling, smooth.force(smooth.duty(u)))

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from erdctl.faults import Fault
-from erdctl.recording import Array
+from erdctl.core.recording import Array
+from erdctl.model.faults import Fault
 
 Flags = npt.NDArray[np.bool_]
 

@@ -21,20 +21,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from erdctl.amplifier import Amplifier
-from erdctl.effect import Slot, Stage, Values
-from erdctl.faults import Fault, FaultFactors, effectiveness, factors
+from erdctl.core.recording import Array, Recording
+from erdctl.core.signals import Signals
 from erdctl.mimic.inverse import Laws, compensate, follow, laws_of, static_duty
 from erdctl.mimic.outcome import Correction, Flags, Plan, Reach
-from erdctl.model import Model
-from erdctl.parameters import Parameters
-from erdctl.recording import Array, Recording
-from erdctl.response import Prepared
-from erdctl.score import nrmse
-from erdctl.signals import Signals
+from erdctl.model.amplifier import Amplifier
+from erdctl.model.composed import Model
+from erdctl.model.effect import Slot, Stage, Values
+from erdctl.model.faults import Fault, FaultFactors, effectiveness, factors
+from erdctl.model.parameters import Parameters
+from erdctl.model.response import Prepared
+from erdctl.score.nrmse import nrmse
 
 if TYPE_CHECKING:
-    from erdctl.mimic.iterate import Task
+    from erdctl.mimic.iterate import Target
 
 SMOOTH_SIGN = 0.05  # below this |sign law| a yield force cannot be told from none
 UNSEEN = 2e-3  # of the range of the force: less is a matter of which fault's onset comes first
@@ -210,10 +210,10 @@ def _no_worse(
 
 def _task(
     model: Model, values: Values, signals: Signals, found: Inversion, amplifier: Amplifier
-) -> Task:
-    from erdctl.mimic.iterate import Task  # only where it is needed: it imports scipy
+) -> Target:
+    from erdctl.mimic.iterate import Target  # only where it is needed: it imports scipy
 
-    return Task(model, values, signals, found.ideal, found.laws, amplifier)
+    return Target(model, values, signals, found.ideal, found.laws, amplifier)
 
 
 def _plain(

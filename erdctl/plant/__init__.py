@@ -9,29 +9,29 @@ simulate(plant, record)
 
 from __future__ import annotations
 
-from erdctl.plant.campaign import Campaign, Duty, Record
+from erdctl.plant.campaign import Campaign, CampaignRecord, DutyProgramme
 from erdctl.plant.case import Case, Truth
 from erdctl.plant.draw import draw
 from erdctl.plant.hidden import CATALOGUE, EQUIVALENT, OUTSIDE
 from erdctl.plant.logs import fresh, key, log
-from erdctl.plant.motion import Motion
-from erdctl.plant.plant import Channel, Outside, Physics, Plant, Side
+from erdctl.plant.plant import ForceChannel, Outside, Physics, Plant, Side
 from erdctl.plant.simulate import simulate
+from erdctl.plant.trajectory import Trajectory
 
 __all__ = [
     "CATALOGUE",
     "EQUIVALENT",
     "OUTSIDE",
     "Campaign",
+    "CampaignRecord",
     "Case",
-    "Channel",
-    "Duty",
-    "Motion",
+    "DutyProgramme",
+    "ForceChannel",
     "Outside",
     "Physics",
     "Plant",
-    "Record",
     "Side",
+    "Trajectory",
     "Truth",
     "draw",
     "fresh",

@@ -9,9 +9,9 @@ from functools import partial
 import numpy as np
 
 from erdctl.plant.base import PLAIN, Weights, draw_base
-from erdctl.plant.hidden import Hidden, Scales
+from erdctl.plant.hidden import Scales, Twin
 from erdctl.plant.noise import ForceNoise
-from erdctl.plant.plan import Plan
+from erdctl.plant.plan import CasePlan
 from erdctl.plant.plant import Plant
 from erdctl.plant.refit import joined
 from erdctl.plant.simulate import Ride, forces
@@ -21,7 +21,7 @@ Random = np.random.Generator
 
 
 @dataclass(frozen=True)
-class Trial:
+class Variation:
     """How an attempt may differ from a plain draw.
 
     weights : parts of the force that are favoured;  noise : factor on the noise's amplitude
@@ -50,7 +50,7 @@ class Built:
     crowding: tuple[float, ...]
 
 
-def build(plan: Plan, over: tuple[Ride, ...], random: Random, trial: Trial) -> Built:
+def build(plan: CasePlan, over: tuple[Ride, ...], random: Random, trial: Variation) -> Built:
     """An attempt at a plan."""
     base = draw_base(random, plan.campaign, trial.weights)
     samples, plain = joined(over), forces(base, over)
@@ -82,7 +82,7 @@ def build(plan: Plan, over: tuple[Ride, ...], random: Random, trial: Trial) -> B
 Maker = Callable[[Plant, float], Plant]
 
 
-def _maker(effect: Hidden, shape: dict[str, float], scales: Scales) -> Maker:
+def _maker(effect: Twin, shape: dict[str, float], scales: Scales) -> Maker:
     return lambda plant, s: effect.build(plant, s, shape, scales)
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from erdctl.plant.motion import Motion
+from erdctl.plant.trajectory import Trajectory
 
 Array = npt.NDArray[np.float64]
 Random = np.random.Generator
@@ -21,7 +21,7 @@ PER_RECORD = 1500  # samples that a record needs for a few cycles
 
 
 @dataclass(frozen=True)
-class Duty:
+class DutyProgramme:
     """Levels [1], each held from its first sample on."""
 
     levels: tuple[float, ...]
@@ -35,14 +35,14 @@ class Duty:
 
 
 @dataclass(frozen=True)
-class Record:
+class CampaignRecord:
     """One test."""
 
     name: str
     rate: float
     samples: int
-    motion: Motion
-    duty: Duty
+    motion: Trajectory
+    duty: DutyProgramme
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class Campaign:
     reach_v: float
     top: float
     levels: tuple[float, ...]
-    records: tuple[Record, ...]
+    records: tuple[CampaignRecord, ...]
 
 
 def draw_campaign(random: Random) -> Campaign:
@@ -115,7 +115,7 @@ def _fill(
         n = max(round(duration * rate), 300)
         motion = _motion(random, rating, n / rate, low, high, reach_x, reach_v)
         duty = _duty(random, programme, levels, top, n, rate)
-        records.append(Record(f"r{i + 1:02d}", rate, n, motion, duty))
+        records.append(CampaignRecord(f"r{i + 1:02d}", rate, n, motion, duty))
     return Campaign(rating, rate, low, high, reach_x, reach_v, top, levels, tuple(records))
 
 
@@ -128,7 +128,7 @@ MOTION_SHARES = (0.45, 0.25, 0.15, 0.15)
 def _motion(
     random: Random, rating: Rating, duration: float,
     low: float, high: float, reach_x: float, reach_v: float,
-) -> Motion:  # fmt: skip
+) -> Trajectory:  # fmt: skip
     kind = str(random.choice(MOTIONS, p=MOTION_SHARES))
     most_x = reach_x * rating.stroke * float(random.uniform(0.4, 1.0))
     most_v = reach_v * rating.speed * float(random.uniform(0.4, 1.0))
@@ -141,38 +141,40 @@ def _motion(
         tones = int(random.integers(6, 16))
         fs = np.sort(np.exp(random.uniform(np.log(low), np.log(high), tones)))
         phases = random.uniform(0, 2 * np.pi, tones)
-        unit = Motion("tones", tuple((1 / fs).tolist()), tuple(fs.tolist()), tuple(phases.tolist()))
+        unit = Trajectory(
+            "tones", tuple((1 / fs).tolist()), tuple(fs.tolist()), tuple(phases.tolist())
+        )
         x, v, _ = unit.at(0.0, 0.05 / high, int(duration * high / 0.05))
         scale = 1.0 / max(np.abs(x).max() / most_x, np.abs(v).max() / most_v)
-        return Motion(
+        return Trajectory(
             "tones", tuple((scale / fs).tolist()), unit.frequencies, unit.phases, offset, 1.0, ramp
         )
     if kind == "sweep":
         f_1 = float(np.exp(random.uniform(np.log(max(low, 0.4 * high)), np.log(high))))
         amplitude = min(most_x, most_v / (2 * np.pi * f_1))
         first, last = (low, f_1) if random.random() < 0.5 else (f_1, low)
-        return Motion("sweep", (amplitude,), (first, last), (phase,), offset, duration, ramp)
+        return Trajectory("sweep", (amplitude,), (first, last), (phase,), offset, duration, ramp)
     amplitude = min(most_x, most_v / (2 * np.pi * f))
     shape = "tones" if kind == "sine" else "triangle"
-    return Motion(shape, (amplitude,), (f,), (phase,), offset, 1.0, ramp)
+    return Trajectory(shape, (amplitude,), (f,), (phase,), offset, 1.0, ramp)
 
 
 def _duty(
     random: Random, programme: str, levels: tuple[float, ...], top: float, n: int, rate: float
-) -> Duty:
+) -> DutyProgramme:
     if programme == "null":
-        return Duty((0.0,), (0,))
+        return DutyProgramme((0.0,), (0,))
     if programme == "constant":
-        return Duty((float(random.choice(levels[1:])),), (0,))
+        return DutyProgramme((float(random.choice(levels[1:])),), (0,))
     hold = float(np.exp(random.uniform(np.log(0.15), np.log(1.5))))
     if programme == "steps":
         starts = np.arange(0, n, max(round(hold * rate), 2))
         first = int(random.integers(len(levels)))
         order = random.permutation(len(levels))
         chosen = [levels[order[(first + k) % len(levels)]] for k in range(len(starts))]
-        return Duty(tuple(chosen), tuple(int(s) for s in starts))
+        return DutyProgramme(tuple(chosen), tuple(int(s) for s in starts))
     lengths = hold * random.uniform(0.4, 1.6, int(np.ceil(n / rate / hold)) * 2 + 4)
     edges = np.concatenate([[0], np.cumsum(np.maximum(np.round(lengths * rate), 2))])
     starts = edges[edges < n].astype(int)
     drawn = np.round(random.uniform(0.0, top, len(starts)), 3)
-    return Duty(tuple(drawn.tolist()), tuple(int(s) for s in starts))
+    return DutyProgramme(tuple(drawn.tolist()), tuple(int(s) for s in starts))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from erdctl.plant.campaign import Campaign
 from erdctl.plant.noise import ForceNoise, MotionNoise
 from erdctl.plant.plant import Plant
-from erdctl.plant.regions import Region
+from erdctl.plant.regions import MisfitRegion
 
 
 @dataclass(frozen=True)
@@ -64,6 +64,6 @@ class Case:
     near: float
     own_nrmse: float
     fresh_nrmse: float
-    regions: tuple[Region, ...]
-    effect_regions: tuple[Region, ...]
+    regions: tuple[MisfitRegion, ...]
+    effect_regions: tuple[MisfitRegion, ...]
     flags: tuple[str, ...]

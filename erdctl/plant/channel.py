@@ -10,13 +10,13 @@ import numpy as np
 import numpy.typing as npt
 from scipy.signal import lfilter, lfilter_zi
 
-from erdctl.plant.plant import FOREVER, Channel
+from erdctl.plant.plant import FOREVER, ForceChannel
 
 Array = npt.NDArray[np.float64]
 
 
 def recorded(
-    force: Array, h: float, lead_in: int, substeps: int, count: int, channel: Channel
+    force: Array, h: float, lead_in: int, substeps: int, count: int, channel: ForceChannel
 ) -> Array:
     """(count,) samples of the force at fine nodes [N], `substeps` apart from node `lead_in` on."""
     if channel.ring_rate > 0.0:
@@ -36,7 +36,7 @@ def recorded(
     return np.asarray(out, dtype=float)
 
 
-def _rung(force: Array, h: float, channel: Channel) -> Array:
+def _rung(force: Array, h: float, channel: ForceChannel) -> Array:
     """Second-order response by the trapezoidal rule."""
     w, d = 2 * np.pi * channel.ring_rate * h, channel.ring_damping
     b = np.array([1.0, 2.0, 1.0]) * w * w

@@ -14,12 +14,12 @@ from dataclasses import replace
 import numpy as np
 
 from erdctl.plant.base import Weights
-from erdctl.plant.build import Built, Trial, build
+from erdctl.plant.build import Built, Variation, build
 from erdctl.plant.campaign import Campaign, draw_other
 from erdctl.plant.case import Case, Truth
-from erdctl.plant.hidden import CATALOGUE, EQUIVALENT, UNITS, Hidden
+from erdctl.plant.hidden import CATALOGUE, EQUIVALENT, UNITS, Twin
 from erdctl.plant.noise import FRACTIONS
-from erdctl.plant.plan import Plan, draw_plan, stream
+from erdctl.plant.plan import CasePlan, draw_plan, stream
 from erdctl.plant.plant import Plant
 from erdctl.plant.refit import joined, predicted
 from erdctl.plant.regions import regions
@@ -63,7 +63,7 @@ def draw(
         motion=motion, colour=colour, scatter=scatter,
     )  # fmt: skip
     over = rides(plan.campaign)
-    trial, best = Trial(), None
+    trial, best = Variation(), None
     for attempt in range(TRIES):
         built = build(plan, over, stream(seed, "damper", attempt), trial)
         for choice in range(CHOICES if concealment == "absorbed" else 1):
@@ -84,7 +84,7 @@ def draw(
     return best[1]
 
 
-def _next(trial: Trial, built: Built, effects: Sequence[Hidden], attempt: int) -> Trial:
+def _next(trial: Variation, built: Built, effects: Sequence[Twin], attempt: int) -> Variation:
     """What to change after an attempt that did not give what was wanted."""
     weights, noise = trial.weights, trial.noise
     levels = trial.levels or (1.0,) * len(effects)
@@ -105,7 +105,7 @@ def _next(trial: Trial, built: Built, effects: Sequence[Hidden], attempt: int) -
         levels = tuple(
             level * min(crowded, 2.0) for level, crowded in zip(levels, built.crowding, strict=True)
         )
-    return Trial(weights, noise, levels)
+    return Variation(weights, noise, levels)
 
 
 def _farthest(built: Built) -> float:
@@ -135,7 +135,7 @@ def _absorbed(own: float, fresh: float) -> bool:
     return own < GOOD and fresh > WORSE * own
 
 
-def _case(plan: Plan, built: Built, other: Campaign) -> Case:
+def _case(plan: CasePlan, built: Built, other: Campaign) -> Case:
     setting, whole = built.setting, built.whole
     spread = float(np.ptp(whole.force))
     own = float(np.hypot(whole.fitted.rms, built.noise.rms)) / spread
@@ -169,7 +169,7 @@ def _case(plan: Plan, built: Built, other: Campaign) -> Case:
     )
 
 
-def _truth(plan: Plan, built: Built, k: int) -> Truth:
+def _truth(plan: CasePlan, built: Built, k: int) -> Truth:
     effect, alone = plan.effects[k], built.alone[k]
     within = alone.level
     if built.without:
@@ -193,7 +193,7 @@ def _value(plant: Plant, path: str) -> tuple[float, str]:
     return float(getattr(getattr(plant, part), field)), UNITS[field]
 
 
-def _flags(plan: Plan, built: Built) -> tuple[str, ...]:
+def _flags(plan: CasePlan, built: Built) -> tuple[str, ...]:
     flags = []
     if plan.effects and built.whole.near > MOST_NEAR:
         flags.append("the misfit lives next to reversals only")

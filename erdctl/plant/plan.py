@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from erdctl.plant.campaign import Campaign, draw_campaign
-from erdctl.plant.hidden import CATALOGUE, OUTSIDE, Hidden
+from erdctl.plant.hidden import CATALOGUE, OUTSIDE, Twin
 from erdctl.plant.noise import (
     COLOURS,
     ForceNoise,
@@ -44,12 +44,12 @@ STREAMS = (
 
 
 @dataclass(frozen=True)
-class Plan:
+class CasePlan:
     """effects : to hide;  levels : wanted for each."""
 
     seed: int
     kind: str
-    effects: tuple[Hidden, ...]
+    effects: tuple[Twin, ...]
     levels: tuple[float, ...]
     campaign: Campaign
     force_noise: ForceNoise
@@ -72,7 +72,7 @@ def draw_plan(
     motion: str | None = None,
     colour: str | None = None,
     scatter: bool = False,
-) -> Plan:
+) -> CasePlan:
     """A plan; the arguments are those of `draw`."""
     _known("kind", kind, KINDS)
     _known("concealment", concealment, CONCEALMENTS)
@@ -90,7 +90,7 @@ def draw_plan(
     campaign = draw_campaign(stream(seed, "campaign"))
     gains = stream(seed, "gains")
     spread = float(gains.uniform(0.02, 0.06)) if scatter else 0.0
-    return Plan(
+    return CasePlan(
         seed, chosen, hidden, levels, campaign,
         draw_force_noise(stream(seed, "force noise"), colour),
         draw_motion_noise(stream(seed, "motion noise"), campaign, motion),
@@ -105,7 +105,7 @@ def _known(name: str, value: str | None, values: Sequence[str]) -> None:
 
 def _chosen(
     random: Random, kind: str, names: Sequence[str] | None, *, unlogged: bool
-) -> tuple[Hidden, ...]:
+) -> tuple[Twin, ...]:
     if kind == "null":
         return ()
     source = OUTSIDE if kind == "unknown" else CATALOGUE

@@ -103,7 +103,7 @@ class Outside(NamedTuple):
     gas_heat_time: float = 1.0  # [s]
 
 
-class Channel(NamedTuple):
+class ForceChannel(NamedTuple):
     """What the force channel does to the force."""
 
     skew: float = 0.0  # recorded later than the motion [s]
@@ -122,7 +122,7 @@ class Plant(NamedTuple):
     release: Side
     physics: Physics = Physics()
     outside: Outside = Outside()
-    channel: Channel = Channel()
+    channel: ForceChannel = ForceChannel()
 
     def plain(self) -> Plant:
         """The same damper as the paper has it."""

@@ -28,7 +28,7 @@ HIGH = np.log([6.0, 6.0, 3.0, 3.0])
 
 
 @dataclass(frozen=True, eq=False)
-class Samples:
+class Joined:
     """Records joined: motion, duty, and where each begins, (n,) and (r + 1,)."""
 
     x: Array
@@ -38,11 +38,11 @@ class Samples:
     dt: float
 
 
-def joined(over: Sequence[Ride]) -> Samples:
+def joined(over: Sequence[Ride]) -> Joined:
     """The samples of several records."""
     x, v = zip(*(r.sampled()[1:] for r in over), strict=True)
     lengths = [r.record.samples for r in over]
-    return Samples(
+    return Joined(
         np.concatenate(x), np.concatenate(v), np.concatenate([r.duty for r in over]),
         np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64), 1.0 / over[0].record.rate,
     )  # fmt: skip
@@ -128,7 +128,7 @@ def shape_of(plant: Plant) -> Array:
     return np.log([up.beta, down.beta, max(up.T_d, 1e-3), max(down.T_d, 1e-3)])
 
 
-def refit(samples: Samples, force: Array, starts: Sequence[Array]) -> Refit:
+def refit(samples: Joined, force: Array, starts: Sequence[Array]) -> Refit:
     """The plain damper that comes closest to a force, from the best of several starts."""
     every = max(1, len(force) // ROWS)
     scale = float(np.std(force)) or 1.0
@@ -164,7 +164,7 @@ def refit(samples: Samples, force: Array, starts: Sequence[Array]) -> Refit:
     return Refit(plant, np.asarray(best.x), model, force - model)
 
 
-def predicted(samples: Samples, plant: Plant) -> Array:
+def predicted(samples: Joined, plant: Plant) -> Array:
     """Force of a plain damper on other records [N]."""
     up, down = plant.compression, plant.release
     a = _columns(

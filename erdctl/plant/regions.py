@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from erdctl.plant.refit import Samples
+from erdctl.plant.refit import Joined
 
 Array = npt.NDArray[np.float64]
 
@@ -20,7 +20,7 @@ NEAR = 2  # samples next to a reversal
 
 
 @dataclass(frozen=True)
-class Region:
+class MisfitRegion:
     """share : of the misfit's energy;  time : of the samples;  width : of the variable's range."""
 
     variable: str
@@ -31,7 +31,7 @@ class Region:
     width: float
 
 
-def variables(samples: Samples, force: Array) -> dict[str, Array]:
+def variables(samples: Joined, force: Array) -> dict[str, Array]:
     """(n,) of each variable of the contract; nan where it has no value yet."""
     n = len(samples.x)
     names = ("t", "since_reversal", "since_duty_step", "dissipated_energy")
@@ -61,7 +61,7 @@ def _since(t: Array, events: npt.NDArray[np.bool_]) -> Array:
     return np.where(np.isfinite(last), t - last, np.nan)
 
 
-def near_reversals(samples: Samples, misfit: Array) -> float:
+def near_reversals(samples: Joined, misfit: Array) -> float:
     """Share of the misfit's energy within two samples of a change of sign of xdot."""
     total = float(np.sum(misfit**2))
     if total == 0.0:
@@ -74,7 +74,7 @@ def near_reversals(samples: Samples, misfit: Array) -> float:
     return float(np.sum(misfit[close] ** 2)) / total
 
 
-def regions(samples: Samples, force: Array, misfit: Array) -> tuple[Region, ...]:
+def regions(samples: Joined, force: Array, misfit: Array) -> tuple[MisfitRegion, ...]:
     """Regions of a misfit (n,) [N], the tightest first; none if it lies everywhere."""
     energy = misfit**2
     total = float(energy.sum())
@@ -88,7 +88,7 @@ def regions(samples: Samples, force: Array, misfit: Array) -> tuple[Region, ...]
     return tuple(sorted(found, key=lambda r: r.time - r.share))
 
 
-def _interval(name: str, value: Array, energy: Array, total: float) -> Region | None:
+def _interval(name: str, value: Array, energy: Array, total: float) -> MisfitRegion | None:
     known = np.isfinite(value)
     u, e = value[known], energy[known]
     if len(u) < CELLS:
@@ -108,7 +108,7 @@ def _interval(name: str, value: Array, energy: Array, total: float) -> Region | 
     width = (min(high, high_end) - max(low, low_end)) / (high_end - low_end)
     if part < max(LEAST_SHARE, spent + LEAST_EXCESS) or not 0.0 < width <= MOST_WIDTH:
         return None
-    return Region(name, low, high, part, spent, float(width))
+    return MisfitRegion(name, low, high, part, spent, float(width))
 
 
 def _most(excess: Array) -> tuple[int, int]:
@@ -123,7 +123,7 @@ def _most(excess: Array) -> tuple[int, int]:
     return at
 
 
-def overlap(a: Region, b: tuple[float, float]) -> float:
+def overlap(a: MisfitRegion, b: tuple[float, float]) -> float:
     """Intersection over union of two intervals of one variable.  Check: 0..2 and 1..3 give 1/3."""
     inter = max(0.0, min(a.high, b[1]) - max(a.low, b[0]))
     union = max(a.high, b[1]) - min(a.low, b[0])

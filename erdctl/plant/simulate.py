@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from erdctl.plant.campaign import Campaign, Record
+from erdctl.plant.campaign import Campaign, CampaignRecord
 from erdctl.plant.channel import recorded
 from erdctl.plant.march import march
 from erdctl.plant.plant import Outside, Plant, canonical
@@ -29,7 +29,7 @@ class Ride:
     It does not depend on the plant, so that many plants can be driven over the same one.
     """
 
-    record: Record
+    record: CampaignRecord
     substeps: int
     lead_in: int
     h: float
@@ -45,7 +45,7 @@ class Ride:
         return np.arange(n) / self.record.rate, self.x[at], self.v[at]
 
 
-def ride(record: Record, *, refine: int = 1) -> Ride:
+def ride(record: CampaignRecord, *, refine: int = 1) -> Ride:
     """A record on its fine grid; `refine` divides the step further."""
     substeps = refine * max(LEAST_SUBSTEPS, math.ceil(1.0 / (record.rate * LONGEST_STEP)))
     h = 1.0 / (record.rate * substeps)
@@ -80,7 +80,7 @@ def forces(plant: Plant, over: Sequence[Ride]) -> Array:
     return np.concatenate([force(plant, r) for r in over])
 
 
-def simulate(plant: Plant, record: Record, *, refine: int = 1) -> Array:
+def simulate(plant: Plant, record: CampaignRecord, *, refine: int = 1) -> Array:
     """(n,) force of a plant over one record [N].
 
     Check: xdot > 0 throughout and a duty step from 0 to v: sigma v^beta (1 - exp(-t/T_d)) on top

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from erdctl.plant.hidden import Hidden, Scales
+from erdctl.plant.hidden import Scales, Twin
 from erdctl.plant.plant import Plant
-from erdctl.plant.refit import Refit, Samples, refit, shape_of
+from erdctl.plant.refit import Joined, Refit, refit, shape_of
 from erdctl.plant.regions import near_reversals
 from erdctl.plant.simulate import Ride, forces
 
@@ -36,7 +36,7 @@ class Setting:
     """
 
     over: tuple[Ride, ...]
-    samples: Samples
+    samples: Joined
     base: Plant
     plain: Array
     scales: Scales
@@ -60,7 +60,7 @@ class Outcome:
     near: float
 
 
-def scales_of(over: Sequence[Ride], plain: Array, samples: Samples, stroke: float) -> Scales:
+def scales_of(over: Sequence[Ride], plain: Array, samples: Joined, stroke: float) -> Scales:
     """Sizes of a campaign with its plain damper."""
     inside = [slice(r.lead_in, r.lead_in + r.record.samples * r.substeps) for r in over]
     power = np.maximum(plain * samples.v, 0.0) * samples.dt
@@ -102,7 +102,7 @@ def outcome(
 
 
 def sought(
-    setting: Setting, effect: Hidden, build: Callable[[float], Plant], wanted: float
+    setting: Setting, effect: Twin, build: Callable[[float], Plant], wanted: float
 ) -> Outcome:
     """The effect as strong as it must be for the wanted level, or as near to it as it can come."""
     low, high = math.log(effect.low), math.log(effect.high)
@@ -131,9 +131,7 @@ def sought(
     return outcome(setting, best.plant, best.strength, best.fitted.shape, full=True)
 
 
-def crowding(
-    setting: Setting, effect: Hidden, build: Callable[[float], Plant], at: Outcome
-) -> float:
+def crowding(setting: Setting, effect: Twin, build: Callable[[float], Plant], at: Outcome) -> float:
     """How many times the level must rise before the misfit no longer lives next to reversals only;
     1 if it does not."""
     if at.near <= MOST_NEAR:

@@ -13,15 +13,15 @@ from typing import Any
 
 import numpy as np
 
-from erdctl.blocks import Block, thinned
-from erdctl.diagnose.screen import starts
-from erdctl.diagnose.study import Study, prepare
-from erdctl.effect import Effect
-from erdctl.fit import fit
-from erdctl.model import Model
-from erdctl.paper import QUANTITIES
-from erdctl.recording import DIRECTIONS
-from erdctl.signals import Signals
+from erdctl.core.blocks import Block, thinned
+from erdctl.core.recording import DIRECTIONS
+from erdctl.core.signals import Signals
+from erdctl.diagnose.problem import Study, prepare
+from erdctl.diagnose.screening import starts
+from erdctl.estimate.least_squares import fit
+from erdctl.model.composed import Model
+from erdctl.model.effect import Effect
+from erdctl.model.paper import QUANTITIES
 
 SEARCH = 6_000  # samples of the search; the best starts are then fitted to all
 LOOK = 6  # evaluations that rank a start

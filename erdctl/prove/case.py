@@ -11,7 +11,7 @@ from typing import Any
 
 import msgspec
 
-from erdctl.errors import ComputationProblem, UsageProblem
+from erdctl.core.errors import ComputationProblem, UsageProblem
 from erdctl.io import documents
 
 FOLDERS = ("logs", "fresh", "keys", "diagnoses")

@@ -10,17 +10,17 @@ from typing import Any
 import numpy as np
 
 from erdctl import effects
+from erdctl.core.recording import Array, Recording
+from erdctl.core.signals import Signals
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
 from erdctl.io import documents
 from erdctl.io.diagnosis import to_json
 from erdctl.io.logs import read_logs
-from erdctl.model import Model
+from erdctl.model.composed import Model
 from erdctl.plant import CATALOGUE
 from erdctl.prove.best import acts, best_fit, damper_values
 from erdctl.prove.case import Sealed, opened
-from erdctl.prove.score import Errors, Found, Hidden, Place, located, naming
-from erdctl.recording import Array, Recording
-from erdctl.signals import Signals
+from erdctl.prove.score import Errors, Found, HiddenEffect, Interval, located, naming
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Result:
     motion: str
     level: float
     flags: tuple[str, ...]
-    hidden: tuple[Hidden, ...]
+    hidden: tuple[HiddenEffect, ...]
     verdict: str
     findings: tuple[Found, ...]
     named: bool | None
@@ -84,7 +84,7 @@ def scored(
 ) -> Result:
     """A diagnosis' document against the key."""
     hidden = tuple(
-        Hidden(e["name"], float(e["alone"]), tuple(e["equivalent"])) for e in key["effects"]
+        HiddenEffect(e["name"], float(e["alone"]), tuple(e["equivalent"])) for e in key["effects"]
     )
     known = all(e["catalogued"] for e in key["effects"])
     findings = tuple(Found(f["effect"], tuple(f["equivalent"])) for f in document["findings"])
@@ -111,10 +111,10 @@ def scored(
     )
 
 
-def places(document: Mapping[str, Any]) -> list[Place]:
+def places(document: Mapping[str, Any]) -> list[Interval]:
     """Everywhere that a diagnosis points at, once."""
     where = [entry["where"] for entry in (*document["mismatch"], *document["findings"])]
-    found = [Place(w["variable"], w["low"], w["high"]) for w in where if w is not None]
+    found = [Interval(w["variable"], w["low"], w["high"]) for w in where if w is not None]
     return list(dict.fromkeys(found))
 
 

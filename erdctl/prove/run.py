@@ -8,10 +8,10 @@ from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any
 
-from erdctl.errors import ComputationProblem
+from erdctl.core.errors import ComputationProblem
+from erdctl.core.workers import pool as workers
 from erdctl.prove.case import Sealed, Wish, seal
 from erdctl.prove.judge import Failed, Result, judge
-from erdctl.workers import pool as workers
 
 Outcome = Result | Failed
 

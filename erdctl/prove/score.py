@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from erdctl.plant.regions import MOST_WIDTH, Region, overlap
+from erdctl.plant.regions import MOST_WIDTH, MisfitRegion, overlap
 
 OVERLAP = 0.3  # intersection over union from which a region is the true one
 EXTRA = 2  # names beside the first that a finding may hold: at most three in all
@@ -15,7 +15,7 @@ BAND_NAMES = (">= 2", "1 to 2", "0.2 to 1", "< 0.2")
 
 
 @dataclass(frozen=True)
-class Hidden:
+class HiddenEffect:
     """One hidden effect; level : misfit that it leaves alone, over noise."""
 
     effect: str
@@ -32,7 +32,7 @@ class Found:
 
 
 @dataclass(frozen=True)
-class Place:
+class Interval:
     """An interval of one variable that the diagnosis points at."""
 
     variable: str
@@ -91,7 +91,7 @@ def band(level: float) -> str:
     return BAND_NAMES[-1]
 
 
-def matches(found: Found, hidden: Hidden) -> bool:
+def matches(found: Found, hidden: HiddenEffect) -> bool:
     """Whether a finding names a hidden effect.
 
     By its own name, by one that is the same to a force channel at the rod, or as one of at most
@@ -102,7 +102,7 @@ def matches(found: Found, hidden: Hidden) -> bool:
     return hidden.effect in found.equivalent and len(found.equivalent) <= EXTRA
 
 
-def naming(findings: Sequence[Found], hidden: Sequence[Hidden]) -> Naming:
+def naming(findings: Sequence[Found], hidden: Sequence[HiddenEffect]) -> Naming:
     """Findings against truth; one finding stands for one hidden effect at most."""
     useful = [any(matches(f, h) for h in hidden) for f in findings]
     matched = _paired(findings, hidden)
@@ -114,7 +114,7 @@ def naming(findings: Sequence[Found], hidden: Sequence[Hidden]) -> Naming:
     )
 
 
-def _paired(findings: Sequence[Found], hidden: Sequence[Hidden]) -> int:
+def _paired(findings: Sequence[Found], hidden: Sequence[HiddenEffect]) -> int:
     """Most hidden effects that can have a finding each."""
     if not hidden:
         return 0
@@ -126,7 +126,7 @@ def _paired(findings: Sequence[Found], hidden: Sequence[Hidden]) -> int:
     return best
 
 
-def located(places: Sequence[Place], regions: Sequence[Mapping[str, Any]]) -> bool | None:
+def located(places: Sequence[Interval], regions: Sequence[Mapping[str, Any]]) -> bool | None:
     """Whether a reported place is a true one; None if the misfit lives everywhere.
 
     The key gives each region's width as a part of the variable's range, which says how wide a
@@ -134,10 +134,10 @@ def located(places: Sequence[Place], regions: Sequence[Mapping[str, Any]]) -> bo
     """
     if not regions:
         return None
-    return any(_points_at(place, Region(**r)) for place in places for r in regions)
+    return any(_points_at(place, MisfitRegion(**r)) for place in places for r in regions)
 
 
-def _points_at(place: Place, region: Region) -> bool:
+def _points_at(place: Interval, region: MisfitRegion) -> bool:
     if place.variable != region.variable:
         return False
     span = (region.high - region.low) / region.width

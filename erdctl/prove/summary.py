@@ -27,7 +27,7 @@ class Rate:
 
 
 @dataclass(frozen=True)
-class Group:
+class Tally:
     """Rates of a group of cases; a rate of nothing where a question does not arise.
 
     named : first finding right;  wrong : first finding wrong
@@ -84,14 +84,14 @@ class Miss:
 class Summary:
     """The proof in figures. `whole` holds every case, `bands` and `effects` the singles."""
 
-    whole: Group
-    bands: tuple[Group, ...]
+    whole: Tally
+    bands: tuple[Tally, ...]
     effects: tuple[EffectRow, ...]
-    pairs: Group
-    nulls: tuple[Group, ...]
-    unknowns: Group
-    motions: tuple[Group, ...]
-    concealments: tuple[Group, ...]
+    pairs: Tally
+    nulls: tuple[Tally, ...]
+    unknowns: Tally
+    motions: tuple[Tally, ...]
+    concealments: tuple[Tally, ...]
     confusions: tuple[Confusion, ...]
     misses: tuple[Miss, ...]
     failed: int
@@ -134,7 +134,7 @@ def summarise(results: Sequence[Result], failed: Sequence[Failed] = ()) -> Summa
     )  # fmt: skip
 
 
-def group(label: str, results: Sequence[Result]) -> Group:
+def group(label: str, results: Sequence[Result]) -> Tally:
     """Rates of some results."""
     named = [r.named for r in results if r.named is not None]
     hiding = [r for r in results if r.named is not None]
@@ -144,7 +144,7 @@ def group(label: str, results: Sequence[Result]) -> Group:
     def verdicts(verdict: str) -> Rate:
         return Rate(sum(r.verdict == verdict for r in results), len(results))
 
-    return Group(
+    return Tally(
         label=label,
         cases=len(results),
         named=Rate(named.count(True), len(named)),
@@ -199,7 +199,7 @@ def _band(r: Result) -> str:
 
 def _split(
     prefix: str, results: Sequence[Result], labels: Iterable[str], of: Callable[[Result], str]
-) -> tuple[Group, ...]:
+) -> tuple[Tally, ...]:
     groups = (group(prefix + name, [r for r in results if of(r) == name]) for name in labels)
     return tuple(g for g in groups if g.cases)
 

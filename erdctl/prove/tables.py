@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from erdctl.prove.judge import Failed
 from erdctl.prove.run import Outcome
 from erdctl.prove.score import BAND_NAMES
-from erdctl.prove.summary import Group, Rate, Summary, hidden_text, said_text
+from erdctl.prove.summary import Rate, Summary, Tally, hidden_text, said_text
 
 Table = tuple[str, Sequence[str], Sequence[Sequence[str]]]
 
@@ -93,7 +93,7 @@ def _rate(rate: Rate) -> str:
     return "-" if rate.share is None else f"{100 * rate.share:.0f} % ({rate.hits}/{rate.of})"
 
 
-def _removed(g: Group) -> str:
+def _removed(g: Tally) -> str:
     return "-" if g.removed is None else f"{100 * g.removed:.0f} % ({g.removed_of})"
 
 

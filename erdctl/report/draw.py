@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from erdctl.recording import Array, Index
+from erdctl.bench.strokes import varied
+from erdctl.core.recording import Array, Index
 from erdctl.report import style, thin
-from erdctl.strokes import varied
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist

@@ -1,13 +1,11 @@
-"""What a kind of picture declares, and how one becomes a figure and a file."""
+"""How a kind of picture becomes a figure, and a figure a file."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from erdctl.errors import UsageProblem
+from erdctl.core.errors import UsageProblem
 from erdctl.report import pictures
 
 if TYPE_CHECKING:
@@ -17,24 +15,6 @@ if TYPE_CHECKING:
 
 SUFFIXES = ("png", "svg", "pdf")
 _PLAIN = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
-
-
-@dataclass(frozen=True, kw_only=True)
-class Picture:
-    """One kind of picture.
-
-    title : above it;  figures : of the paper that it draws
-    needs, wants : of `Subject`, what it cannot do without, and what it shows if it is there
-    draw : puts it into an empty figure
-    size : width and height [inch], or how to find them from the subject
-    """
-
-    title: str
-    needs: tuple[str, ...]
-    draw: Callable[[Figure, Subject], None]
-    figures: str = ""
-    wants: tuple[str, ...] = ()
-    size: tuple[float, float] | Callable[[Subject], tuple[float, float]] = (10.0, 4.6)
 
 
 def suffix(path: str) -> str:

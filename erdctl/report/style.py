@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from erdctl.recording import Array
+from erdctl.core.recording import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,7 +30,7 @@ SERIES: tuple[tuple[str, Any], ...] = (
 
 
 @dataclass(frozen=True)
-class Quantity:
+class AxisScale:
     """What an axis shows: name, the unit that engineers read it in, and how many make an SI one."""
 
     name: str
@@ -44,11 +44,11 @@ class Quantity:
 
 
 AXES = {
-    "t": Quantity("time", "s", 1.0),
-    "x": Quantity("deflection, compression +", "mm", 1e3),
-    "xdot": Quantity("velocity, compression +", "mm/s", 1e3),
-    "duty": Quantity("duty cycle", "%", 100.0),
-    "force": Quantity("force", "N", 1.0),
+    "t": AxisScale("time", "s", 1.0),
+    "x": AxisScale("deflection, compression +", "mm", 1e3),
+    "xdot": AxisScale("velocity, compression +", "mm/s", 1e3),
+    "duty": AxisScale("duty cycle", "%", 100.0),
+    "force": AxisScale("force", "N", 1.0),
 }
 
 SIGNED = ("x", "xdot", "force")  # whose zero means something

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from erdctl.recording import Array, Index, Recording
-from erdctl.score import Codes, duty_levels
-from erdctl.strokes import cycles
+from erdctl.bench.strokes import cycles
+from erdctl.core.recording import Array, Index, Recording
+from erdctl.score.nrmse import Codes, duty_levels
 
 if TYPE_CHECKING:
-    from erdctl.diagnose.locate import Region
-    from erdctl.parameters import Parameters
+    from erdctl.diagnose.residual.localisation import Region
+    from erdctl.model.parameters import Parameters
 
 Flags = npt.NDArray[np.bool_]
 

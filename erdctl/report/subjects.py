@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from erdctl.faults import effectiveness
-from erdctl.recording import Array, Recording
+from erdctl.core.recording import Array, Recording
+from erdctl.model.faults import effectiveness
+from erdctl.model.simulate import simulate
 from erdctl.report.subject import Programme, Subject
-from erdctl.simulate import simulate
 
 if TYPE_CHECKING:
     from erdctl.diagnose.diagnosis import Diagnosis
-    from erdctl.diagnose.locate import Region
+    from erdctl.diagnose.residual.localisation import Region
     from erdctl.mimic import Plan
-    from erdctl.parameters import Parameters
+    from erdctl.model.parameters import Parameters
 
 PROGRAMME = ("duty_healthy", "out_of_reach")  # columns of a log that mimic wrote
 
@@ -85,8 +85,8 @@ def of_faults(parameters: Parameters, recording: Recording, faults: list[str]) -
 
 def located(recording: Recording, modelled: Array) -> tuple[Region, ...]:
     """Where a model misses a recording's measured force, the sharpest region first."""
-    from erdctl.diagnose.locate import locate
-    from erdctl.diagnose.study import prepare
+    from erdctl.diagnose.problem import prepare
+    from erdctl.diagnose.residual.localisation import locate
 
     if recording.force is None:
         return ()

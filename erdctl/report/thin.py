@@ -11,7 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import numpy.typing as npt
 
-from erdctl.recording import Array, Index
+from erdctl.core.recording import Array, Index
 
 COLUMNS = 1500  # pixels across a time series
 CELLS = (360, 300)  # of a panel of loops, across and up: a dot covers one

@@ -13,9 +13,9 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from bench import real
 from places import FIXTURES, SHARED
 from pyarrow import csv
+from rig import real
 from scipy.io import loadmat
 
 from erdctl.cli.app import COMMANDS

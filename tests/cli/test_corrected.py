@@ -11,14 +11,14 @@ import msgspec
 import numpy as np
 import pandas as pd
 import pytest
-from bench import TRUTH, campaign
+from rig import TRUTH, campaign
 
 from erdctl import effects
 from erdctl.cli.app import build
-from erdctl.effect import Effect
 from erdctl.io.parameters import to_document
-from erdctl.model import Model
-from erdctl.parameters import Estimate, Parameters
+from erdctl.model.composed import Model
+from erdctl.model.effect import Effect
+from erdctl.model.parameters import Estimate, Parameters
 
 CATALOGUE = effects.catalogue()
 

@@ -10,18 +10,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from bench import campaign, noisy
 from places import FIXTURES
+from rig import campaign, noisy
 
 from erdctl import effects
-from erdctl.blocks import thinned
+from erdctl.core.blocks import thinned
+from erdctl.core.recording import Recording
+from erdctl.core.signals import Signals
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
-from erdctl.diagnose.locate import locate
-from erdctl.diagnose.study import groups, prepare, uncertain
-from erdctl.effect import Variable
+from erdctl.diagnose.problem import groups, prepare, uncertain
+from erdctl.diagnose.residual.localisation import locate
 from erdctl.io.diagnosis import to_json
-from erdctl.recording import Recording
-from erdctl.signals import Signals
+from erdctl.model.effect import Variable
 
 FEW = ("coulomb_friction", "quadratic_damping", "gas_preload", "preyield_viscosity", "time_skew")
 

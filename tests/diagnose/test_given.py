@@ -12,14 +12,14 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from bench import TRUTH, campaign, noisy
+from rig import TRUTH, campaign, noisy
 
 from erdctl import effects
+from erdctl.core.recording import Recording
 from erdctl.diagnose.diagnosis import Verdict, diagnose
 from erdctl.io.diagnosis import parameters, to_json
-from erdctl.model import Model
-from erdctl.parameters import Estimate, Parameters
-from erdctl.recording import Recording
+from erdctl.model.composed import Model
+from erdctl.model.parameters import Estimate, Parameters
 
 FEW = ("coulomb_friction", "quadratic_damping", "time_skew")
 ERDCTL = [sys.executable, "-m", "erdctl"]

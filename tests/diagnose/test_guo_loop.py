@@ -13,14 +13,14 @@ from functools import cache
 
 import numpy as np
 import pytest
-from bench import noisy
+from rig import noisy
 from scipy.signal import lfilter
 
 from erdctl import effects
+from erdctl.core.recording import Array, Recording, concatenate
+from erdctl.core.signals import Signals
 from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict, diagnose
-from erdctl.recording import Array, Recording, concatenate
-from erdctl.score import nrmse
-from erdctl.signals import Signals
+from erdctl.score.nrmse import nrmse
 
 K_0, C_0 = 170.4, 68.83  # N/m, N s/m
 K_1, C_1 = 218.0, 21.0  # 1/m, s/m

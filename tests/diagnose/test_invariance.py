@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from erdctl import effects, plant
+from erdctl.core.recording import Recording, concatenate
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
-from erdctl.recording import Recording, concatenate
 
 SEED, EFFECT, LEVEL = 28, "quadratic_damping", 3.0  # a short campaign; misfit over noise
 ERRORS = 4.0  # standard errors within which parameters agree

@@ -11,16 +11,16 @@ from functools import cache
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
-from bench import real
 from places import SHARED
+from rig import real
 
 from erdctl import effects
-from erdctl.blocks import thinned
+from erdctl.core.blocks import thinned
+from erdctl.core.recording import Recording
+from erdctl.core.signals import Signals
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
-from erdctl.diagnose.trial import Trial
-from erdctl.recording import Recording
-from erdctl.score import Normalise, nrmse
-from erdctl.signals import Signals
+from erdctl.diagnose.hypothesis import Trial
+from erdctl.score.nrmse import Normalise, nrmse
 
 MOST = 20_000  # samples of a log for a diagnosis; the prediction is of all samples
 EFFECTS = 3  # at most; the five of the command predict better still, and take twice as long

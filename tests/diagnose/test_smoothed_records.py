@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from bench import noisy
+from rig import noisy
 
 from erdctl import effects
+from erdctl.core.recording import Array, Recording, concatenate
+from erdctl.core.signals import Signals
 from erdctl.diagnose.diagnosis import Verdict, diagnose
-from erdctl.recording import Array, Recording, concatenate
-from erdctl.score import nrmse
-from erdctl.signals import Signals
+from erdctl.score.nrmse import nrmse
 
 FINE, EVERY = 20_000, 40  # Hz of the force; one sample in so many is logged
 K, C, S, BETA, F_C = 200.0, 70.0, 22.0, 0.6, 2.5  # N/m, N s/m, N, 1, N

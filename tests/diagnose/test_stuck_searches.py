@@ -6,17 +6,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from bench import campaign, noisy
+from rig import campaign, noisy
 
 from erdctl import effects
-from erdctl.diagnose.choose import _lesser
-from erdctl.diagnose.crew import Crew
-from erdctl.diagnose.grow import Seen, extension, key_of
-from erdctl.diagnose.screen import Prospect
-from erdctl.diagnose.study import Study, prepare
-from erdctl.diagnose.trial import Trial, attempt, fresh_start
-from erdctl.fit import SHORTEST, at_bound
-from erdctl.paper import QUANTITIES
+from erdctl.diagnose.executor import Crew
+from erdctl.diagnose.forward_step import Seen, extension, key_of
+from erdctl.diagnose.hypothesis import Trial, attempt, fresh_start
+from erdctl.diagnose.problem import Study, prepare
+from erdctl.diagnose.screening import Prospect
+from erdctl.diagnose.search import _lesser
+from erdctl.estimate.least_squares import SHORTEST, at_bound
+from erdctl.model.paper import QUANTITIES
 
 FRICTION = effects.get("coulomb_friction")
 

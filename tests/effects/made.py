@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from erdctl import effects
-from erdctl.model import Model
-from erdctl.recording import Array, Recording
-from erdctl.signals import Signals
+from erdctl.core.recording import Array, Recording
+from erdctl.core.signals import Signals
+from erdctl.model.composed import Model
 
 # A damper with equal parameters in both directions, so that a test's own equations stay short.
 PLAIN = {

@@ -7,9 +7,9 @@ import pytest
 from made import PLAIN, act, force, signals, sine
 
 from erdctl import effects
-from erdctl.model import Model
-from erdctl.recurrences import play
-from erdctl.signals import Signals
+from erdctl.core.signals import Signals
+from erdctl.model.composed import Model
+from erdctl.model.recurrences import play
 
 
 def test_check_value() -> None:

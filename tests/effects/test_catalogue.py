@@ -12,19 +12,19 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from bench import TRUTH, campaign
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from places import ROOT
+from rig import TRUTH, campaign
 
 from erdctl import effects
-from erdctl.effect import Effect, Slot, Stage
+from erdctl.core.quantity import Quantity, Scale
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
 from erdctl.io.parameters import parse_parameters, to_document
-from erdctl.model import Model, off_values
-from erdctl.parameters import Estimate, Parameters
-from erdctl.quantity import Quantity, Scale
-from erdctl.recording import Array
-from erdctl.signals import Signals
+from erdctl.model.composed import Model, off_values
+from erdctl.model.effect import Effect, Slot, Stage
+from erdctl.model.parameters import Estimate, Parameters
 
 CONTRACT = {
     Stage.MOTION: "backlash mount_compliance end_stop time_skew",

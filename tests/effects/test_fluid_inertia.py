@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from made import signals, sine, unit_forces
 
-from erdctl.signals import HALF_WINDOW
+from erdctl.core.signals import HALF_WINDOW
 
 
 def test_check_value() -> None:

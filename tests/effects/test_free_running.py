@@ -6,15 +6,15 @@ from itertools import product
 
 import numpy as np
 import pytest
-from bench import TRUTH
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from rig import TRUTH
 
 from erdctl import effects
-from erdctl.effect import Effect, Slot
-from erdctl.model import Model
-from erdctl.quantity import Quantity, Scale
-from erdctl.signals import Signals
+from erdctl.core.quantity import Quantity, Scale
+from erdctl.core.signals import Signals
+from erdctl.model.composed import Model
+from erdctl.model.effect import Effect, Slot
 
 COUPLED = [e for e in effects.catalogue() if e.slot in (Slot.SERIES, Slot.FEEDBACK)]
 SPRINGS = [e for e in COUPLED if e.slot is Slot.SERIES]

@@ -7,7 +7,7 @@ import pytest
 from made import PLAIN, act, force, signals, sine
 
 from erdctl import effects
-from erdctl.model import Model
+from erdctl.model.composed import Model
 
 
 def test_check_value() -> None:

@@ -7,7 +7,7 @@ import pytest
 from made import act, force, signals
 from scipy.integrate import solve_ivp
 
-from erdctl.recurrences import rate_limited
+from erdctl.model.recurrences import rate_limited
 
 
 def test_check_value() -> None:

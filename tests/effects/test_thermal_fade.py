@@ -7,7 +7,7 @@ import pytest
 from made import force, signals, sine
 from scipy.integrate import solve_ivp
 
-from erdctl.recurrences import fading
+from erdctl.model.recurrences import fading
 
 
 def test_check_value() -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from erdctl.errors import ComputationProblem, ExitCode, UsageProblem
+from erdctl.core.errors import ComputationProblem, ExitCode, UsageProblem
 from erdctl.io.atomic import output, replacing
 
 
@@ -162,7 +162,7 @@ def test_stdout_in_memory(capsysbinary: pytest.CaptureFixture[bytes]) -> None:
 
 PROGRAM = """
 import sys
-from erdctl.errors import ErdctlError
+from erdctl.core.errors import ErdctlError
 from erdctl.io.atomic import output
 print("first", flush=False)
 try:

@@ -11,7 +11,7 @@ import numpy as np
 import pyarrow as pa
 import pytest
 
-from erdctl.errors import ExitCode, InputProblem
+from erdctl.core.errors import ExitCode, InputProblem
 from erdctl.io.logs import Log
 
 Columns = dict[str, Any]

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from erdctl.errors import InputProblem
+from erdctl.core.errors import InputProblem
+from erdctl.core.recording import Array
 from erdctl.io.checks import Place
 from erdctl.io.consistency import check_consistency
-from erdctl.recording import Array
 
 OWN = {"t": "t", "x": "x", "xdot": "xdot"}
 PLACE = Place("log.csv", lambda sample: sample + 2)

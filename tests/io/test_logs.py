@@ -16,10 +16,10 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from erdctl.errors import InputProblem, UsageProblem
+from erdctl.core.errors import InputProblem, UsageProblem
+from erdctl.core.recording import CHANNELS
 from erdctl.io.logs import Log, read_logs
 from erdctl.io.tables import append_column, write_table
-from erdctl.recording import CHANNELS
 
 Columns = dict[str, Any]
 Write = Callable[..., str]

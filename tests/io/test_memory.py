@@ -11,7 +11,7 @@ import numpy as np
 import pyarrow as pa
 import pytest
 
-from erdctl.errors import InputProblem
+from erdctl.core.errors import InputProblem
 from erdctl.io import memory
 from erdctl.io.sources import open_source
 from erdctl.io.tables import write_table
@@ -55,15 +55,10 @@ def test_nothing_is_refused_where_the_system_does_not_tell(
     memory.check_fits(open_source(log(".csv")), 10**9)
 
 
-def test_available_is_plausible() -> None:
-    found = memory.available()
-    assert found is None or 10**7 < found < 10**14
-
-
 def test_a_limit_of_the_process_counts(log: Callable[[str], str]) -> None:
     program = (
         "import resource, sys\n"
-        "from erdctl.io.memory import available\n"
+        "from erdctl.core.memory import available\n"
         "from erdctl.io.logs import read_logs\n"
         "import pyarrow.parquet\n"
         "pages = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize()\n"
@@ -81,17 +76,3 @@ def test_a_limit_of_the_process_counts(log: Callable[[str], str]) -> None:
     assert 0 <= int(free) <= 2_000_000
     assert message.startswith("InputProblem")
     assert "too large" in message
-
-
-def test_memory_limits_of_containers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    files = {
-        "/proc/self/cgroup": ["0::/job"],
-        f"{tmp_path}/job/memory.max": ["1000000"],
-        f"{tmp_path}/job/memory.current": ["900000"],
-        f"{tmp_path}/job/memory.stat": ["anon 5", "inactive_file 300000"],
-    }
-    monkeypatch.setattr(memory, "_CGROUP", str(tmp_path))
-    monkeypatch.setattr(memory, "_lines", lambda path: files.get(path, []))
-    assert memory._of_the_container() == 400_000
-    files[f"{tmp_path}/job/memory.max"] = ["max"]
-    assert memory._of_the_container() is None

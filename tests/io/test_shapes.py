@@ -9,15 +9,15 @@ from typing import Any
 
 import jsonschema
 import pytest
-from bench import campaign, noisy
 from places import FIXTURES
 from prove.results import result
+from rig import campaign, noisy
 from typer.testing import CliRunner
 
 from erdctl import effects
 from erdctl.cli.app import build
 from erdctl.diagnose.diagnosis import diagnose
-from erdctl.diagnose.scatter import Free
+from erdctl.diagnose.record_effects import Free
 from erdctl.io import documents
 from erdctl.io.diagnosis import to_json
 from erdctl.io.parameters import read_parameters

@@ -17,7 +17,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from erdctl.errors import ComputationProblem, ErdctlError, ExitCode, InputProblem, UsageProblem
+from erdctl.core.errors import ComputationProblem, ErdctlError, ExitCode, InputProblem, UsageProblem
 from erdctl.io import sources
 from erdctl.io.formats import Format
 from erdctl.io.sources import open_source, read_source, read_table

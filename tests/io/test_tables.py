@@ -20,11 +20,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from erdctl.errors import ComputationProblem, InputProblem, UsageProblem
+from erdctl.core.errors import ComputationProblem, InputProblem, UsageProblem
+from erdctl.core.recording import Recording
 from erdctl.io.formats import Format
 from erdctl.io.sources import open_source, read_source, read_table
 from erdctl.io.tables import append_column, output_format, table_of, write_table
-from erdctl.recording import Recording
 
 SUFFIXES = [".csv", ".parquet", ".pq", ".arrow", ".arrows", ".ipc", ".feather"]
 

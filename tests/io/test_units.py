@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from erdctl.errors import ExitCode, InputProblem, UsageProblem
+from erdctl.core.errors import ExitCode, InputProblem, UsageProblem
 from erdctl.io.units import TARGETS, conversion, factor_between, parse_maps
 
 # unit, column, a value in that unit, the value in SI from the unit's definition

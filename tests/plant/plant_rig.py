@@ -10,7 +10,7 @@ import numpy.typing as npt
 from erdctl.plant import CATALOGUE, OUTSIDE, Campaign, Duty, Motion, Plant, Record, Side
 from erdctl.plant.campaign import Rating
 from erdctl.plant.hidden import Hidden, Scales
-from erdctl.plant.refit import Samples, joined
+from erdctl.plant.refit import Joined, joined
 from erdctl.plant.simulate import Ride, forces, rides
 from erdctl.plant.strength import scales_of
 
@@ -64,7 +64,7 @@ def over(refine: int = 1) -> tuple[Ride, ...]:
 
 
 @cache
-def samples() -> Samples:
+def samples() -> Joined:
     return joined(over())
 
 

@@ -9,17 +9,17 @@ import numpy as np
 import pytest
 
 from erdctl.plant import CATALOGUE, OUTSIDE, draw, log
-from erdctl.plant.plan import Plan, draw_plan
+from erdctl.plant.plan import CasePlan, draw_plan
 
 PLANS = 1500
 
 
 @pytest.fixture(scope="module")
-def plans() -> list[Plan]:
+def plans() -> list[CasePlan]:
     return [draw_plan(seed) for seed in range(PLANS)]
 
 
-def shape(plan: Plan) -> list[float]:
+def shape(plan: CasePlan) -> list[float]:
     """What a log shows without a look at the force."""
     records = plan.campaign.records
     n = np.array([r.samples for r in records], dtype=float)
@@ -47,7 +47,7 @@ def guessed(features: np.ndarray, labels: np.ndarray, neighbours: int = 15) -> f
     return right / (len(features) - half)
 
 
-def test_a_guess_from_the_shape_alone_is_a_guess(plans: list[Plan]) -> None:
+def test_a_guess_from_the_shape_alone_is_a_guess(plans: list[CasePlan]) -> None:
     features = np.array([shape(p) for p in plans])
     for labels in (
         np.array([p.kind for p in plans]),
@@ -60,14 +60,14 @@ def test_a_guess_from_the_shape_alone_is_a_guess(plans: list[Plan]) -> None:
         assert guessed(features, labels) < chance + 3 * np.sqrt(chance * (1 - chance) / half)
 
 
-def test_the_guess_would_find_a_leak(plans: list[Plan]) -> None:
+def test_the_guess_would_find_a_leak(plans: list[CasePlan]) -> None:
     features = np.array([shape(p) for p in plans])
     kinds = np.array([p.kind for p in plans])
     features[:, :4] += 1e6 * (kinds == "null")[:, None]
     assert guessed(features, kinds == "null") > 0.95
 
 
-def test_the_colour_of_the_noise_tells_nothing(plans: list[Plan]) -> None:
+def test_the_colour_of_the_noise_tells_nothing(plans: list[CasePlan]) -> None:
     for colour in ("white", "ar1", "pink"):
         share = {
             kind: np.mean([p.force_noise.colour == colour for p in plans if p.kind == kind])

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from plant_rig import hidden, over, plain, samples
 
-from erdctl.plant.regions import Region, near_reversals, overlap, regions, turns, variables
+from erdctl.plant.regions import MisfitRegion, near_reversals, overlap, regions, turns, variables
 from erdctl.plant.simulate import forces
 
 
-def found(misfit: np.ndarray) -> dict[str, Region]:
+def found(misfit: np.ndarray) -> dict[str, MisfitRegion]:
     return {r.variable: r for r in regions(samples(), plain(), misfit)}
 
 
@@ -62,7 +62,7 @@ def test_time_and_energy_restart_with_each_record() -> None:
 
 
 def test_overlap_by_hand() -> None:
-    region = Region("x", 0.0, 2.0, 1.0, 0.1, 0.1)
+    region = MisfitRegion("x", 0.0, 2.0, 1.0, 0.1, 0.1)
     assert overlap(region, (1.0, 3.0)) == pytest.approx(1 / 3)
     assert overlap(region, (4.0, 5.0)) == 0.0
 

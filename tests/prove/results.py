@@ -7,7 +7,7 @@ from typing import Any
 
 from erdctl.prove.case import Sealed
 from erdctl.prove.judge import Result
-from erdctl.prove.score import Errors, Found, Hidden
+from erdctl.prove.score import Errors, Found, HiddenEffect
 
 REGION = {
     "variable": "xdot", "low": -0.01, "high": 0.01, "share": 0.8, "time": 0.2, "width": 0.1,
@@ -52,7 +52,7 @@ def result(seed: int = 7, **given: Any) -> Result:
     plain: dict[str, Any] = {
         "number": 1, "seed": seed, "key_sha256": "ab" * 32, "kind": "single",
         "concealment": "unlabelled", "colour": "white", "motion": "exact", "level": 3.0,
-        "flags": (), "hidden": (Hidden("rub", 3.0),), "verdict": "explained",
+        "flags": (), "hidden": (HiddenEffect("rub", 3.0),), "verdict": "explained",
         "findings": (Found("rub"),), "named": True, "matched": 1, "spurious": 0, "redundant": 0,
         "located": True, "fresh": Errors(5.0, 1.4, 1.0, 100.0),
     }  # fmt: skip

@@ -14,15 +14,15 @@ import pytest
 from results import document
 
 from erdctl import effects
-from erdctl.diagnose.study import prepare
-from erdctl.errors import ComputationProblem, UsageProblem
+from erdctl.core.errors import ComputationProblem, UsageProblem
+from erdctl.core.recording import Recording
+from erdctl.diagnose.problem import prepare
 from erdctl.io.logs import read_logs
 from erdctl.plant import draw, log
 from erdctl.prove import judge as judging
 from erdctl.prove.best import best_fit, damper_values
 from erdctl.prove.case import Sealed, Wish, check, opened, seal
 from erdctl.prove.score import Errors
-from erdctl.recording import Recording
 
 SEED = 32
 WISH = Wish(effects=("coulomb_friction",), level=3.0, motion="exact")

@@ -9,16 +9,16 @@ from erdctl.prove.judge import places, scored
 from erdctl.prove.score import (
     Errors,
     Found,
-    Hidden,
+    HiddenEffect,
+    Interval,
     Naming,
-    Place,
     band,
     located,
     matches,
     naming,
 )
 
-MOUNT = Hidden("mount", 3.0, ("fluid",))
+MOUNT = HiddenEffect("mount", 3.0, ("fluid",))
 ERRORS = Errors(5.0, 1.4, 1.0, 100.0)
 
 
@@ -61,11 +61,11 @@ def test_what_counts_as_named(found: Found, right: bool) -> None:
     ],
 )
 def test_findings_against_truth(names: list[str], hidden: list[str], expected: Naming) -> None:
-    assert naming([Found(n) for n in names], [Hidden(h, 3.0) for h in hidden]) == expected
+    assert naming([Found(n) for n in names], [HiddenEffect(h, 3.0) for h in hidden]) == expected
 
 
 def test_one_finding_stands_for_one_effect() -> None:
-    both = [Hidden("a", 3.0), Hidden("b", 3.0)]
+    both = [HiddenEffect("a", 3.0), HiddenEffect("b", 3.0)]
     assert naming([Found("a", ("b",))], both).matched == 1
     # The first finding could be either; the second can only be a.
     assert naming([Found("a", ("b",)), Found("a")], both).matched == 2
@@ -76,23 +76,23 @@ def test_one_finding_stands_for_one_effect() -> None:
 @pytest.mark.parametrize(
     ("place", "right"),
     [
-        (Place("xdot", -0.01, 0.01), True),
-        (Place("xdot", 0.0, 0.01), True),  # 0.01 of 0.02 is a half
-        (Place("xdot", 0.006, 0.02), False),  # 0.004 of 0.03 is 0.13
-        (Place("xdot", -0.03, 0.03), True),  # 0.02 of 0.06 is a third
-        (Place("xdot", -0.035, 0.035), False),  # 0.02 of 0.07 is 0.29
-        (Place("x", -0.01, 0.01), False),
+        (Interval("xdot", -0.01, 0.01), True),
+        (Interval("xdot", 0.0, 0.01), True),  # 0.01 of 0.02 is a half
+        (Interval("xdot", 0.006, 0.02), False),  # 0.004 of 0.03 is 0.13
+        (Interval("xdot", -0.03, 0.03), True),  # 0.02 of 0.06 is a third
+        (Interval("xdot", -0.035, 0.035), False),  # 0.02 of 0.07 is 0.29
+        (Interval("x", -0.01, 0.01), False),
     ],
 )
-def test_overlap_with_the_true_region(place: Place, right: bool) -> None:
+def test_overlap_with_the_true_region(place: Interval, right: bool) -> None:
     assert located([place], [REGION]) is right
 
 
 def test_a_place_that_covers_most_of_the_range_points_at_nothing() -> None:
     wide = {**REGION, "width": 0.5}  # the range is 0.04
-    assert located([Place("xdot", -0.012, 0.012)], [wide]) is True  # 0.6 of it
-    assert located([Place("xdot", -0.013, 0.013)], [wide]) is False
-    assert located([Place("xdot", -0.01, 0.01)], []) is None
+    assert located([Interval("xdot", -0.012, 0.012)], [wide]) is True  # 0.6 of it
+    assert located([Interval("xdot", -0.013, 0.013)], [wide]) is False
+    assert located([Interval("xdot", -0.01, 0.01)], []) is None
     assert located([], [REGION]) is False
 
 
@@ -110,7 +110,7 @@ def test_a_single() -> None:
     r = scored(sealed(), said, key(("drift", 1.5), regions=[REGION]), ERRORS)
     assert (r.named, r.matched, r.spurious, r.located) == (True, 1, 0, True)
     assert (r.verdict, r.motion, r.colour) == ("explained", "exact", "white")
-    assert places(said) == [Place("xdot", 0.0, 0.01)]
+    assert places(said) == [Interval("xdot", 0.0, 0.01)]
 
 
 def test_nothing_and_strangers_have_no_name() -> None:

@@ -10,7 +10,7 @@ from results import result
 from erdctl.prove.case import Wish
 from erdctl.prove.document import SCHEMA, from_json, proof_of, to_json
 from erdctl.prove.judge import Failed, Result
-from erdctl.prove.score import Errors, Found, Hidden
+from erdctl.prove.score import Errors, Found, HiddenEffect
 from erdctl.prove.summary import Rate, reasons, summarise
 from erdctl.prove.tables import line, tables
 
@@ -19,14 +19,14 @@ RESULTS: tuple[Result, ...] = (
     result(1),
     result(2, **WRONG, located=False, fresh=Errors(5.0, 4.0, 1.0, 100.0)),  # a quarter removed
     result(3, verdict="unexplained", motion="measured", fresh=Errors(5.0, 1.0, 1.0, 100.0)),
-    result(4, hidden=(Hidden("rub", 0.5),), level=0.5, verdict="adequate", findings=(),
+    result(4, hidden=(HiddenEffect("rub", 0.5),), level=0.5, verdict="adequate", findings=(),
            named=False, matched=0, located=None),
-    result(5, kind="pair", hidden=(Hidden("rub", 3.0), Hidden("skew", 2.5))),
+    result(5, kind="pair", hidden=(HiddenEffect("rub", 3.0), HiddenEffect("skew", 2.5))),
     result(6, kind="null", hidden=(), level=0.0, colour="pink", verdict="adequate", findings=(),
            named=None, matched=0, located=None, fresh=Errors(0.1, 0.1, None, 100.0)),
     result(7, kind="null", hidden=(), level=0.0, findings=(Found("drift"),), named=None,
            matched=0, spurious=1, located=None, fresh=Errors(0.1, 0.2, None, 100.0)),
-    result(8, kind="unknown", hidden=(Hidden("stranger", 4.0),), named=None, matched=0,
+    result(8, kind="unknown", hidden=(HiddenEffect("stranger", 4.0),), named=None, matched=0,
            spurious=1, fresh=Errors(5.0, 4.0, None, 100.0)),
 )  # fmt: skip
 FAILED = (Failed(9, 9, "ValueError: no"),)

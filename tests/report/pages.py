@@ -10,10 +10,10 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from bench import campaign, noisy
 from places import FIXTURES
+from rig import campaign, noisy
 
-from erdctl.recording import Recording
+from erdctl.core.recording import Recording
 
 ERDCTL = [sys.executable, "-m", "erdctl"]
 FEW = "coulomb_friction"  # so that a diagnosis takes seconds
@@ -114,7 +114,7 @@ def _proof(path: Path) -> None:
 
     from erdctl.prove.case import Wish
     from erdctl.prove.document import proof_of, to_json
-    from erdctl.prove.score import Found, Hidden
+    from erdctl.prove.score import Found, HiddenEffect
     from erdctl.prove.tables import tables
     from erdctl.report.page.proof import proof_page
     from erdctl.report.page.render import Run
@@ -122,7 +122,7 @@ def _proof(path: Path) -> None:
     missed = {"findings": (Found("other"),), "named": False, "spurious": 1, "matched": 0}
     null = {"hidden": (), "kind": "null", "named": None, "findings": (), "verdict": "adequate"}
     outcomes = [
-        result(seed=7), result(seed=8, level=1.2, hidden=(Hidden("rub", 1.2),)),
+        result(seed=7), result(seed=8, level=1.2, hidden=(HiddenEffect("rub", 1.2),)),
         result(seed=9, **missed), result(seed=10, **null, level=0.0, located=None),
     ]  # fmt: skip
     proof = proof_of(Wish(), range(7, 11), outcomes)

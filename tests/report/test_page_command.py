@@ -13,7 +13,7 @@ import pytest
 from pages import TABLE_2, concealed, erdctl, mapped
 from places import FIXTURES
 
-from erdctl.effect import Variable
+from erdctl.model.effect import Variable
 from erdctl.report.page.data import Levels, misfit_maps, profile, samples
 from erdctl.report.page.render import Run, digits
 from erdctl.report.page.words import joined

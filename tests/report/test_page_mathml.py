@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 import pytest
 
 from erdctl import effects
-from erdctl.paper import EQUATIONS
+from erdctl.model.paper import EQUATIONS
 from erdctl.report.page.mathml import GREEK, NAMESPACE, equation, symbol
 
 ALL = {e.name: e.equation for e in effects.catalogue()} | {

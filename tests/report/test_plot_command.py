@@ -233,8 +233,8 @@ def test_a_picture_that_fails_leaves_the_old_one(
 
 
 def test_nothing_to_draw_is_said() -> None:
-    from erdctl.drive import drives
-    from erdctl.errors import UsageProblem
+    from erdctl.bench.drive import drives
+    from erdctl.core.errors import UsageProblem
 
     with pytest.raises(UsageProblem, match="needs a measured force"):
         figure("loops", Subject(recording=drives(["sine:duration=1"])))

@@ -6,10 +6,10 @@ import json
 import re
 from pathlib import Path
 
-import motion
 import numpy as np
 import oracle
 import pytest
+import trajectories
 from drawing import labels, line, panels, run, units
 from matplotlib.figure import Figure
 from PIL import Image
@@ -40,7 +40,7 @@ def rod_and_force(record: str, duty: float) -> tuple[np.ndarray, np.ndarray, np.
         np.column_stack([np.sin(w * log.t[part]), np.cos(w * log.t[part])]), log.x[part], rcond=None
     )[0]
     x, xdot = a * np.sin(w * t) + b * np.cos(w * t), w * (a * np.cos(w * t) - b * np.sin(w * t))
-    piston = motion.play(x, 2e-3)
+    piston = trajectories.play(x, 2e-3)
     moved = np.append(np.diff(piston) != 0, False)
     force = oracle.respond(t, piston, np.where(moved, xdot, 0.0), np.full_like(t, duty)).force
     return 1e3 * x, 1e3 * xdot, force

@@ -21,13 +21,13 @@ import numpy as np
 import numpy.typing as npt
 import pyarrow as pa
 
-from erdctl.errors import InputProblem
+from erdctl.core.errors import InputProblem
+from erdctl.core.recording import Array
 from erdctl.io.arrays import arrow, runs_of_text
 from erdctl.io.containers.channels import TIME, Layout, Member
 from erdctl.io.containers.usable import checked, numbers, sound
 from erdctl.io.stored import with_units
 from erdctl.io.units import RECORD, Conversion
-from erdctl.recording import Array
 
 GAP = 5.0  # steps without a sample that are no jitter
 _EARLY = 1e-6  # of a step: clocks that count the same samples differ by their rounding

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from erdctl.errors import InputProblem
+from erdctl.core.errors import InputProblem
+from erdctl.core.recording import Array
 from erdctl.io.stored import from_stored, stored_unit
 from erdctl.io.units import RECORD, name_and_unit
-from erdctl.recording import Array
 
 CLOCKS = ("t", "time")  # channels that hold the time of their group, in any case of letters
 TIME = "t"  # the column that a container's own time bases become
@@ -42,7 +42,7 @@ class Channel:
 
 
 @dataclass(frozen=True, eq=False)
-class Group:
+class ChannelGroup:
     """Channels that the file keeps together.
 
     clock : the channel that their time was taken from, as the file calls it, and clock_unit what
@@ -85,14 +85,16 @@ class Layout:
     notes: tuple[str, ...]
 
 
-def with_clock(name: str, channels: Sequence[Channel], file: str, *, record: bool = False) -> Group:
+def with_clock(
+    name: str, channels: Sequence[Channel], file: str, *, record: bool = False
+) -> ChannelGroup:
     """A group whose channels take their time from the one called `t` or `time`, if there is one.
 
     Channels that have a time of their own keep it.
     """
     clock = next((c for c in channels if name_and_unit(c.name)[0].casefold() in CLOCKS), None)
     if clock is None:
-        return Group(name, tuple(channels), record=record)
+        return ChannelGroup(name, tuple(channels), record=record)
 
     @cache
     def seconds() -> Array:
@@ -116,7 +118,7 @@ def with_clock(name: str, channels: Sequence[Channel], file: str, *, record: boo
 
         return replace(channel, load=load, timed=True)
 
-    return Group(
+    return ChannelGroup(
         name,
         tuple(under(c) for c in channels if c is not clock),
         clock=clock.name,
@@ -125,7 +127,7 @@ def with_clock(name: str, channels: Sequence[Channel], file: str, *, record: boo
     )
 
 
-def arrange(groups: Iterable[Group], file: str, notes: Sequence[str] = ()) -> Layout:
+def arrange(groups: Iterable[ChannelGroup], file: str, notes: Sequence[str] = ()) -> Layout:
     """The table that the groups of a file make.
 
     Groups with the same channels are records of one test after another; other groups belong to
@@ -166,7 +168,7 @@ def arrange(groups: Iterable[Group], file: str, notes: Sequence[str] = ()) -> La
 
 
 def _members(
-    groups: Sequence[tuple[int, Group]], only: set[str], *, timed: bool
+    groups: Sequence[tuple[int, ChannelGroup]], only: set[str], *, timed: bool
 ) -> dict[str, Member]:
     chosen = [(i, g, c) for i, g in groups for c in g.channels if c.name in only]
     count = Counter(c.name for _, _, c in chosen)

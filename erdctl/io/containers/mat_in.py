@@ -17,12 +17,12 @@ from typing import Any
 
 import numpy as np
 
-from erdctl.errors import InputProblem
-from erdctl.io.containers.channels import CLOCKS, Channel, Group, Samples, with_clock
+from erdctl.core.errors import InputProblem
+from erdctl.core.recording import Array
+from erdctl.io.containers.channels import CLOCKS, Channel, ChannelGroup, Samples, with_clock
 from erdctl.io.containers.mat_file import Node, variables
 from erdctl.io.stored import from_stored, stored_unit
 from erdctl.io.units import RECORD
-from erdctl.recording import Array
 
 _DATA = ("data", "values", "value", "samples", "raw")
 _UNITS = ("units", "unit")
@@ -33,7 +33,7 @@ _HEADS = ("colheaders", "names", "labels", "varnames", "channels")
 _TITLES = ("record", "name", "test", "title", "label")
 
 
-def read(file: Any, name: str) -> tuple[list[Group], list[str]]:
+def read(file: Any, name: str) -> tuple[list[ChannelGroup], list[str]]:
     """The groups of channels in a file, and remarks; file : path or stream."""
     found, notes = variables(file)
     return _Reader(name, notes).groups("variables", found, _Said()), notes
@@ -70,14 +70,14 @@ class _Reader:
 
     def groups(
         self, name: str, node: Mapping[str, Node], outer: _Said, *, record: bool = False
-    ) -> list[Group]:
+    ) -> list[ChannelGroup]:
         """The groups in a struct: its own vectors and series together, then what is inside it.
 
         outer : what the structs around it say of fields of these names
         """
         said = outer.and_of(node)
         own: list[Channel] = []
-        inside: list[Group] = []
+        inside: list[ChannelGroup] = []
         for key, value in node.items():
             if _low(key) in _UNITS:
                 continue
@@ -111,7 +111,7 @@ class _Reader:
 
     def records(
         self, name: str, elements: Sequence[Mapping[str, Node]], outer: _Said
-    ) -> list[Group]:
+    ) -> list[ChannelGroup]:
         """The elements of a struct array."""
         out = []
         for i, element in enumerate(elements):

@@ -12,7 +12,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from erdctl.errors import UsageProblem
+from erdctl.core.errors import UsageProblem
 from erdctl.io.containers.outgoing import Columns
 
 _LONGEST = 63  # characters in a MATLAB name

@@ -15,8 +15,8 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from erdctl.errors import UsageProblem
-from erdctl.io.containers.channels import TIME, Channel, Group, Samples
+from erdctl.core.errors import UsageProblem
+from erdctl.io.containers.channels import TIME, Channel, ChannelGroup, Samples
 from erdctl.io.containers.outgoing import Columns
 from erdctl.io.extras import need
 
@@ -29,7 +29,7 @@ def library() -> Any:
     return need("asammdf", extra="mdf", purpose="ASAM MDF files")
 
 
-def read(file: Any, name: str) -> tuple[list[Group], list[str]]:
+def read(file: Any, name: str) -> tuple[list[ChannelGroup], list[str]]:
     """The channel groups of a file; file : path or stream."""
     mdf = _opened(file)
     groups = []
@@ -45,7 +45,7 @@ def read(file: Any, name: str) -> tuple[list[Group], list[str]]:
         ]
         label = getattr(about, "acq_name", "") or f"group {index + 1}"
         record = about.comment == _MARK
-        groups.append(Group(label, tuple(channels), record=record))
+        groups.append(ChannelGroup(label, tuple(channels), record=record))
     return groups, []
 
 

@@ -7,10 +7,10 @@ import os
 from collections.abc import Callable
 from typing import TypeVar
 
-from erdctl.errors import ErdctlError, InputProblem
+from erdctl.core.errors import ErdctlError, InputProblem
+from erdctl.core.memory import available
 from erdctl.io.containers.channels import Layout, arrange
 from erdctl.io.formats import Format
-from erdctl.io.memory import available
 
 T = TypeVar("T")
 

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 import pyarrow as pa
 
-from erdctl.errors import UsageProblem
+from erdctl.core.errors import UsageProblem
 from erdctl.io.checks import Place
 from erdctl.io.columns import to_records
 from erdctl.io.csv_out import typed

@@ -13,7 +13,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from erdctl.io.containers.channels import Channel, Group, Samples, with_clock
+from erdctl.io.containers.channels import Channel, ChannelGroup, Samples, with_clock
 from erdctl.io.containers.outgoing import Columns
 from erdctl.io.extras import need
 
@@ -29,7 +29,7 @@ def library() -> Any:
     return found
 
 
-def read(file: Any, name: str) -> tuple[list[Group], list[str]]:
+def read(file: Any, name: str) -> tuple[list[ChannelGroup], list[str]]:
     """The groups of a file; file : path or stream."""
     opened = library().TdmsFile.open(file)
     channels = [c for g in opened.groups() for c in g.channels() if len(c)]
@@ -41,7 +41,7 @@ def read(file: Any, name: str) -> tuple[list[Group], list[str]]:
         members = [_channel(c, origin) for c in group.channels() if len(c)]
         record = _MARK in group.properties
         if members and all(c.timed for c in members):
-            groups.append(Group(group.name, tuple(members), record=record))
+            groups.append(ChannelGroup(group.name, tuple(members), record=record))
         else:
             groups.append(with_clock(group.name, members, name, record=record))
     status = opened.file_status

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from erdctl.core.recording import Array
 from erdctl.io.containers.channels import Samples
-from erdctl.recording import Array
 
 
 def checked(samples: Samples, time: Array | None) -> tuple[npt.NDArray[Any], Array] | str:

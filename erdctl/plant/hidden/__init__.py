@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from erdctl.plant.hidden import fault, field, fluid, friction, motion, outside
-from erdctl.plant.hidden.kinds import Hidden, Scales
+from erdctl.plant.hidden import fault, field, fluid, friction, outside
+from erdctl.plant.hidden import linkage as motion
+from erdctl.plant.hidden.kinds import Scales, Twin
 
-CATALOGUE: dict[str, Hidden] = {
+CATALOGUE: dict[str, Twin] = {
     e.name: e for module in (motion, field, fluid, friction, fault) for e in module.EFFECTS
 }
-OUTSIDE: dict[str, Hidden] = {e.name: e for e in outside.EFFECTS}
+OUTSIDE: dict[str, Twin] = {e.name: e for e in outside.EFFECTS}
 
 # Beyond one family: pairs that are one effect to a force channel at the rod, or undo each other.
 EQUIVALENT = {
@@ -33,4 +34,4 @@ UNITS = {
     "wear": "N", "wear_travel": "m", "wear_span": "m", "gas_heat": "N/m", "gas_heat_time": "s",
 }  # fmt: skip
 
-__all__ = ["CATALOGUE", "EQUIVALENT", "OUTSIDE", "UNITS", "Hidden", "Scales"]
+__all__ = ["CATALOGUE", "EQUIVALENT", "OUTSIDE", "UNITS", "Scales", "Twin"]

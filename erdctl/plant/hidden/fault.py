@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from erdctl.plant.hidden.kinds import Hidden, Scales, Shape
+from erdctl.plant.hidden.kinds import Scales, Shape, Twin
 from erdctl.plant.plant import Plant
 
 ONSET = {"onset": (0.2, 0.75)}  # of the shortest record
@@ -30,19 +30,19 @@ def _drift(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
 
 
 EFFECTS = (
-    Hidden(
+    Twin(
         "oil_leakage", "slow loss", "", 1e-3, 0.2, 0.98, _oil,
         ("physics.oil", "physics.onset"), ONSET, hidden=True,
     ),
-    Hidden(
+    Twin(
         "electrical_fault", "slow loss", "yielding", 1e-3, 0.2, 0.98, _electrical,
         ("physics.electrical", "physics.onset"), ONSET, hidden=True,
     ),
-    Hidden(
+    Twin(
         "deformation_fault", "slow loss", "", 1e-3, 0.2, 0.98, _deformation,
         ("physics.deformation", "physics.onset"), ONSET, hidden=True,
     ),
-    Hidden(
+    Twin(
         "force_drift", "zero", "", 1e-5, 0.1, 5.0, _drift, ("channel.drift",), {"up": (0.0, 1.0)},
     ),
 )  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from erdctl.plant.hidden.kinds import Hidden, Scales, Shape
+from erdctl.plant.hidden.kinds import Scales, Shape, Twin
 from erdctl.plant.plant import Plant
 
 
@@ -35,23 +35,23 @@ def _slew(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
 
 
 EFFECTS = (
-    Hidden(
+    Twin(
         "field_threshold", "onset of field", "yielding", 1e-3, 0.2, 0.9, _threshold,
         ("physics.threshold",), {},
     ),
-    Hidden(
+    Twin(
         "field_saturation", "top of field", "yielding", 0.02, 1.5, 12.0, _saturation,
         ("physics.screening",), {},
     ),
-    Hidden(
+    Twin(
         "rise_decay_asymmetry", "field in time", "yielding", 1e-3, 0.6, 2.0, _asymmetry,
         ("physics.rise", "physics.decay"), {"slow_rise": (0.0, 1.0)},
     ),
-    Hidden(
+    Twin(
         "input_delay", "field in time", "yielding", 1e-5, 0.02, 0.25, _delay,
         ("physics.dead_time",), {},
     ),
-    Hidden(
+    Twin(
         "supply_slew", "field in time", "yielding", 1e-4, 0.1, 3.0, _slew, ("physics.slew",), {},
     ),
 )  # fmt: skip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from erdctl.plant.hidden.kinds import Hidden, Scales, Shape
+from erdctl.plant.hidden.kinds import Scales, Shape, Twin
 from erdctl.plant.plant import Plant
 
 
@@ -64,37 +64,37 @@ def _fade(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
 
 
 EFFECTS = (
-    Hidden(
+    Twin(
         "preyield_viscosity", "sign law", "yielding", 1e-6, 0.05, 2.0, _preyield,
         ("physics.v_y",), {},
     ),
-    Hidden(
+    Twin(
         "yield_hysteresis", "sign law", "yielding", 1e-6, 0.03, 2.0, _loop,
         ("physics.v_y", "physics.lead"), {"loop": (1.5, 6.0)},
     ),
-    Hidden(
+    Twin(
         "signed_yield_lag", "sign law", "yielding", 1e-5, 0.03, 0.25, _signed,
         ("compression.T_d", "release.T_d"), {},
     ),
-    Hidden(
+    Twin(
         "shear_thinning", "viscous law", "viscous", 1e-3, 0.3, 0.85, _thinning,
         ("physics.flow_index", "physics.v_ref"), {},
     ),
-    Hidden(
+    Twin(
         "quadratic_damping", "viscous law", "", 1e-4, 0.3, 20.0, _turbulent,
         ("physics.turbulent",), {},
     ),
-    Hidden("fluid_inertia", "inertia", "", 1e-4, 0.2, 20.0, _inertia, ("physics.mass",), {}),
-    Hidden(
+    Twin("fluid_inertia", "inertia", "", 1e-4, 0.2, 20.0, _inertia, ("physics.mass",), {}),
+    Twin(
         "fluid_compressibility", "series", "", 1e-8, 0.005, 0.5, _compressible,
         ("physics.fluid_spring",), {},
     ),
-    Hidden(
+    Twin(
         "cavitation", "void", "", 1e-7, 0.02, 1.0, _cavitation,
         ("physics.void", "physics.void_growth", "physics.bubbles"),
         {"growth": (0.6, 1.0), "bubbles": (0.02, 0.2)},
     ),
-    Hidden(
+    Twin(
         "thermal_fade", "slow loss", "", 1e-3, 0.4, 8.0, _fade,
         ("physics.heating", "physics.cooling", "physics.thin", "physics.weaken"),
         {"thin": (0.008, 0.03), "weaken": (0.004, 0.015), "cooling": (1.0, 10.0)}, hidden=True,

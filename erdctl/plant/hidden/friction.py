@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from erdctl.plant.hidden.kinds import Hidden, Scales, Shape
+from erdctl.plant.hidden.kinds import Scales, Shape, Twin
 from erdctl.plant.plant import Plant
 
 
@@ -48,25 +48,25 @@ def _position(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
 
 
 EFFECTS = (
-    Hidden("coulomb_friction", "seal", "", 1e-5, 0.1, 5.0, _coulomb, ("physics.F_c",), {}),
-    Hidden(
+    Twin("coulomb_friction", "seal", "", 1e-5, 0.1, 5.0, _coulomb, ("physics.F_c",), {}),
+    Twin(
         "stribeck_friction", "seal", "", 1e-5, 0.1, 5.0, _stribeck,
         ("physics.F_s", "physics.F_k", "physics.v_s"),
         {"kinetic": (0.1, 0.45), "v_s": (0.05, 0.3)},
     ),
-    Hidden(
+    Twin(
         "presliding_friction", "seal", "", 1e-5, 0.1, 5.0, _presliding,
         ("physics.F_p", "physics.x_p"), {"x_p": (0.03, 0.25)},
     ),
-    Hidden(
+    Twin(
         "gas_preload", "static", "", 1e-5, 0.1, 5.0, _preload, ("physics.preload",),
         {"inward": (0.0, 1.0)},
     ),
-    Hidden(
+    Twin(
         "gas_polytropic", "gas", "gas", 1e-3, 0.3, 0.85, _polytropic,
         ("physics.closing", "physics.polytropic"), {"exponent": (1.0, 1.4)},
     ),
-    Hidden(
+    Twin(
         "position_dependent_damping", "bore", "viscous", 1e-3, 0.3, 5.0, _position,
         ("physics.taper", "physics.groove"), {"form": (0.0, 2 * math.pi)},
     ),

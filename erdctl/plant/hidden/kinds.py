@@ -35,7 +35,7 @@ class Scales:
 
 
 @dataclass(frozen=True)
-class Hidden:
+class Twin:
     """An effect: how a strength s becomes physics.
 
     family : effects of one family fill the same place, and are not paired

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from erdctl.plant.hidden.kinds import Hidden, Scales, Shape
+from erdctl.plant.hidden.kinds import Scales, Shape, Twin
 from erdctl.plant.plant import Plant
 
 
@@ -77,53 +77,53 @@ def _o(*names: str) -> tuple[str, ...]:
 
 
 EFFECTS = (
-    Hidden(
+    Twin(
         "uneven_bore", "", "", 1e-5, 0.1, 5.0, _bumps, _o("bumps", "bump_pitch", "bump_phase"),
         {"pitch": (0.5, 1.5), "phase": (0.0, 6.28)},
     ),
-    Hidden(
+    Twin(
         "duty_viscosity", "", "viscous", 1e-3, 0.3, 0.95, _swing, _o("swing", "swings"),
         {"swings": (1.2, 2.6)},
     ),
-    Hidden(
+    Twin(
         "sedimentation", "", "yielding", 1e-3, 0.3, 0.95, _sediment, _o("settled", "stirring"),
         {"stirring": (0.2, 1.0)},
     ),
-    Hidden(
+    Twin(
         "electrode_leakage", "", "yielding", 1e-3, 0.3, 0.95, _leakage,
         _o("leakage", "leakage_time"), {"time": (0.1, 0.5)},
     ),
-    Hidden(
+    Twin(
         "load_cell_ringing", "", "", 1e-3, 0.02, 0.2, _ringing,
         ("channel.ring_rate", "channel.ring_damping"), {"damping": (0.05, 0.25)},
     ),
-    Hidden(
+    Twin(
         "field_ripple", "", "yielding", 1e-4, 0.1, 0.95, _ripple, _o("ripple", "ripple_rate"),
         {"rate": (11.0, 47.0)},
     ),
-    Hidden(
+    Twin(
         "fading_memory", "", "", 1e-4, 0.2, 20.0, _memory,
         _o("memory", "memory_short", "memory_long", "memory_speed"),
         {"short": (0.2, 0.6), "long": (2.0, 6.0)},
     ),
-    Hidden(
+    Twin(
         "bleed_valve", "", "", 1e-3, 0.4, 0.95, _bleed,
         _o("bleed", "bleed_opens", "bleed_closes"), {"left": (0.1, 0.5), "closes": (0.4, 0.7)},
     ),
-    Hidden(
+    Twin(
         "stick_slip", "", "", 1e-5, 0.1, 5.0, _chatter,
         _o("chatter", "chatter_break", "chatter_slip"),
         {"stretch": (0.05, 0.25), "slip": (0.5, 1.2)},
     ),
-    Hidden(
+    Twin(
         "clipped_channel", "", "", 1e-3, 0.3, 0.6, _clipped,
         ("channel.clip_high", "channel.clip_low", "channel.step"), {"other": (0.2, 0.9)},
     ),
-    Hidden(
+    Twin(
         "bore_wear", "", "", 1e-5, 0.2, 10.0, _wear, _o("wear", "wear_travel", "wear_span"),
         {"passes": (1.0, 4.0)},
     ),
-    Hidden(
+    Twin(
         "gas_heat_exchange", "", "", 1e-4, 0.2, 10.0, _gas_heat,
         _o("gas_heat", "gas_heat_time"), {"time": (0.3, 3.0)},
     ),

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from erdctl.diagnose.locate import UNITS
-from erdctl.effect import Variable
-from erdctl.recording import Array, Index, Recording
+from erdctl.core.recording import Array, Index, Recording
+from erdctl.diagnose.residual.localisation import UNITS
+from erdctl.model.effect import Variable
 from erdctl.report.page.thin import keep, lines, reversals
-from erdctl.score import MAX_LEVELS, duty_levels
+from erdctl.score.nrmse import MAX_LEVELS, duty_levels
 
 MOST = 40_000  # samples that a page holds: more lie on top of each other, and are slow to zoom
 RECORDS = 200  # that can be chosen from one by one

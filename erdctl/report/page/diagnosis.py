@@ -8,17 +8,17 @@ from typing import Any
 import numpy as np
 
 from erdctl import effects
-from erdctl.diagnose.locate import variables
-from erdctl.diagnose.study import prepare
-from erdctl.effect import Variable
-from erdctl.paper import EQUATIONS, QUANTITIES
-from erdctl.quantity import Quantity
-from erdctl.recording import DIRECTIONS, Array, Recording
+from erdctl.core.quantity import Quantity
+from erdctl.core.recording import DIRECTIONS, Array, Recording
+from erdctl.core.signals import Signals
+from erdctl.diagnose.problem import prepare
+from erdctl.diagnose.residual.localisation import variables
+from erdctl.model.effect import Variable
+from erdctl.model.paper import EQUATIONS, QUANTITIES
 from erdctl.report.page import data
 from erdctl.report.page.data import Json, Levels
 from erdctl.report.page.render import Run, digits, render
 from erdctl.report.page.words import extent, joined, logs_text, plain
-from erdctl.signals import Signals
 
 MOOD = {"adequate": "good", "explained": "mid", "unexplained": "bad"}
 

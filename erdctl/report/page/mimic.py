@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from erdctl.core.recording import Array, Recording
 from erdctl.mimic import Plan
 from erdctl.mimic.outcome import Flags, Reach
-from erdctl.recording import Array, Recording
 from erdctl.report.page import data
 from erdctl.report.page.data import Json, Levels
 from erdctl.report.page.render import Run, digits, render

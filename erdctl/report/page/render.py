@@ -14,7 +14,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from erdctl import __version__
-from erdctl.recording import Source
+from erdctl.core.recording import Source
 from erdctl.report.page.mathml import equation, symbol
 
 RAISED = str.maketrans("−0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from erdctl.recording import Array, Index
+from erdctl.core.recording import Array, Index
 
 
 def keep(columns: Sequence[Array], most: int, corners: Index | None = None) -> Index:

@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from math import sqrt
 from typing import TypeVar
 
-from erdctl.effect import Variable
-from erdctl.recording import Array, Recording
+from erdctl.core.recording import Array, Recording
+from erdctl.model.effect import Variable
 from erdctl.report.page import data
 from erdctl.report.page.data import Json, Levels
 from erdctl.report.page.render import Run, digits, render
 from erdctl.report.page.words import extent, joined, logs_text
-from erdctl.score import Score, Validation
+from erdctl.score.nrmse import Score, Validation
 
 K = TypeVar("K")
 AT_NOISE = 0.3  # misfit over noise up to which an error counts as noise, as in a diagnosis

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from erdctl.recording import Recording
+from erdctl.core.recording import Recording
 
 
 def plain(name: str) -> str:

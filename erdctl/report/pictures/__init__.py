@@ -9,10 +9,10 @@ from importlib import import_module
 from pkgutil import iter_modules
 from typing import TYPE_CHECKING
 
-from erdctl.errors import UsageProblem
+from erdctl.core.errors import UsageProblem
 
 if TYPE_CHECKING:
-    from erdctl.report.picture import Picture
+    from erdctl.report.kind import Picture
 
 
 def names() -> tuple[str, ...]:

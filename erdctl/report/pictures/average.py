@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from erdctl.dyno import averaged
+from erdctl.bench.dyno import averaged
 from erdctl.report import draw, style
-from erdctl.report.picture import Picture
+from erdctl.report.kind import Picture
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from erdctl.report import draw, style
-from erdctl.report.picture import Picture
-from erdctl.score import nrmse
+from erdctl.report.kind import Picture
+from erdctl.score.nrmse import nrmse
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from erdctl.bench.strokes import stretches
 from erdctl.report import draw, style
-from erdctl.report.picture import Picture
-from erdctl.strokes import stretches
+from erdctl.report.kind import Picture
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from erdctl.report import draw, style, thin
-from erdctl.report.picture import Picture
+from erdctl.report.kind import Picture
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

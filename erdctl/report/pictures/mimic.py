@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from erdctl.bench.strokes import stretches
 from erdctl.report import style, thin
-from erdctl.report.picture import Picture
-from erdctl.score import nrmse
-from erdctl.strokes import stretches
+from erdctl.report.kind import Picture
+from erdctl.score.nrmse import nrmse
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -6,17 +6,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from erdctl.diagnose.locate import UNITS, variables
-from erdctl.misfit import along, edges_of, misfit_map
+from erdctl.core.signals import Signals
+from erdctl.diagnose.residual.localisation import UNITS, variables
 from erdctl.report import style
-from erdctl.report.picture import Picture
-from erdctl.signals import Signals
+from erdctl.report.kind import Picture
+from erdctl.score.misfit import along, edges_of, misfit_map
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from erdctl.recording import Array
+    from erdctl.core.recording import Array
     from erdctl.report.subject import Subject
 
 NAMES = {

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from erdctl.dyno import peak_force as peaks_of
+from erdctl.bench.dyno import peak_force as peaks_of
 from erdctl.report import draw, style
-from erdctl.report.picture import Picture
+from erdctl.report.kind import Picture
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from erdctl.recording import Array
+    from erdctl.core.recording import Array
     from erdctl.report.subject import Subject
 
 MOST = 2000  # strokes of a level that are drawn one by one

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from erdctl.dyno import slow_test
+from erdctl.bench.dyno import slow_test
 from erdctl.report import style
-from erdctl.report.picture import Picture
+from erdctl.report.kind import Picture
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

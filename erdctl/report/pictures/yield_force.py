@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from erdctl.core.recording import DIRECTIONS
 from erdctl.mimic.inverse import laws_of
-from erdctl.recording import DIRECTIONS
 from erdctl.report import style
-from erdctl.report.picture import Picture
-from erdctl.yield_points import yield_points
+from erdctl.report.kind import Picture
+from erdctl.score.yield_points import yield_points
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

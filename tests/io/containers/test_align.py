@@ -11,9 +11,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from erdctl.errors import InputProblem
+from erdctl.core.errors import InputProblem
 from erdctl.io.containers.align import Roles, aligned
-from erdctl.io.containers.channels import Channel, Group, Samples, arrange
+from erdctl.io.containers.channels import Channel, ChannelGroup, Samples, arrange
 
 Series = tuple[Any, Any]
 Say = Callable[[str], None]
@@ -27,7 +27,7 @@ def channel(name: str, time: Any, values: Any, unit: str | None = None) -> Chann
 def table(say: Say = lambda line: None, **series: Series) -> pa.Table:
     """The table of channels, each (time, values); those of the contract are needed as such."""
     channels = tuple(channel(n, *s) for n, s in series.items())
-    layout = arrange([Group("bench", channels)], "log")
+    layout = arrange([ChannelGroup("bench", channels)], "log")
     targets = {n: n for n in series if n in ("x", "duty", "force", "temperature")}
     return aligned(layout, layout.columns, Roles({**targets, "t": "t"}, say=say), "log")
 
@@ -135,8 +135,8 @@ def test_what_nobody_needs_is_left_out_and_said() -> None:
 
 def test_records_that_lack_a_channel() -> None:
     time = [0.0, 1.0]
-    both = Group("a", (channel("x", time, time), channel("p", time, time)), record=True)
-    one = Group("b", (channel("x", time, time),), record=True)
+    both = ChannelGroup("a", (channel("x", time, time), channel("p", time, time)), record=True)
+    one = ChannelGroup("b", (channel("x", time, time),), record=True)
     layout = arrange([both, one], "log")
     assert layout.columns == ("t", "x", "record")
     assert layout.notes == ("not in every record, left out: p",)
@@ -146,7 +146,7 @@ def test_what_was_done_is_said_of_the_records_that_it_was_done_to() -> None:
     time = np.arange(100) * 0.01
     holed = np.delete(time, slice(40, 60))
     groups = [
-        Group(name, (channel("x", time, time), channel("force", rows, rows)))
+        ChannelGroup(name, (channel("x", time, time), channel("force", rows, rows)))
         for name, rows in [("a", time), ("b", holed), ("c", holed), ("d", time)]
     ]
     layout, said = arrange(groups, "log"), list[str]()

@@ -12,7 +12,7 @@ import pyarrow as pa
 import pytest
 from shapes import F, T, X
 
-from erdctl.errors import ExitCode, InputProblem
+from erdctl.core.errors import ExitCode, InputProblem
 from erdctl.io.extras import MissingLibrary
 from erdctl.io.stored import units_of
 

@@ -13,7 +13,7 @@ import pyarrow as pa
 import pytest
 from shapes import F, T, X
 
-from erdctl.errors import InputProblem, UsageProblem
+from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.io.extras import MissingLibrary
 from erdctl.io.stored import units_of
 from erdctl.io.tables import write_table

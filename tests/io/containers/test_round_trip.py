@@ -15,7 +15,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from erdctl.errors import InputProblem, UsageProblem
+from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.io.convert import read_converted
 from erdctl.io.logs import Log
 from erdctl.io.sources import read_table

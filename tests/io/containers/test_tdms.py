@@ -11,7 +11,7 @@ import pyarrow as pa
 import pytest
 from shapes import F, T, X
 
-from erdctl.errors import InputProblem
+from erdctl.core.errors import InputProblem
 from erdctl.io.extras import MissingLibrary
 from erdctl.io.stored import units_of
 

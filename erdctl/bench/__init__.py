@@ -1,0 +1,1 @@
+"""What a test shows of a damper, and how one is driven: strokes, drives, dyno curves."""

@@ -1,0 +1,1 @@
+"""What everything stands on: errors, parameters' declarations, data in memory, worker processes."""

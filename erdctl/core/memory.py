@@ -1,0 +1,56 @@
+"""Memory that this process may still take, from what the system tells."""
+
+from __future__ import annotations
+
+import os
+
+_CGROUP = "/sys/fs/cgroup"
+
+
+def available() -> int | None:
+    """Bytes that this process may still take, or None if the system does not tell."""
+    found = [
+        b for b in (_of_the_machine(), _of_the_container(), _of_the_process()) if b is not None
+    ]
+    return max(min(found), 0) if found else None
+
+
+def _of_the_machine() -> int | None:
+    # sysconf knows free pages only; those that hold cached files can be had as well.
+    for line in _lines("/proc/meminfo"):
+        if line.startswith("MemAvailable:"):
+            return int(line.split()[1]) * 1024
+    try:
+        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (AttributeError, ValueError, OSError):
+        return None
+
+
+def _of_the_container() -> int | None:
+    own = next((line[3:] for line in _lines("/proc/self/cgroup") if line.startswith("0::")), "")
+    folder = _CGROUP + own.rstrip("/")
+    limit, used = (_lines(f"{folder}/memory.{n}")[:1] for n in ("max", "current"))
+    if not limit or not used or not limit[0].isdigit():
+        return None
+    statistics = dict(line.split() for line in _lines(f"{folder}/memory.stat"))
+    return int(limit[0]) - int(used[0]) + int(statistics.get("inactive_file", 0))
+
+
+def _of_the_process() -> int | None:
+    try:
+        import resource
+    except ImportError:
+        return None
+    limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+    pages = _lines("/proc/self/statm")
+    if limit == resource.RLIM_INFINITY or not pages:
+        return None
+    return limit - int(pages[0].split()[0]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def _lines(path: str) -> list[str]:
+    try:
+        with open(path) as file:
+            return file.read().splitlines()
+    except OSError:
+        return []

@@ -1,0 +1,64 @@
+"""The test that would tell look-alikes apart: the drive on which their predictions differ most."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+
+from erdctl.bench.drive import drives
+from erdctl.core.signals import Signals
+from erdctl.diagnose.hypothesis import Trial
+from erdctl.diagnose.problem import Study
+
+SECONDS = 4.0
+RATE = 500.0
+FREQUENCIES = (0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
+
+
+@dataclass(frozen=True)
+class Test:
+    """A drive, as `simulate --drive` takes it, and by how much two hypotheses differ on it.
+
+    difference : root mean square [N];  against : the effect that it tells the finding from
+    """
+
+    drive: str
+    difference: float
+    against: str
+
+
+def telling_apart(study: Study, best: Trial, rivals: Sequence[tuple[str, Trial]]) -> Test | None:
+    """The drive within the recorded stroke and speed that tells a trial from its first rival."""
+    if not rivals:
+        return None
+    name, rival = rivals[0]
+    found = []
+    for spec in _specs(study):
+        signals = Signals.of(drives([spec]))
+        a, b = (t.model.force(signals, t.values) for t in (best, rival))
+        settled = signals.t > 0.25 * SECONDS
+        found.append((float(np.sqrt(np.mean((a - b)[settled] ** 2))), spec))
+    difference, spec = max(found)
+    return Test(spec, difference, name)
+
+
+def _specs(study: Study) -> list[str]:
+    r = study.recording
+    stroke, speed = float(np.ptp(r.x)) / 2, float(np.abs(r.xdot).max())
+    top = float(r.duty.max())
+    duties = (
+        ["0"] if top == 0 else ["0", f"{top / 2:.2g}", f"{top:.2g}", f"{top / 2:.2g}|{top:.2g}"]
+    )
+    out = []
+    for frequency in FREQUENCIES:
+        amplitude = min(stroke, speed / (2 * pi * frequency))
+        for part in (1.0, 0.2):
+            for duty in duties:
+                out.append(
+                    f"sine:freq={frequency:g},amp={part * amplitude:.3g},duty={duty},"
+                    f"duration={SECONDS:g},fs={RATE:g}"
+                )
+    return out

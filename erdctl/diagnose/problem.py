@@ -1,0 +1,214 @@
+"""What a diagnosis works on: weighted samples, and the groups of them that are left out in turn."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+
+from erdctl.bench.identifiability import Lack, unmet
+from erdctl.core.blocks import Block, whole
+from erdctl.core.recording import Array, Index, Recording
+from erdctl.core.signals import Signals
+from erdctl.diagnose.record_effects import NOTHING, Free
+from erdctl.model.composed import Model
+from erdctl.model.effect import Slot, Values
+from erdctl.model.parameters import Parameters
+
+GROUPS = 24  # stretches left out in turn, if the log has fewer records than that
+SHORTEST = 0.8  # s; of what is judged by itself: longer than noise remembers
+SEEN = 0.5  # part of a sample that may come from doubtful ones
+UNCERTAIN = 3.0  # standard deviations of xdot's noise within which its sign is not known
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """A recording prepared for fits.
+
+    block : signals, force, weights (0 where a record settles or the direction is uncertain)
+    group : (n,) which left-out part a sample belongs to
+    stretch : (n,) which piece of that, of about SHORTEST, by which hypotheses are compared
+    held : paper parameters that the log cannot identify, and their values
+    free : what of the force may differ from record to record
+    """
+
+    recording: Recording
+    block: Block
+    group: Index
+    stretch: Index
+    held: dict[str, float]
+    needs: dict[str, Lack]
+    free: Free = NOTHING
+
+    @cached_property
+    def count(self) -> int:
+        """Number of groups."""
+        return int(self.group.max()) + 1
+
+    @cached_property
+    def weight_of(self) -> Array:
+        """(g,) total weight of each group."""
+        return np.bincount(self.group, self.block.weight, self.count).astype(np.float64)
+
+    def per_group(self, values: Array) -> Array:
+        """(g,) weighted sum of (n,) values in each group."""
+        sums = np.bincount(self.group, values * self.block.weight, self.count)
+        return sums.astype(np.float64)
+
+    def per_stretch(self, values: Array) -> tuple[Array, Array]:
+        """(k,) weighted mean of (n,) values in each stretch, and (k,) weight of that."""
+        weight = np.bincount(self.stretch, self.block.weight).astype(np.float64)
+        sums = np.bincount(self.stretch, values * self.block.weight)
+        return sums / np.maximum(weight, 1e-300), weight
+
+    def clearly(self, worse: Array, better: Array) -> tuple[float, float]:
+        """How clearly one residual (n,) [N] is smaller than another.
+
+        The logarithm of the ratio of their squares, its mean over its standard error: over
+        stretches, and over groups. What acts in few places is clear by many stretches there, and
+        steady only if they lie in several groups.
+        """
+        (before, weight), (after, _) = (self.per_stretch(r**2) for r in (worse, better))
+        use = (before > 0) & (after > 0) & (weight > 0)
+        ratio = np.log(before[use] / after[use])
+        group = self.group_of[use]
+        count = np.bincount(group)
+        by_group = (np.bincount(group, ratio) / np.maximum(count, 1))[count > 0]
+        return over_scatter(ratio), over_scatter(by_group)
+
+    @cached_property
+    def group_of(self) -> Index:
+        """(k,) group of each stretch."""
+        first = np.flatnonzero(np.diff(self.stretch, prepend=-1))
+        return self.group[first]
+
+
+def over_scatter(values: Array) -> float:
+    """Mean of independent values over its standard error."""
+    n = len(values)
+    scatter = float(values.std(ddof=1)) / np.sqrt(n) if n > 1 else np.inf
+    mean = float(values.mean()) if n else 0.0
+    if mean == 0.0:
+        return 0.0
+    return float(mean / scatter) if scatter > 0 else float(np.copysign(np.inf, mean))
+
+
+def sure(study: Study, model: Model, values: Values) -> Study:
+    """The study without the samples that a force channel fills from doubtful ones.
+
+    A channel that is late shows the turn of a record late, too: with its uncertain direction, and
+    drawn out over the samples between which the force jumps. One that averages dilutes both.
+    """
+    channel = model.of(Slot.CHANNEL)
+    if not channel:
+        return study
+    s = study.block.signals
+    unsure = uncertain(s)
+    unsure[1:] |= unsure[:-1]  # and the samples that share a step with them
+    unsure[:-1] |= unsure[1:]
+    turned = s.turns[0]
+    unsure[turned] = unsure[turned + 1] = True
+    doubt = unsure.astype(np.float64)
+    for effect in channel:
+        doubt = effect.act(doubt, s, effect.local(values))
+    weight = np.where(doubt > SEEN, 0.0, study.block.weight)
+    return replace(study, block=study.block._replace(weight=weight))
+
+
+def prepare(recording: Recording, free: Free = NOTHING) -> Study:
+    """The study of a recording with a measured force."""
+    needs = unmet(recording)
+    held = {
+        name: 1.0 if name.endswith(".beta") else 0.0
+        for name, need in needs.items()
+        if not need.confounded
+    }
+    block = whole(recording)
+    block.weight[uncertain(block.signals)] = 0.0
+    group = groups(recording)
+    if len(recording.names) == 1:
+        free = NOTHING  # one record has nothing to differ from
+    return Study(recording, block, group, stretches(recording, group), held, needs, free)
+
+
+def keeping(study: Study, given: Parameters, untestable: Mapping[str, str]) -> Study:
+    """The study with given values for what the log cannot identify.
+
+    untestable : effects of the given model that the log cannot show, each with what is missing
+    """
+    needs = dict(study.needs)
+    held = {name: given.values[name] for name in study.held}
+    for effect in given.model.effects:
+        if effect.name in untestable:
+            keys = [effect.key(q.symbol) for q in effect.quantities]
+            held |= {key: given.values[key] for key in keys}
+            needs |= dict.fromkeys(keys, Lack(untestable[effect.name]))
+    return replace(study, held=held, needs=needs)
+
+
+def groups(recording: Recording) -> Index:
+    """(n,) left-out stretches: records, each cut evenly where there are few of them."""
+    slices = recording.slices
+    lengths = np.array([recording.t[s][-1] - recording.t[s][0] for s in slices])
+    total = max(float(lengths.sum()), 1e-9)
+    out = np.empty(len(recording), dtype=np.intp)
+    first = 0
+    for part, length in zip(slices, lengths.tolist(), strict=True):
+        share = round(GROUPS * length / total) if len(slices) < GROUPS else 1
+        pieces = max(1, min(share, int(length / SHORTEST)))
+        n = part.stop - part.start
+        out[part] = first + np.arange(n) * pieces // n
+        first += pieces
+    return out
+
+
+def stretches(recording: Recording, group: Index) -> Index:
+    """(n,) stretches of about SHORTEST seconds, each within one group."""
+    out = np.empty(len(recording), dtype=np.intp)
+    first = 0
+    ends = np.flatnonzero(np.diff(group)) + 1
+    for a, b in pairwise([0, *ends.tolist(), len(recording)]):
+        span = float(recording.t[b - 1] - recording.t[a])
+        pieces = max(1, int(span / SHORTEST))
+        out[a:b] = first + np.arange(b - a) * pieces // (b - a)
+        first += pieces
+    return out
+
+
+def uncertain(signals: Signals) -> npt.NDArray[np.bool_]:
+    """(n,) whether the direction of motion cannot be trusted.
+
+    A differentiated, noisy deflection has the wrong sign at some samples next to reversals, and a
+    sign law turns each into an error of twice the yield force. These samples say nothing about the
+    physics; the noise of xdot is what it holds above the frequencies of its motion.
+    """
+    out = np.zeros(len(signals), dtype=np.bool_)
+    for a, b in zip(signals.starts[:-1].tolist(), signals.starts[1:].tolist(), strict=True):
+        xdot = signals.xdot[a:b]
+        if b - a < 32:
+            continue
+        out[a:b] = np.abs(xdot) < UNCERTAIN * velocity_noise(xdot)
+    return out
+
+
+def velocity_noise(xdot: Array) -> float:
+    """Standard deviation of the noise in the velocity of one record (n,) [m/s].
+
+    The spectrum of a test's motion ends somewhere; what lies beyond three times the frequency that
+    holds 99 % of the energy is noise, and noise goes on below it at about the same density.
+    """
+    window = np.hanning(len(xdot))
+    power = np.abs(np.fft.rfft((xdot - xdot.mean()) * window)) ** 2
+    total = np.cumsum(power)
+    if total[-1] == 0.0:
+        return 0.0
+    edge = 3 * int(np.searchsorted(total, 0.99 * total[-1])) + 8
+    if edge >= len(power):
+        return 0.0
+    beyond = float(total[-1] - total[edge])
+    share = 2.0 * beyond / (np.sum(window**2) * len(xdot))
+    return float(np.sqrt(share))

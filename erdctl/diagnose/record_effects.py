@@ -1,0 +1,232 @@
+"""Gain and zero of the force that scatter from record to record: carried along, never named.
+
+    F = g_r m + o_r + noise,   mean g_r = 1,   mean o_r = 0
+
+m : force of the model with shared parameters [N];  g_r, o_r : of record r [1], [N]
+Alternating least squares: the model is fitted to (F - o_r) / g_r, then gains and offsets to F. What
+the records share stays with the model: a common gain with its amplitudes, a common offset with its
+constant forces. Each value is drawn to the mean by what its error is against the scatter of all
+(empirical Bayes), and a record that does not determine it keeps the mean.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from erdctl.core.blocks import Block
+from erdctl.core.recording import Array, Index
+from erdctl.estimate.autoregressive import ColouredNoise
+from erdctl.estimate.covariance import jacobian
+from erdctl.estimate.least_squares import SINGULAR
+from erdctl.model.composed import Model
+from erdctl.model.effect import Values
+
+LEAST_GAIN = 0.2  # below that a record would be noise that is blown up
+SETTLED = 0.1  # of its error by which a value may still move
+
+
+@dataclass(frozen=True)
+class Free:
+    """What may differ from record to record."""
+
+    gain: bool = False
+    offset: bool = False
+
+    def __bool__(self) -> bool:
+        return self.gain or self.offset
+
+
+NOTHING = Free()
+
+
+@dataclass(frozen=True, eq=False)
+class Scatter:
+    """Gain (r,) [1] and offset (r,) [N] of the force in each record, with standard errors.
+
+    An error is infinite where a record does not determine the value.
+    """
+
+    gain: Array
+    offset: Array
+    gain_error: Array
+    offset_error: Array
+
+    @classmethod
+    def none(cls, records: int) -> Scatter:
+        """No scatter."""
+        unknown = np.full(records, np.inf)
+        return cls(np.ones(records), np.zeros(records), unknown, unknown)
+
+    def along(self, starts: Index) -> tuple[Array, Array]:
+        """(n,) gain and offset of each sample."""
+        lengths = np.diff(starts)
+        return np.repeat(self.gain, lengths), np.repeat(self.offset, lengths)
+
+    def shared(self, block: Block) -> Block:
+        """What the shared model is fitted to: the force without the scatter, noise as it was."""
+        gain, offset = self.along(block.signals.starts)
+        return Block(block.signals, (block.force - offset) / gain, block.weight * gain**2)
+
+    def settled(self, before: Scatter) -> bool:
+        """Whether it has moved by less than matters."""
+        pairs = (
+            (self.gain - before.gain, self.gain_error),
+            (self.offset - before.offset, self.offset_error),
+        )
+        return all(bool((np.abs(move) <= SETTLED * error).all()) for move, error in pairs)
+
+
+def estimate(free: Free, block: Block, modelled: Array, last: Scatter) -> Scatter:
+    """The scatter between a measured force and a modelled one (n,) [N]; errors are of noise alone.
+
+    last : the scatter before, for the colour of the noise
+    """
+    weight, starts = block.weight, block.signals.starts
+    gain, offset = last.along(starts)
+    rest = (block.force - offset - gain * modelled) * np.sqrt(weight)
+    noise = ColouredNoise.of(rest, starts)
+    rows = np.array([modelled, np.ones_like(modelled)])[[free.gain, free.offset]]
+    weighted = rows * weight
+    coloured = noise.colour(weighted, starts)
+    target = block.force - np.where(free.gain, 0.0, modelled)
+    normal = _per_record(weighted[:, None] * rows[None], starts)
+    right = _per_record(weighted * target, starts)
+    meat = _per_record(coloured[:, None] * coloured[None], starts)
+    value, error = np.zeros((2, *right.shape))
+    for r in range(len(starts) - 1):
+        value[:, r], error[:, r] = _solved(normal[:, :, r], right[:, r], meat[:, :, r])
+    out = Scatter.none(len(starts) - 1)
+    new_gain, new_offset, errors = out.gain, out.offset, [out.gain_error, out.offset_error]
+    if free.gain:
+        new_gain = np.maximum(1.0 + drawn(value[0], error[0]), LEAST_GAIN)
+        errors[0] = error[0]
+    if free.offset:
+        left = block.force - np.repeat(new_gain, np.diff(starts)) * modelled
+        mass = _per_record(weight, starts)
+        value[-1] = _per_record(weight * left, starts) / np.where(mass > 0, mass, 1.0)
+        new_offset, errors[1] = drawn(value[-1], error[-1]), error[-1]
+    return Scatter(new_gain, new_offset, *errors)
+
+
+def _per_record(values: Array, starts: Index) -> Array:
+    """(..., r) sums of (..., n) values over each record."""
+    return np.asarray(np.add.reduceat(values, starts[:-1], axis=-1))
+
+
+def _solved(normal: Array, right: Array, meat: Array) -> tuple[Array, Array]:
+    """Least squares of one record and standard errors; infinite where it determines nothing."""
+    scale = np.sqrt(np.diag(normal))
+    if not (scale > 0).all() or np.linalg.cond(normal / np.outer(scale, scale)) > 1 / SINGULAR:
+        return np.zeros(len(right)), np.full(len(right), np.inf)
+    inverse = np.linalg.inv(normal)
+    return inverse @ right, np.sqrt(np.diag(inverse @ meat @ inverse))
+
+
+def drawn(value: Array, error: Array) -> Array:
+    """(r,) deviations from the mean, drawn to 0 by their errors (r,); they add up to 0.
+
+        d = tau^2 / (tau^2 + e^2) (v - mu),   sum (v - mu)^2 / (tau^2 + e^2) = r - 1
+
+    tau : scatter beyond the errors (Paule and Mandel 1982), 0 if there is none
+    mu : mean, weighted as the sum is
+    Check: v = 1, 3, e = 1, 1: sum = 2 / (tau^2 + 1) = 1, tau = 1, d = -0.5, 0.5.
+    """
+    known = np.isfinite(error)
+    out = np.zeros_like(value)
+    v, square = value[known], error[known] ** 2
+    if len(v) < 2:
+        return out
+
+    def spread(tau2: float) -> tuple[float, float]:
+        weight = 1.0 / np.maximum(tau2 + square, 1e-300)
+        mean = float(np.average(v, weights=weight))
+        return float(np.dot(weight, (v - mean) ** 2)), mean
+
+    low, high = 0.0, float(np.sum((v - v.mean()) ** 2))
+    if high == 0.0 or spread(0.0)[0] <= len(v) - 1:
+        return out
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if spread(middle)[0] > len(v) - 1 else (low, middle)
+    out[known] = high / (high + square) * (v - spread(high)[1])
+    return out
+
+
+def errors(
+    free: Free, block: Block, model: Model, values: Values, names: tuple[str, ...], found: Scatter
+) -> tuple[Array, Scatter]:
+    """(p, p) covariance of shared parameters, and errors of the scatter, each given the others.
+
+    names : the shared parameters that were estimated.  Both under coloured noise; the means over
+    the records are fixed, as `estimate` fixes them.
+    """
+    weight, starts = block.weight, block.signals.starts
+    records, p = len(starts) - 1, len(names)
+    gain, offset = found.along(starts)
+    modelled = model.force(block.signals, values)
+    J = jacobian(model, block.signals, values, names) * gain
+    own = np.array([modelled, np.ones_like(modelled)])[[free.gain, free.offset]]
+    rest = (block.force - offset - gain * modelled) * np.sqrt(weight)
+    noise = ColouredNoise.of(rest, starts)
+    many = p + len(own) * records
+
+    def bordered(a: Array, b: Array) -> Array:
+        """Products of rows of all parameters, those of a record being 0 elsewhere."""
+        out = np.zeros((many, many))
+        out[:p, :p] = a[:p] @ b[:p].T
+        diagonal = np.arange(records)
+        for i in range(len(own)):
+            here = p + i * records
+            border = _per_record(a[:p] * b[p + i], starts)
+            out[:p, here : here + records] = border
+            out[here : here + records, :p] = border.T
+            for k in range(len(own)):
+                there = p + k * records
+                out[here + diagonal, there + diagonal] = _per_record(a[p + i] * b[p + k], starts)
+        return out
+
+    rows = np.concatenate([J, own])
+    root = rows * np.sqrt(weight)
+    normal = bordered(root, root)
+    coloured = noise.colour(rows * weight, starts)
+    meat = bordered(coloured, coloured)
+    kept = [found.gain_error, found.offset_error]
+    fixed = np.concatenate(
+        [e for e, is_free in zip(kept, (free.gain, free.offset), strict=True) if is_free]
+    )
+    into = _contrasts(p, len(own), np.isfinite(fixed).reshape(len(own), records))
+    inverse = _pseudo(into.T @ normal @ into)
+    covariance = into @ inverse @ (into.T @ meat @ into) @ inverse @ into.T
+    error = np.sqrt(np.maximum(np.diag(covariance)[p:], 0.0))
+    error = np.where(np.isfinite(fixed), error, np.inf).reshape(len(own), records)
+    unknown = np.full(records, np.inf)
+    return covariance[:p, :p], Scatter(
+        found.gain,
+        found.offset,
+        error[0] if free.gain else unknown,
+        error[-1] if free.offset else unknown,
+    )
+
+
+def _contrasts(shared: int, kinds: int, known: npt.NDArray[np.bool_]) -> Array:
+    """All parameters from free ones: of each kind those of known records, which add up to 0."""
+    records = known.shape[1]
+    columns = [np.eye(shared + kinds * records)[:, :shared]]
+    for i in range(kinds):
+        at = shared + i * records + np.flatnonzero(known[i])
+        centred = np.eye(len(at)) - 1.0 / max(len(at), 1)
+        basis = np.zeros((shared + kinds * records, max(len(at) - 1, 0)))
+        basis[at] = np.linalg.svd(centred)[0][:, : basis.shape[1]]
+        columns.append(basis)
+    return np.concatenate(columns, axis=1)
+
+
+def _pseudo(normal: Array) -> Array:
+    scale = np.sqrt(np.diag(normal))
+    scale[scale == 0.0] = 1.0
+    w, v = np.linalg.eigh(normal / np.outer(scale, scale))
+    keep = w > SINGULAR * w[-1]
+    return np.asarray((v[:, keep] / w[keep]) @ v[:, keep].T / np.outer(scale, scale))

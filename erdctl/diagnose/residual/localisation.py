@@ -1,0 +1,131 @@
+"""Where a misfit lives: the variables and the intervals in which its energy exceeds its time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.diagnose.problem import Study
+from erdctl.model.effect import Variable
+
+HELD = 0.5  # share of the energy that a region must hold
+EXCESS = 0.2  # of that share over its share of the time
+CELLS = 200  # of equal time
+WIDE = 0.6  # of the time: a region that covers more says nothing
+
+UNITS = {
+    Variable.XDOT: (1e3, "mm/s"),
+    Variable.X: (1e3, "mm"),
+    Variable.DUTY: (1e2, "%"),
+    Variable.TIME: (1.0, "s"),
+    Variable.SINCE_REVERSAL: (1e3, "ms"),
+    Variable.SINCE_DUTY_STEP: (1e3, "ms"),
+    Variable.ENERGY: (1.0, "J"),
+}
+
+
+@dataclass(frozen=True)
+class Region:
+    """An interval of one variable, and the share of the misfit's energy in it.
+
+    time : share of the samples in it, which is what the energy share is to be held against
+    """
+
+    variable: Variable
+    low: float
+    high: float
+    share: float
+    time: float
+    text: str
+
+
+def variables(signals: Signals, force: Array) -> dict[Variable, Array]:
+    """(n,) values of every variable over which a misfit can gather; inf where there is none."""
+    start = np.repeat(signals.starts[:-1], np.diff(signals.starts))
+    power = np.maximum(force * signals.xdot, 0.0) * signals.step
+    energy = np.cumsum(power)
+    energy -= energy[start] - power[start]
+    return {
+        Variable.XDOT: signals.xdot,
+        Variable.X: signals.x,
+        Variable.DUTY: signals.duty,
+        Variable.TIME: signals.t,
+        Variable.SINCE_REVERSAL: signals.since_reversal,
+        Variable.SINCE_DUTY_STEP: signals.since_duty_step,
+        Variable.ENERGY: energy,
+    }
+
+
+def locate(study: Study, square: Array) -> list[Region]:
+    """Regions in which a squared misfit (n,) [N^2] gathers, the sharpest first; none if nowhere."""
+    weight = study.block.weight
+    energy = weight * square
+    total = float(energy.sum())
+    if total <= 0.0:
+        return []
+    found = []
+    for variable, values in variables(study.block.signals, study.block.force).items():
+        region = _interval(variable, values, energy / total, weight / weight.sum())
+        if region is not None and region.time < WIDE:
+            found.append(region)
+    return sorted(found, key=lambda r: r.time - r.share)
+
+
+def _interval(variable: Variable, values: Array, energy: Array, time: Array) -> Region | None:
+    """The interval whose share of the energy exceeds its share of the time by most."""
+    finite = np.isfinite(values) & (time > 0)
+    v, e, w = values[finite], energy[finite], time[finite]
+    if v.size == 0 or v.min() == v.max():
+        return None
+    order = np.argsort(v, kind="stable")
+    v, e, w = v[order], e[order], w[order]
+    passed = np.cumsum(w)
+    edges = np.unique(v[np.searchsorted(passed, np.linspace(0.0, passed[-1], CELLS + 1)[1:-1])])
+    edges = np.unique(np.concatenate([[v[0]], edges, [v[-1]]]))
+    at = np.searchsorted(v, edges, side="left")
+    at[-1] = len(v)
+    E = np.concatenate([[0.0], np.cumsum(e)])[at]
+    W = np.concatenate([[0.0], passed])[at]
+    ahead = E - W
+    lowest = np.minimum.accumulate(ahead)
+    j = 1 + int(np.argmax(ahead[1:] - lowest[:-1]))
+    i = int(np.argmin(ahead[:j]))
+    share, spent = float(E[j] - E[i]), float(W[j] - W[i])
+    # Half way to what lies outside: levels of a duty have no width of their own.
+    a, b = int(at[i]), int(at[j])
+    low = float(v[0] if a == 0 else 0.5 * (v[a - 1] + v[a]))
+    high = float(v[-1] if b == len(v) else 0.5 * (v[b - 1] + v[b]))
+    if share < HELD or share - spent < EXCESS:
+        return None
+    return Region(variable, low, high, share, spent, describe(variable, low, high, share))
+
+
+def describe(variable: Variable, low: float, high: float, share: float) -> str:
+    """A region in an engineer's words."""
+    scale, unit = UNITS[variable]
+    a, b = low * scale, high * scale
+    percent = f"{100 * share:.0f} % of the misfit"
+    match variable:
+        case Variable.SINCE_REVERSAL:
+            where = f"within {b:.3g} {unit} of a reversal"
+            where = where if low <= 0.2 * high else f"{a:.3g} to {b:.3g} {unit} after a reversal"
+        case Variable.SINCE_DUTY_STEP:
+            where = f"within {b:.3g} {unit} of a duty step"
+            where = where if low <= 0.2 * high else f"{a:.3g} to {b:.3g} {unit} after a duty step"
+        case Variable.XDOT if low < 0 < high:
+            where = f"at speeds from {a:.3g} to {b:.3g} {unit}, around reversal"
+        case Variable.XDOT:
+            side = "compression" if high > 0 else "release"
+            where = f"in {side}, at {a:.3g} to {b:.3g} {unit}"
+        case Variable.DUTY:
+            where = f"at {a:.3g} to {b:.3g} {unit} duty"
+        case Variable.X:
+            where = f"at deflections from {a:.3g} to {b:.3g} {unit}"
+        case Variable.TIME:
+            where = f"from {a:.3g} to {b:.3g} {unit} in the records"
+        case _:
+            where = f"after {a:.3g} to {b:.3g} {unit} of dissipated energy"
+    return f"{percent} lies {where}"

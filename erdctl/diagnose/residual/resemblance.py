@@ -1,0 +1,59 @@
+"""What an unexplained misfit looks like: the simple form of motion and control nearest to it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.diagnose.problem import Study
+
+ALIKE = 0.5  # correlation below which a likeness says nothing
+
+
+@dataclass(frozen=True)
+class Likeness:
+    """A form in words, and the correlation of the misfit with it."""
+
+    form: str
+    correlation: float
+
+
+def likeness(study: Study, misfit: Array) -> Likeness | None:
+    """The form most like a misfit (n,) [N], if any is."""
+    weight = study.block.weight
+    found = []
+    for form, values in forms(study.block.signals).items():
+        a, b = (v - np.average(v, weights=weight) for v in (misfit, values))
+        scale = float(np.sqrt(np.dot(weight, a * a) * np.dot(weight, b * b)))
+        if scale > 0.0:
+            found.append(Likeness(form, float(np.dot(weight, a * b)) / scale))
+    best = max(found, key=lambda f: abs(f.correlation), default=None)
+    return best if best is not None and abs(best.correlation) > ALIKE else None
+
+
+def forms(s: Signals) -> dict[str, Array]:
+    """(n,) values of simple forms of motion and control, by what an engineer calls them."""
+    start = np.repeat(s.starts[:-1], np.diff(s.starts))
+    plain = {
+        "the deflection": s.x,
+        "the velocity": s.xdot,
+        "the direction of motion": s.sign,
+        "the square of the velocity, with its sign": s.xdot * np.abs(s.xdot),
+        "the acceleration": s.xddot,
+        "the square of the deflection": s.x**2,
+    }
+    turning = np.exp(-np.minimum(s.since_reversal, 1e3) / 0.05)
+    more = {
+        "the direction of motion, fading within 50 ms of a reversal": s.sign * turning,
+        "the duty": s.duty,
+        "the time in a record": s.t - s.t[start],
+    }
+    in_compression = {
+        f"{name}, in compression only": np.where(s.compressing, values, 0.0)
+        for name, values in plain.items()
+    }
+    with_duty = {f"{name}, times the duty": values * s.duty for name, values in plain.items()}
+    return plain | more | in_compression | with_duty

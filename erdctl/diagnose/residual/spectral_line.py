@@ -1,0 +1,60 @@
+"""A ripple of the yield force in a residual: a line in the spectrum of residual x direction.
+
+A yield force that swings at a frequency of its own (a supply that ripples, say) is predicted by no
+motion, and where the duty never changes it is as loud everywhere. But it turns over with the
+motion: taken with the sign of the velocity it is one line, which noise is not, and which a hum of
+the force channel is without that sign.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from erdctl.core.recording import Array
+from erdctl.diagnose.problem import Study
+
+SHARE = 0.1  # of the residual's square that the line must hold
+SHARPER = 50.0  # times the spectrum around it
+AROUND = 401  # bins of the spectrum around it
+BEYOND = 2.0  # times the line in the residual itself: a hum stands in both
+SLOWEST = 10  # bins, below which any slow noise looks like a line
+
+
+@dataclass(frozen=True)
+class Ripple:
+    """Frequency [Hz], and share of the residual's square."""
+
+    frequency: float
+    share: float
+
+
+def ripple(study: Study, residual: Array) -> Ripple | None:
+    """The ripple that turns over with the motion in a residual (n,) [N], if there is one."""
+    s = study.block.signals
+    turned, sharp = _line(study, residual * s.sign)
+    plain, _ = _line(study, residual)
+    if turned.share < SHARE or sharp < SHARPER or turned.share < BEYOND * plain.share:
+        return None
+    return turned
+
+
+def _line(study: Study, values: Array) -> tuple[Ripple, float]:
+    """The highest line in the mean spectrum of all records, and its height over what is around."""
+    from scipy.ndimage import median_filter
+
+    s = study.block.signals
+    weighted = values * study.block.weight
+    longest = int(np.diff(s.starts).max())
+    bins = 1 << (4 * longest - 1).bit_length()
+    spectrum = np.zeros(bins // 2 + 1)
+    for a, b in pairwise(s.starts.tolist()):
+        part = weighted[a:b] - weighted[a:b].mean()
+        spectrum += np.abs(np.fft.rfft(part, bins)) ** 2 * 2.0 / (b - a)
+    around = np.maximum(median_filter(spectrum, size=2 * AROUND, mode="nearest"), 1e-300)
+    at = SLOWEST + int(np.argmax(spectrum[SLOWEST:]))
+    total = max(float(np.dot(weighted, values)), 1e-300)
+    frequency = at / (bins * s.typical_step) if s.typical_step else 0.0
+    return Ripple(frequency, float(spectrum[at]) / total), float(spectrum[at] / around[at])

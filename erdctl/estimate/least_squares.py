@@ -1,0 +1,199 @@
+"""Separable least squares over any composed model.
+
+    min over shape parameters s of  min over amplitudes a of  sum w (F - a . columns(s))^2
+
+The inner problem is solved by linear algebra (variable projection, Golub and Pereyra 1973), so
+the search runs over the few shape parameters only. Where the force feeds back on itself it is not
+linear in the amplitudes, and all parameters are searched. Nothing here names an effect.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from erdctl.core.blocks import Block
+from erdctl.core.quantity import Quantity, Scale
+from erdctl.core.recording import Array
+from erdctl.model.composed import Model
+from erdctl.model.effect import Values
+
+STEP = 1e-5  # of a one-sided difference, in units of the search
+HUBER = 1.345  # tuning constant for 95 % efficiency under normal noise
+SINGULAR = 1e-10  # relative eigenvalue of the scaled normal matrix below which a direction is flat
+FINISH = 8  # steps of a search that is to end where the best is
+NEAR = 1e-4  # of the range of a search, from a bound that it was driven to
+SHORTEST = 1e-5  # s; a time constant of exactly 0 has no derivative, a search stays above
+
+
+def fit(
+    model: Model,
+    block: Block,
+    *,
+    start: Values,
+    fixed: Iterable[str] = (),
+    robust: bool = False,
+    max_evaluations: int = 200,
+) -> tuple[dict[str, float], int, bool]:
+    """Search from one start.
+
+    start : a value for every parameter;  fixed : names that keep it
+    Returns the values found, the number of model evaluations, and whether the search converged.
+    """
+    held = set(fixed)
+    shape = [n for n in model.shape if n not in held]
+    values = dict(start)
+    weight = block.weight
+    evaluations, converged = 0, True
+    for _ in range(6 if robust else 1):
+        problem = _Projected(model, block._replace(weight=weight), values, held, shape)
+        values, converged = problem.search(max_evaluations)
+        evaluations += problem.evaluations
+        if not robust:
+            break
+        updated = block.weight * huber_weight(problem.residual(values), block.weight)
+        if np.max(np.abs(updated - weight), initial=0.0) < 1e-2:
+            break
+        weight = updated
+    return values, evaluations, converged
+
+
+def huber_weight(residual: Array, weight: Array) -> Array:
+    """Weights of Huber's M-estimator at the scale of the median absolute residual."""
+    scale = 1.4826 * float(np.median(np.abs(residual[weight > 0]))) or 1.0
+    return 1.0 / np.maximum(np.abs(residual) / (HUBER * scale), 1.0)
+
+
+def solve_linear(
+    columns: Array, force: Array, weight: Array, low: Array, high: Array
+) -> tuple[Array, float]:
+    """Weighted least squares of `force` on the rows of `columns`, within bounds.
+
+    columns : (k, n);  force, weight : (n,);  low, high : (k,)
+    Returns (k,) amplitudes and the weighted sum of squares. Solved on the scaled normal matrix:
+    after scaling, its condition is that of the physics (below 1e6), not that of the units.
+    """
+    if columns.shape[0] == 0:
+        return np.empty(0), float(np.dot(weight, force * force))
+    weighted = columns * weight
+    normal, right = weighted @ columns.T, weighted @ force
+    scale = np.sqrt(np.diag(normal))
+    scale[scale == 0.0] = 1.0
+    scaled = normal / np.outer(scale, scale)
+    w, v = np.linalg.eigh(scaled)
+    keep = w > SINGULAR * w[-1]
+    amplitude = v[:, keep] @ ((v[:, keep].T @ (right / scale)) / w[keep]) / scale
+    if (amplitude < low).any() or (amplitude > high).any():
+        from scipy.optimize import lsq_linear
+
+        root = (v[:, keep] * np.sqrt(w[keep])).T
+        target = (v[:, keep].T @ (right / scale)) / np.sqrt(w[keep])
+        amplitude = lsq_linear(root, target, bounds=(low * scale, high * scale)).x / scale
+    residual = force - amplitude @ columns
+    return amplitude, float(np.dot(weight, residual * residual))
+
+
+class _Projected:
+    """The cost as a function of the searched parameters, all others solved inside."""
+
+    def __init__(
+        self, model: Model, block: Block, values: Values, held: set[str], shape: Sequence[str]
+    ) -> None:
+        self.model, self.block = model, block
+        linear = [n for n in model.linear if n not in held]
+        self.linear = linear if model.separable else []
+        self.names = list(shape) if model.separable else [*shape, *linear]
+        self.axes = [_Axis.of(model.quantities[n], values[n]) for n in self.names]
+        self.base = {**values, **{n: a.value for n, a in zip(self.names, self.axes, strict=True)}}
+        self.open = np.array([n not in held for n in model.linear])
+        quantities = [model.quantities[n] for n in self.linear]
+        self.low = np.array([q.low for q in quantities])
+        self.high = np.array([q.high for q in quantities])
+        self.root = np.sqrt(block.weight)
+        self.evaluations = 0
+
+    def solve(self, point: Array) -> tuple[dict[str, float], Array]:
+        """All values and the (n,) residual at given searched parameters."""
+        self.evaluations += 1
+        values = dict(self.base)
+        for name, axis, u in zip(self.names, self.axes, point.tolist(), strict=True):
+            values[name] = axis.back(u)
+        force = self.block.force
+        if not self.model.separable:
+            return values, force - self.model.force(self.block.signals, values)
+        columns = self.model.columns(self.block.signals, values)
+        if not self.open.all():
+            given = np.array([values[n] for n in self.model.linear])[~self.open]
+            force = force - given @ columns[~self.open]
+            columns = columns[self.open]
+        amplitude, _ = solve_linear(columns, force, self.block.weight, self.low, self.high)
+        values.update(zip(self.linear, amplitude.tolist(), strict=True))
+        return values, force - amplitude @ columns
+
+    def residual(self, values: Values) -> Array:
+        """(n,) residual at given values of the searched parameters."""
+        point = [a.forth(values[n]) for n, a in zip(self.names, self.axes, strict=True)]
+        return self.solve(np.array(point))[1]
+
+    def search(self, max_evaluations: int) -> tuple[dict[str, float], bool]:
+        """The best values from the start, and whether the search converged."""
+        if not self.names:
+            return self.solve(np.empty(0))[0], True
+        from scipy.optimize import least_squares
+
+        low = np.array([a.low for a in self.axes])
+        high = np.array([a.high for a in self.axes])
+        start = np.array([a.forth(a.value) for a in self.axes])
+        start = np.clip(start, low + 1e-9 * (high - low), high - 1e-9 * (high - low))
+        search = partial(
+            least_squares,
+            lambda p: self.root * self.solve(p)[1],
+            bounds=(low, high),
+            diff_step=STEP,
+            x_scale="jac",
+            ftol=1e-8,
+            xtol=1e-7,
+            gtol=1e-12,
+        )
+        found = search(start, max_nfev=max_evaluations)
+        if found.status == 0 and max_evaluations >= FINISH:
+            # This search keeps off the bounds, and creeps where the best lies on one; the other
+            # goes along them, but from far away is caught there.
+            end = search(found.x, method="dogbox", max_nfev=max_evaluations // 4)
+            found = min(found, end, key=lambda f: f.cost)
+        return self.solve(found.x)[0], bool(found.status > 0)
+
+
+def at_bound(q: Quantity, value: float) -> bool:
+    """Whether a search has driven a parameter to one of its bounds."""
+    axis = _Axis.of(q, value)
+    near = NEAR * (axis.high - axis.low)
+    return not axis.low + near < axis.forth(value) < axis.high - near
+
+
+class _Axis(NamedTuple):
+    """One searched parameter: its start, and the search's own coordinate."""
+
+    value: float
+    low: float
+    high: float
+    log: bool
+
+    @classmethod
+    def of(cls, q: Quantity, value: float) -> _Axis:
+        """The search begins at the parameter's own start where an off value is out of bounds."""
+        low = SHORTEST if q.unit == "s" and q.low == 0 else q.low
+        if not low <= value <= q.high:
+            value = q.start
+        if q.scale is Scale.LOG:
+            return cls(value, float(np.log(low)), float(np.log(q.high)), log=True)
+        return cls(value, low, q.high, log=False)
+
+    def forth(self, value: float) -> float:
+        return float(np.log(value)) if self.log else value
+
+    def back(self, u: float) -> float:
+        return float(np.exp(u)) if self.log else u

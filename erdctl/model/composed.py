@@ -1,0 +1,148 @@
+"""The paper's model with any list of effects: force, or unit columns for a fit.
+
+    motion -> control -> field -> lag -> sign -> yield -> groups gas + viscous + yield, scaled
+    -> terms -> compliance in series -> force channel
+
+Nothing here names an effect; each enters through the slot that it declares. With every effect at
+its off value the force equals that of the model without it, bit for bit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from erdctl.core.quantity import Quantity
+from erdctl.core.recording import COMPRESSION, DIRECTIONS, RELEASE, Array
+from erdctl.core.signals import Signals
+from erdctl.model import paper
+from erdctl.model.effect import Effect, Slot, Values, in_slot
+from erdctl.model.response import Factors, Prepared, multiplied
+
+GROUPS = ("gas", "viscous", "yield")
+_AMPLITUDE_OF = dict(zip(GROUPS, ("k_nom", "c_vis", "sigma"), strict=True))
+
+
+@dataclass(frozen=True)
+class Model:
+    """The paper's model and a list of effects, as a function of named parameter values.
+
+    Values are named `compression.k_nom`, `release.beta`, `coulomb_friction.F_c` and so on.
+    """
+
+    effects: tuple[Effect, ...] = ()
+
+    @cached_property
+    def quantities(self) -> dict[str, Quantity]:
+        """Every parameter by its full name, the paper's first."""
+        out = {f"{d}.{s}": q for d in DIRECTIONS for s, q in paper.QUANTITIES.items()}
+        for effect in self.effects:
+            out.update({effect.key(q.symbol): q for q in effect.quantities})
+        return out
+
+    @cached_property
+    def linear(self) -> tuple[str, ...]:
+        """Names of the amplitudes, in the order of `columns`."""
+        groups = [f"{d}.{_AMPLITUDE_OF[g]}" for g in GROUPS for d in DIRECTIONS]
+        return (*groups, *(e.key(q.symbol) for e in self.effects for q in e.amplitudes))
+
+    @cached_property
+    def shape(self) -> tuple[str, ...]:
+        """Names of all other parameters."""
+        return tuple(name for name in self.quantities if name not in self.linear)
+
+    @cached_property
+    def separable(self) -> bool:
+        """Whether the force is linear in the amplitudes: no effect feeds the force back."""
+        return not any(self.of(slot) for slot in (Slot.SERIES, Slot.FEEDBACK, Slot.LAG))
+
+    def of(self, slot: Slot) -> list[Effect]:
+        """The effects of one slot in the order in which they act."""
+        return in_slot(self.effects, slot)
+
+    def force(self, signals: Signals, values: Values) -> Array:
+        """(n,) damper force [N]."""
+        return self.prepare(signals, values).force(values)
+
+    def parts(self, signals: Signals, values: Values) -> dict[str, Array]:
+        """(n,) force of each group, `gas`, `viscous`, `yield`, and of the terms, `other` [N]."""
+        return self.prepare(signals, values).parts(values)
+
+    def columns(self, signals: Signals, values: Values) -> Array:
+        """(k, n) force for each amplitude at one and all other amplitudes at zero.
+
+        `values` needs the shape parameters only. Raises ValueError if the model is not separable.
+        """
+        if not self.separable:
+            raise ValueError("the force of this model is not linear in its amplitudes")
+        return self.prepare(signals, values).columns()
+
+    def prepare(self, signals: Signals, values: Values) -> Prepared:
+        """All that does not depend on the amplitudes, computed once."""
+        s = signals
+        jointed, gap = self._jointed(values), 0.0
+        for effect in self.of(Slot.MOTION):
+            if jointed and effect.free_play is not None:
+                gap += effect.free_play(effect.local(values))
+            else:
+                s = effect.act(s, effect.local(values))
+        for effect in self.of(Slot.CONTROL):
+            s = s.with_duty(effect.act(s, effect.local(values)))
+        scale: Factors = {}
+        of_speed: Factors = {}
+        for effect in self.of(Slot.SCALE):
+            factors = effect.act(s, effect.local(values))
+            if effect.of_speed:
+                of_speed = multiplied(of_speed, factors)
+            else:
+                scale = multiplied(scale, factors)
+        falls = np.ones(len(s)) if self.of(Slot.LAG) else None
+        for effect in self.of(Slot.LAG):
+            falls = falls * effect.act(s, effect.local(values))
+        if falls is not None and (falls == 1.0).all():
+            falls = None  # off takes the same path as absent
+        return Prepared(
+            effects=self.effects,
+            signals=s,
+            gas=self._replaced(Slot.GAS, s, values, s.x),
+            viscous=self._replaced(Slot.VISCOUS, s, values, s.xdot),
+            sign=self._replaced(Slot.SIGN, s, values, s.sign),
+            fields=self._fields(s, values),
+            falls=falls,
+            scale=scale,
+            of_speed=of_speed,
+            gap=gap,
+            values=values,
+        )
+
+    def _jointed(self, values: Values) -> bool:
+        """Whether a compliance in series with the whole damper acts, whose joint may have play."""
+        springs = [e for e in self.of(Slot.SERIES) if e.carries is None]
+        return any(float(e.act(e.local(values))) > 0.0 for e in springs)
+
+    def _replaced(self, slot: Slot, s: Signals, values: Values, plain: Array) -> Array:
+        effects = self.of(slot)
+        if len(effects) > 1:
+            names = ", ".join(e.name for e in effects)
+            raise ValueError(f"only one effect can take the place of {slot.value}: {names}")
+        return effects[0].act(s, effects[0].local(values)) if effects else plain
+
+    def _fields(self, s: Signals, values: Values) -> tuple[Array, Array]:
+        laws = self.of(Slot.FIELD)
+
+        def law(direction: int) -> Array:
+            field = paper.field_law(s.duty, values[f"{DIRECTIONS[direction]}.beta"])
+            for effect in laws:
+                field = effect.act(field, s, effect.local(values), DIRECTIONS[direction])
+            return field
+
+        compression = law(COMPRESSION)
+        same = values["compression.beta"] == values["release.beta"] and not laws
+        return compression, compression if same else law(RELEASE)
+
+
+def off_values(model: Model) -> dict[str, float]:
+    """Values at which every effect of a model is exactly absent."""
+    return {name: value for effect in model.effects for name, value in effect.off.items()}

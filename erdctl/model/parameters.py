@@ -1,0 +1,60 @@
+"""Parameters of a damper as they travel between commands: values, errors, what is not known."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from erdctl.model.composed import Model
+
+
+@dataclass(frozen=True, kw_only=True)
+class Estimate:
+    """One parameter.
+
+    value : None when the data do not identify it; `assumed` is then what a simulation uses, and
+    `reason` says in plain words why
+    """
+
+    value: float | None
+    unit: str
+    stderr: float | None = None
+    assumed: float | None = None
+    reason: str | None = None
+
+    @property
+    def identified(self) -> bool:
+        """Whether there is a value."""
+        return self.value is not None
+
+    @property
+    def used(self) -> float:
+        """The value, or what a simulation uses in its place."""
+        chosen = self.assumed if self.value is None else self.value
+        return 0.0 if chosen is None else chosen
+
+
+@dataclass(frozen=True, kw_only=True)
+class Parameters:
+    """Every parameter of a model by its full name, and where they came from."""
+
+    model: Model
+    estimates: Mapping[str, Estimate]
+    provenance: Mapping[str, Any] = field(default_factory=dict)
+    fits: Mapping[str, Any] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+
+    @cached_property
+    def values(self) -> dict[str, float]:
+        """What a simulation uses for every parameter."""
+        return {name: e.used for name, e in self.estimates.items()}
+
+    def caveats(self) -> list[str]:
+        """One line for every reason why some parameters have no value."""
+        by_reason: dict[str, list[str]] = {}
+        for name, e in self.estimates.items():
+            if not e.identified:
+                by_reason.setdefault(e.reason or "no value given", []).append(name)
+        return [f"not identified: {', '.join(names)}: {why}" for why, names in by_reason.items()]

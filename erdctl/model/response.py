@@ -1,0 +1,260 @@
+"""The response of a composed model on given signals: forces by group, or unit columns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from erdctl.core.recording import COMPRESSION, RELEASE, Array
+from erdctl.core.signals import Signals
+from erdctl.model import paper
+from erdctl.model.effect import Effect, Slot, Values, in_slot
+from erdctl.model.paper import pair
+
+Factors = Mapping[str, Array]
+
+
+class _Behind(NamedTuple):
+    """What marches behind a spring: (n,) force, stretch and speed, laws on a grid, (n,) factors."""
+
+    force: Array
+    stretch: Array
+    speed: Array
+    grid: Array
+    viscous: Array
+    friction: Array
+    gain: Factors
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """A model on given signals and shape parameters; only the amplitudes are open.
+
+    gas, viscous, sign : (n,) shapes in place of x, xdot and sign(xdot)
+    fields : (n,) normalised steady yield force for either direction
+    falls : (n,) factor of T_d while the yield force falls, or None
+    scale, of_speed : (n,) factors of groups; behind a spring, those of speed follow the piston's
+    gap : free play [m] in the joint of a compliance in series
+    """
+
+    effects: tuple[Effect, ...]
+    signals: Signals
+    gas: Array
+    viscous: Array
+    sign: Array
+    fields: tuple[Array, Array]
+    falls: Array | None
+    scale: Factors
+    of_speed: Factors
+    gap: float
+    values: Values
+
+    def force(self, values: Values, factors: Factors | None = None) -> Array:
+        """(n,) force; `factors` multiply groups sample by sample (faults, Eqs. 20-23)."""
+        springs = self._springs(values)
+        if springs:
+            factors = self._fed_back(values, factors)
+            return self._recorded(self._total_behind_spring(values, factors, *springs[0]))
+        parts = self.parts(values, factors)
+        total = parts["gas"] + parts["viscous"] + parts["yield"]
+        return total + parts["other"] if "other" in parts else total
+
+    def parts(self, values: Values, factors: Factors | None = None) -> dict[str, Array]:
+        """(n,) force of each group and, if there are any terms, of all `other` forces."""
+        out = self._parts(values, self._fed_back(values, factors))
+        return {name: self._recorded(part) for name, part in out.items()}
+
+    def _fed_back(self, values: Values, factors: Factors | None) -> Factors:
+        """(n,) factors of groups, with those that depend on the forces themselves."""
+        factors = multiplied(self.scale, factors or {})
+        for effect in in_slot(self.effects, Slot.FEEDBACK):
+            out = self._parts(values, factors)
+            back: Factors = effect.act(out, self.signals, effect.local(values))
+            factors = multiplied(factors, back)
+        return factors
+
+    def _parts(self, values: Values, factors: Factors) -> dict[str, Array]:
+        springs = self._springs(values)
+        if springs:
+            return self._behind_spring(values, factors, *springs[0])
+        sigma = pair(values, "sigma")
+        u_c = self.fields[COMPRESSION] * sigma[COMPRESSION]
+        shared = sigma[0] == sigma[1] and self.fields[0] is self.fields[1]
+        u_r = u_c if shared else self.fields[RELEASE] * sigma[RELEASE]
+        per = self.signals.per_direction
+        out = {
+            "gas": self.gas * per(*pair(values, "k_nom")),
+            "viscous": self.viscous * per(*pair(values, "c_vis")),
+            "yield": self._signed_yield(u_c, u_r),
+        }
+        for group, factor in multiplied(factors, self.of_speed).items():
+            out[group] = out[group] * factor
+        rows = self.terms()
+        if rows:
+            out["other"] = np.sum([values[name] * row for name, row in rows], axis=0)
+        return out
+
+    def columns(self) -> Array:
+        """(k, n) unit responses in the order of `Model.linear`."""
+        zero = np.zeros(len(self.signals))
+        rows: list[Array] = []
+        scale = multiplied(self.scale, self.of_speed)
+        for group, shape in (("gas", self.gas), ("viscous", self.viscous)):
+            factor = scale.get(group)
+            shape = shape if factor is None else shape * factor
+            rows += self.signals.split(shape)
+        factor = scale.get("yield")
+        for fields in ((self.fields[COMPRESSION], zero), (zero, self.fields[RELEASE])):
+            response = self._signed_yield(*fields)
+            rows.append(response if factor is None else response * factor)
+        rows += [row for _, row in self.terms()]
+        return np.array([self._recorded(row) for row in rows])
+
+    def yield_state(self, compression: Array, release: Array) -> Array:
+        """(n,) F_ER of Eq. 12 for given steady values in either direction."""
+        T_c, T_r = pair(self.values, "T_d")
+        return paper.yield_force(self.signals, compression, release, T_c, T_r, falls=self.falls)
+
+    def terms(self) -> Sequence[tuple[str, Array]]:
+        """Name and (n,) unit response of every amplitude that an effect adds."""
+        return [
+            (e.key(q.symbol), row)
+            for e in self.effects
+            if e.columns is not None
+            for q, row in zip(
+                e.amplitudes, e.columns(self.signals, e.local(self.values)), strict=True
+            )
+        ]
+
+    def _signed_yield(self, compression: Array, release: Array) -> Array:
+        force = self.yield_state(compression, release) * self.sign
+        for effect in in_slot(self.effects, Slot.YIELD):
+            force = effect.act(force, self.signals, effect.local(self.values))
+        return force
+
+    def _recorded(self, column: Array) -> Array:
+        for effect in in_slot(self.effects, Slot.CHANNEL):
+            column = effect.act(column, self.signals, effect.local(self.values))
+        return column
+
+    def _springs(self, values: Values) -> list[tuple[Effect, float]]:
+        """The effect that puts a compliance in series, if any does, and its compliance [m/N]."""
+        springs = [(e, float(e.act(e.local(values)))) for e in in_slot(self.effects, Slot.SERIES)]
+        springs = [(e, compliance) for e, compliance in springs if compliance > 0.0]
+        if len(springs) > 1:
+            raise ValueError("only one compliance can be in series")
+        return springs
+
+    def _total_behind_spring(
+        self, values: Values, factors: Factors, spring: Effect, compliance: float
+    ) -> Array:
+        """(n,) what `_behind_spring` adds up to, without taking it apart."""
+        force = self._march(values, factors, spring, compliance).force
+        if spring.carries is not None:
+            gas = self.gas * self.signals.per_direction(*pair(values, "k_nom"))
+            force = force + gas * factors["gas"] if "gas" in factors else force + gas
+        for name, row in self._outside(inner=spring.carries is None):
+            force = force + values[name] * row
+        return force
+
+    def _outside(self, *, inner: bool) -> Sequence[tuple[str, Array]]:
+        """Terms that act beside the spring; behind one of all forces are those of speed alone."""
+        inside = {e.key(q.symbol) for e in self.effects if e.of_speed for q in e.amplitudes}
+        return [(name, row) for name, row in self.terms() if not (inner and name in inside)]
+
+    def _march(
+        self, values: Values, factors: Factors, spring: Effect, compliance: float
+    ) -> _Behind:
+        """The spring and what moves behind it.
+
+        Forces that do not depend on speed alone act on the recorded motion, outside the spring. A
+        gas law in place of x is moved by the spring as x is: their slopes differ by little there.
+        """
+        from erdctl.model.series_compliance import march, speed_grid
+
+        s, inner = self.signals, spring.carries is None
+        grid = speed_grid(float(np.abs(s.xdot).max()))
+        viscous, sign, friction = self._laws(values, grid)
+        if not inner:
+            friction = np.zeros_like(friction)
+        ones = np.ones(len(s))
+        gain = {g: factors.get(g, ones) for g in ("gas", "viscous", "yield")}
+        u_c, u_r = (f * s_ for f, s_ in zip(self.fields, pair(values, "sigma"), strict=True))
+        k = pair(values, "k_nom") if inner else (0.0, 0.0)
+        T = [max(T_d, 1e-9) for T_d in pair(values, "T_d")]
+        falls = ones if self.falls is None else self.falls
+        viscous = np.array(pair(values, "c_vis"))[:, None] * viscous
+        force, stretch, v = march(
+            self.gas, s.xdot, s.step, falls, s.starts, s.compressing, s.rests,
+            u_c, u_r,
+            gain["gas"], gain["viscous"], gain["yield"], grid, viscous, sign, friction,
+            k[0], k[1], T[0], T[1], compliance, self.gap,
+        )  # fmt: skip
+        return _Behind(force, stretch, v, grid, viscous, friction, gain)
+
+    def _behind_spring(
+        self, values: Values, factors: Factors, spring: Effect, compliance: float
+    ) -> dict[str, Array]:
+        """Forces by group with a compliance [m/N] in series with the groups that it carries."""
+        from erdctl.model.series_compliance import along
+
+        s, inner = self.signals, spring.carries is None
+        b = self._march(values, factors, spring, compliance)
+        out = {
+            "viscous": along(b.speed, b.grid, b.viscous) * b.gain["viscous"],
+            "other": along(b.speed, b.grid, b.friction),
+        }
+        if inner:
+            gas = (self.gas - b.stretch) * s.with_motion(s.x, b.speed).per_direction(
+                *pair(values, "k_nom")
+            )
+            out["gas"] = gas * b.gain["gas"]
+            # The yield force is what the rest leaves: at rest, whatever holds the piston.
+            out["yield"] = b.force - out["gas"] - out["viscous"] - out["other"]
+        else:
+            out["gas"] = self.gas * s.per_direction(*pair(values, "k_nom")) * b.gain["gas"]
+            out["yield"] = b.force - out["viscous"]
+        for name, row in self._outside(inner=inner):
+            out["other"] = out["other"] + values[name] * row
+        return out
+
+    def _laws(self, values: Values, grid: Array) -> tuple[Array, Array, Array]:
+        """Viscous shape, sign law and friction on a grid of speeds, (2, m) each: up and down."""
+        zero = np.zeros(2 * len(grid))
+        speeds = np.concatenate([grid, -grid])
+        s = Signals(zero, zero, speeds, zero, zero, np.array([0, len(speeds)]))
+
+        def law(slot: Slot, plain: Array) -> Array:
+            for e in in_slot(self.effects, slot):
+                if not e.of_speed:
+                    raise ValueError(f"{e.name} cannot act behind a spring: no law of speed alone")
+                plain = e.act(s, e.local(values))
+            return plain.reshape(2, -1)
+
+        friction = np.zeros(len(speeds))
+        for e in self.effects:
+            if e.columns is not None and e.of_speed:
+                rows = e.columns(s, e.local(values))
+                for q, row in zip(e.amplitudes, rows, strict=True):
+                    friction += values[e.key(q.symbol)] * row
+        if in_slot(self.effects, Slot.YIELD):
+            raise ValueError("a yield force with memory cannot act behind a spring")
+        one = np.ones(len(speeds))
+        viscous, sign = law(Slot.VISCOUS, speeds), law(Slot.SIGN, np.sign(speeds))
+        for e in in_slot(self.effects, Slot.SCALE):
+            if e.of_speed:
+                factors = e.act(s, e.local(values))
+                viscous = viscous * factors.get("viscous", one).reshape(2, -1)
+                sign = sign * factors.get("yield", one).reshape(2, -1)
+        return viscous, sign, friction.reshape(2, -1)
+
+
+def multiplied(a: Factors, b: Factors) -> dict[str, Array]:
+    """Two sets of group factors as one."""
+    out = dict(a)
+    for group, factor in b.items():
+        out[group] = out[group] * factor if group in out else factor
+    return out

@@ -1,0 +1,47 @@
+"""Trials in worker processes: the same answers as in one."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from rig import campaign, noisy
+
+from erdctl import effects
+from erdctl.core.recording import Recording
+from erdctl.diagnose.diagnosis import diagnose
+from erdctl.diagnose.executor import Crew, Task
+from erdctl.diagnose.problem import prepare
+from erdctl.io import documents
+from erdctl.io.diagnosis import to_json
+
+# One that feeds the force back, one that makes samples doubtful, and look-alikes.
+FEW = ("coulomb_friction", "preyield_viscosity", "time_skew", "mount_compliance")
+
+
+def rubbing() -> Recording:
+    """Without control steps, so that there are parameters that cannot be identified."""
+    r = campaign(100.0, 6.0)
+    r = noisy(r.select([i for i, n in enumerate(r.names) if "Hz" in n]), seed=4)
+    assert r.force is not None
+    return replace(r, force=r.force + 2.0 * np.sign(r.xdot))
+
+
+def test_the_document_is_the_same_for_any_number_of_jobs() -> None:
+    seen: list[tuple[str, str]] = []
+    candidates = [effects.get(name) for name in FEW]
+
+    def document(jobs: int) -> bytes:
+        found = diagnose(rubbing(), candidates, jobs=jobs, progress=lambda *told: seen.append(told))
+        return documents.encode(to_json(found))
+
+    one, two = document(1), document(2)
+    assert one == two
+    assert b"coulomb_friction" in one
+    assert ("each effect", "time_skew") in seen
+
+
+def test_effects_that_cannot_act_together_are_no_trial() -> None:
+    both = tuple(effects.get(name) for name in ("preyield_viscosity", "yield_hysteresis"))
+    study = prepare(rubbing())
+    assert Crew([study]).run(study, [Task("pairs", both, ({},))]) == [None]
