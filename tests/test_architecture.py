@@ -136,7 +136,7 @@ def test_tests_mirror_the_rooms() -> None:
     besides = {Path("benchmarks"), Path("docs"), Path("fixtures")}
     folders = {p.parent.relative_to(ROOT / "tests") for p in (ROOT / "tests").rglob("test_*.py")}
     assert folders - {Path(".")} - besides <= known
-    assert {Path(r) for r in ROOMS} <= {f for f in folders}
+    assert {Path(r) for r in ROOMS} <= folders
 
 
 def test_the_generator_of_fixtures_shares_no_code() -> None:
