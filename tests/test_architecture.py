@@ -112,7 +112,7 @@ def test_no_effect_is_named_outside_its_file(path: Path) -> None:
     if path.stem != "faults":
         # An effect says which others force data can hardly tell from it.
         effect = get(path.stem) if path.stem in names() else None
-        allowed = {*effect.equivalents, *effect.beside} if effect else set()
+        allowed = {*effect.equivalents, *effect.companions} if effect else set()
     assert not (strings & known) - allowed
 
 

@@ -91,7 +91,7 @@ def command(
     from erdctl.cli.reading import read_logs
     from erdctl.core.errors import CheckFailed
     from erdctl.diagnose.diagnosis import Verdict, diagnose
-    from erdctl.diagnose.record_effects import Free
+    from erdctl.diagnose.record_effects import Varying
     from erdctl.io import documents
     from erdctl.io.diagnosis import parameters, to_json
     from erdctl.report.text import progress, say
@@ -105,7 +105,7 @@ def command(
         found = diagnose(
             log.recording, candidates, most=max_effects,
             given=given,
-            free=Free(gain=record_gains, offset=record_offsets), seed=seed,
+            free=Varying(gain=record_gains, offset=record_offsets), seed=seed,
             jobs=jobs or _jobs(log.recording, candidates), progress=step,
         )  # fmt: skip
     document = to_json(found, file)
@@ -169,7 +169,7 @@ def _report(found: Diagnosis, document: dict[str, Any], path: str, seed: int) ->
     from erdctl.report.page.diagnosis import diagnosis_page
     from erdctl.report.page.render import Run
 
-    recording = found.study.recording
+    recording = found.problem.recording
     before, after = (simulate(p, recording) for p in (baseline(found), parameters(found)))
     run = Run(
         words=sys.argv[1:], logs=recording.sources,

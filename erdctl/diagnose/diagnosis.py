@@ -14,14 +14,14 @@ from erdctl.core.blocks import thinned
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array, Recording
 from erdctl.diagnose.comparison import FINEST, Comparison, compare
-from erdctl.diagnose.discriminating_drive import Test, telling_apart
-from erdctl.diagnose.executor import Progress, crew
-from erdctl.diagnose.hypothesis import Trial
-from erdctl.diagnose.problem import SHORTEST, Study, keeping, prepare
-from erdctl.diagnose.record_effects import NOTHING, Free, Scatter, errors
+from erdctl.diagnose.discriminating_drive import DiscriminatingDrive, discriminating_drive
+from erdctl.diagnose.executor import Progress, executor
+from erdctl.diagnose.hypothesis import Hypothesis
+from erdctl.diagnose.problem import SHORTEST, Problem, prepare, with_given
+from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying, errors
 from erdctl.diagnose.residual.localisation import Region, locate
-from erdctl.diagnose.residual.predictability import Remainder, examine
-from erdctl.diagnose.search import Choice, choose, confirm
+from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
+from erdctl.diagnose.search import Selection, refit, search
 from erdctl.estimate.covariance import Fit, assess
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
@@ -57,7 +57,7 @@ class Finding:
     before: float
     after: float
     runner_up: str | None
-    test: Test | None
+    test: DiscriminatingDrive | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,8 +74,8 @@ class Diagnosis:
 
     verdict: Verdict
     noise_rms: float
-    study: Study
-    choice: Choice
+    problem: Problem
+    selection: Selection
     fit: Fit
     findings: tuple[Finding, ...]
     mismatch: tuple[Region, ...]
@@ -84,9 +84,9 @@ class Diagnosis:
     refitted: Validation
     corrected: Validation
     carried: Validation
-    unseen: tuple[Validation, Validation]
-    scatter: Scatter | None
-    remainder: Remainder
+    cross_validated: tuple[Validation, Validation]
+    record_effects: RecordEffects | None
+    lack_of_fit: LackOfFit
     untestable: dict[str, str]
 
 
@@ -97,7 +97,7 @@ def diagnose(
     most: int = 5,
     seed: int = 0,
     given: Parameters | None = None,
-    free: Free = NOTHING,
+    free: Varying = NONE_VARY,
     jobs: int = 1,
     progress: Progress = lambda stage, what: None,
 ) -> Diagnosis:
@@ -108,71 +108,71 @@ def diagnose(
     free : what of the force may scatter from record to record, which is carried and not named
     jobs : processes that try hypotheses; the results are the same for any number
     """
-    study = prepare(recording, free)
-    _enough(study)
-    search = prepare(thinned(recording, SEARCH), free)
-    survey = Survey(recording, study.block.signals)
+    problem = prepare(recording, free)
+    _enough(problem)
+    thin = prepare(thinned(recording, SEARCH), free)
+    survey = Survey(recording, problem.block.signals)
     if given is not None:
         lacking = untestable(survey, given.model.effects)
-        study, search = (keeping(s, given, lacking) for s in (study, search))
+        problem, thin = (with_given(s, given, lacking) for s in (problem, thin))
         candidates = [e for e in candidates if e not in given.model.effects]
     missing = untestable(survey, candidates)
     testable = [e for e in candidates if e.name not in missing]
-    with crew((search, study), jobs, progress) as workers:
-        choice = choose(search, testable, most, workers, seed, given)
-        choice = confirm(study, choice, workers)
-    best = choice.best
+    with executor((thin, problem), jobs, progress) as workers:
+        selection = search(thin, testable, most, workers, seed, given)
+        selection = refit(problem, selection, workers)
+    best = selection.best
     progress("what remains", "")
-    remainder = examine(best.study, best.residual, seed)
-    noise = remainder.noise_rms
-    left = remainder.real and _matters(study, choice, remainder)
+    lack_of_fit = lack_of_fit_test(best.problem, best.residual, seed)
+    noise = lack_of_fit.noise_rms
+    left = lack_of_fit.significant and _matters(problem, selection, lack_of_fit)
     if left:
         verdict = Verdict.UNEXPLAINED
     else:
-        verdict = Verdict.EXPLAINED if choice.named else Verdict.ADEQUATE
-    findings = _findings(study, choice)
-    energy = (best.residual - choice.base.residual) ** 2
+        verdict = Verdict.EXPLAINED if selection.named else Verdict.ADEQUATE
+    findings = _findings(problem, selection)
+    energy = (best.residual - selection.base.residual) ** 2
     if left:
-        energy += remainder.excess
-    mismatch = locate(best.study, energy) if verdict is not Verdict.ADEQUATE else []
-    refitted = _validate(study, choice.base)
-    fit, scatter = _errors(study, best)
+        energy += lack_of_fit.excess
+    mismatch = locate(best.problem, energy) if verdict is not Verdict.ADEQUATE else []
+    refitted = _validate(problem, selection.base)
+    fit, record_effects = _errors(problem, best)
     return Diagnosis(
         verdict=verdict,
         noise_rms=noise,
-        study=study,
-        choice=choice,
+        problem=problem,
+        selection=selection,
         fit=fit,
-        scatter=scatter,
+        record_effects=record_effects,
         findings=findings,
         mismatch=tuple(mismatch[:3]),
         given=given,
-        baseline=refitted if given is None else _as_given(study, given),
+        baseline=refitted if given is None else _as_given(problem, given),
         refitted=refitted,
-        corrected=_validate(study, best),
-        carried=_carried(study, best),
-        unseen=(_unseen(best.study, choice.base), _unseen(best.study, best)),
-        remainder=remainder,
+        corrected=_validate(problem, best),
+        carried=_carried(problem, best),
+        cross_validated=(_unseen(best.problem, selection.base), _unseen(best.problem, best)),
+        lack_of_fit=lack_of_fit,
         untestable=missing,
     )
 
 
-def _matters(study: Study, choice: Choice, remainder: Remainder) -> bool:
+def _matters(problem: Problem, selection: Selection, lack_of_fit: LackOfFit) -> bool:
     """Whether a rest is more than noise, rounding, and the last per cent of what was explained."""
-    misfit, noise = remainder.misfit_rms, remainder.noise_rms
-    missed = max(choice.base.score - noise**2, 0.0)
-    least = max(LEFT * noise, FINEST * float(np.ptp(study.block.force)))
+    misfit, noise = lack_of_fit.misfit_rms, lack_of_fit.noise_rms
+    missed = max(selection.base.score - noise**2, 0.0)
+    least = max(LEFT * noise, FINEST * float(np.ptp(problem.block.force)))
     return misfit > least and (misfit > noise or misfit**2 > REST * missed)
 
 
-def _enough(study: Study) -> None:
+def _enough(problem: Problem) -> None:
     """Refuse a recording that can show nothing."""
-    weight, moving = study.block.weight, study.block.signals.xdot != 0.0
-    if np.ptp(study.block.force) == 0.0:
+    weight, moving = problem.block.weight, problem.block.signals.xdot != 0.0
+    if np.ptp(problem.block.force) == 0.0:
         raise InputProblem("the force never changes: there is nothing to diagnose")
     if not (moving & (weight > 0)).any():
         raise InputProblem("the damper never moves: there is nothing to diagnose")
-    count = int(np.count_nonzero(study.weight_of))
+    count = int(np.count_nonzero(problem.weight_of))
     if count < PARTS:
         raise InputProblem(
             f"too short to diagnose: {PARTS} parts of {SHORTEST:g} s or more are left out in turn,"
@@ -180,26 +180,28 @@ def _enough(study: Study) -> None:
         )
 
 
-def _findings(study: Study, choice: Choice) -> tuple[Finding, ...]:
-    best = choice.best
-    scale = float(np.ptp(study.block.force))
+def _findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
+    best = selection.best
+    scale = float(np.ptp(problem.block.force))
     found = []
-    with_all = best.model.force(study.block.signals, best.values)
-    ranking = sorted(choice.singles, key=lambda t: t.score)
+    with_all = best.model.force(problem.block.signals, best.values)
+    ranking = sorted(selection.singles, key=lambda t: t.score)
     chosen = {e.name for e in best.effects}
     runner = next((t.effects[-1].name for t in ranking if t.effects[-1].name not in chosen), None)
-    for effect in choice.named:
-        without = choice.without[effect.name]
+    for effect in selection.named:
+        without = selection.without[effect.name]
         # Where it acts; what acts everywhere is seen where the other parameters fail to absorb it.
-        alone = best.model.force(study.block.signals, {**best.values, **effect.off})
-        absent = without.model.force(study.block.signals, without.values)
-        regions = [r for f in (alone, absent) for r in locate(best.study, (with_all - f) ** 2)[:1]]
-        gain = compare(study, without, best)
+        alone = best.model.force(problem.block.signals, {**best.values, **effect.off})
+        absent = without.model.force(problem.block.signals, without.values)
+        regions = [
+            r for f in (alone, absent) for r in locate(best.problem, (with_all - f) ** 2)[:1]
+        ]
+        gain = compare(problem, without, best)
         found.append(
             Finding(
                 effect=effect,
-                equivalent=tuple(name for name, _ in choice.rivals[effect.name]),
-                test=telling_apart(study, best, choice.rivals[effect.name]),
+                equivalent=tuple(name for name, _ in selection.look_alikes[effect.name]),
+                test=discriminating_drive(problem, best, selection.look_alikes[effect.name]),
                 gain=gain,
                 where=regions[0] if regions else None,
                 before=float(np.sqrt(gain.before)) / scale,
@@ -210,39 +212,41 @@ def _findings(study: Study, choice: Choice) -> tuple[Finding, ...]:
     return tuple(sorted(found, key=lambda f: -f.gain.gain))
 
 
-def _errors(study: Study, trial: Trial) -> tuple[Fit, Scatter | None]:
-    model = trial.model
-    at_bound = [n for n, q in model.quantities.items() if not q.low < trial.values[n] < q.high]
-    block, scatter = trial.study.block, trial.scatter
-    shared = block if scatter is None else scatter.shared(block)
-    fit = assess(model, [shared], trial.values, fixed={*study.held, *at_bound}, threads=1)
-    if scatter is None:
+def _errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEffects | None]:
+    model = hypothesis.model
+    at_bound = [n for n, q in model.quantities.items() if not q.low < hypothesis.values[n] < q.high]
+    block, record_effects = hypothesis.problem.block, hypothesis.record_effects
+    shared = block if record_effects is None else record_effects.shared(block)
+    fit = assess(model, [shared], hypothesis.values, fixed={*problem.held, *at_bound}, threads=1)
+    if record_effects is None:
         return fit, None
-    covariance, scatter = errors(study.free, block, model, fit.values, fit.free, scatter)
-    return replace(fit, covariance=covariance), scatter
+    covariance, record_effects = errors(
+        problem.free, block, model, fit.values, fit.free, record_effects
+    )
+    return replace(fit, covariance=covariance), record_effects
 
 
-def _as_given(study: Study, given: Parameters) -> Validation:
-    force = given.model.force(study.block.signals, given.values)
-    return validate(study.recording, force, Normalise.RANGE)
+def _as_given(problem: Problem, given: Parameters) -> Validation:
+    force = given.model.force(problem.block.signals, given.values)
+    return validate(problem.recording, force, Normalise.RANGE)
 
 
-def _validate(study: Study, trial: Trial) -> Validation:
-    if trial.scatter is None:
-        return _carried(study, trial)
-    force = trial.model.force(study.block.signals, trial.values)
-    return validate(study.recording, force, Normalise.RANGE)
+def _validate(problem: Problem, hypothesis: Hypothesis) -> Validation:
+    if hypothesis.record_effects is None:
+        return _carried(problem, hypothesis)
+    force = hypothesis.model.force(problem.block.signals, hypothesis.values)
+    return validate(problem.recording, force, Normalise.RANGE)
 
 
-def _carried(study: Study, trial: Trial) -> Validation:
-    modelled: Array = study.block.force - trial.residual
-    return validate(study.recording, modelled, Normalise.RANGE)
+def _carried(problem: Problem, hypothesis: Hypothesis) -> Validation:
+    modelled: Array = problem.block.force - hypothesis.residual
+    return validate(problem.recording, modelled, Normalise.RANGE)
 
 
-def _unseen(study: Study, trial: Trial) -> Validation:
-    """Scores on what the fit left out, of the samples that a study gives weight."""
-    r, rows = study.recording, np.flatnonzero(study.block.weight)
+def _unseen(problem: Problem, hypothesis: Hypothesis) -> Validation:
+    """Scores on what the fit left out, of the samples that a problem gives weight."""
+    r, rows = problem.recording, np.flatnonzero(problem.block.weight)
     ends = np.searchsorted(rows, r.starts)
     names = [name for name, size in zip(r.names, np.diff(ends), strict=True) if size]
     kept = r.take(rows, np.unique(ends), names)
-    return validate(kept, (study.block.force - trial.unseen)[rows], Normalise.RANGE)
+    return validate(kept, (problem.block.force - hypothesis.cross_validated)[rows], Normalise.RANGE)

@@ -10,8 +10,8 @@ import numpy as np
 
 from erdctl.bench.drive import drives
 from erdctl.core.signals import Signals
-from erdctl.diagnose.hypothesis import Trial
-from erdctl.diagnose.problem import Study
+from erdctl.diagnose.hypothesis import Hypothesis
+from erdctl.diagnose.problem import Problem
 
 SECONDS = 4.0
 RATE = 500.0
@@ -19,7 +19,7 @@ FREQUENCIES = (0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 
 
 @dataclass(frozen=True)
-class Test:
+class DiscriminatingDrive:
     """A drive, as `simulate --drive` takes it, and by how much two hypotheses differ on it.
 
     difference : root mean square [N];  against : the effect that it tells the finding from
@@ -30,23 +30,25 @@ class Test:
     against: str
 
 
-def telling_apart(study: Study, best: Trial, rivals: Sequence[tuple[str, Trial]]) -> Test | None:
-    """The drive within the recorded stroke and speed that tells a trial from its first rival."""
-    if not rivals:
+def discriminating_drive(
+    problem: Problem, best: Hypothesis, look_alikes: Sequence[tuple[str, Hypothesis]]
+) -> DiscriminatingDrive | None:
+    """The drive within the recorded stroke and speed that tells a hypothesis from its first look-alike."""
+    if not look_alikes:
         return None
-    name, rival = rivals[0]
+    name, look_alike = look_alikes[0]
     found = []
-    for spec in _specs(study):
+    for spec in _specs(problem):
         signals = Signals.of(drives([spec]))
-        a, b = (t.model.force(signals, t.values) for t in (best, rival))
+        a, b = (t.model.force(signals, t.values) for t in (best, look_alike))
         settled = signals.t > 0.25 * SECONDS
         found.append((float(np.sqrt(np.mean((a - b)[settled] ** 2))), spec))
     difference, spec = max(found)
-    return Test(spec, difference, name)
+    return DiscriminatingDrive(spec, difference, name)
 
 
-def _specs(study: Study) -> list[str]:
-    r = study.recording
+def _specs(problem: Problem) -> list[str]:
+    r = problem.recording
     stroke, speed = float(np.ptp(r.x)) / 2, float(np.abs(r.xdot).max())
     top = float(r.duty.max())
     duties = (

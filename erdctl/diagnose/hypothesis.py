@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from erdctl.core.recording import DIRECTIONS, Array
-from erdctl.diagnose.problem import Study, sure
-from erdctl.diagnose.record_effects import Scatter, estimate
+from erdctl.diagnose.problem import Problem, mask_doubtful
+from erdctl.diagnose.record_effects import RecordEffects, estimate
 from erdctl.estimate.covariance import jacobian
 from erdctl.estimate.least_squares import fit
 from erdctl.model.composed import Model
@@ -23,21 +23,21 @@ GLANCE = 4  # steps of a search that only ranks its start
 
 
 @dataclass(frozen=True, eq=False)
-class Trial:
+class Hypothesis:
     """A fitted model.
 
-    study : what it was fitted to, but for samples of which its channel makes nothing certain
+    problem : what it was fitted to, but for samples of which its channel makes nothing certain
     residual : (n,) [N];  unseen : (n,) the same, by a fit that leaves out the sample's group
-    scatter : of the records, where the study leaves it free; residuals are then beyond that
+    scatter : of the records, where the problem leaves it free; residuals are then beyond that
     """
 
-    study: Study
+    problem: Problem
     model: Model
     values: dict[str, float]
     residual: Array
-    unseen: Array
+    cross_validated: Array
     evaluations: int
-    scatter: Scatter | None = None
+    record_effects: RecordEffects | None = None
 
     @property
     def effects(self) -> tuple[Effect, ...]:
@@ -47,86 +47,89 @@ class Trial:
     @property
     def score(self) -> float:
         """Mean square over what was not seen [N^2]."""
-        return float(np.average(self.unseen**2, weights=self.study.block.weight))
+        return float(np.average(self.cross_validated**2, weights=self.problem.block.weight))
 
 
-def attempt(
-    study: Study,
+def fit_hypothesis(
+    problem: Problem,
     effects: Sequence[Effect],
     starts: Sequence[Mapping[str, float]],
     max_evaluations: int = 40,
-    scatter: Scatter | None = None,
-) -> Trial:
+    record_effects: RecordEffects | None = None,
+) -> Hypothesis:
     """Fit from every start and judge the best by leaving groups out.
 
     scatter : of the records to begin with
     """
     model = Model(tuple(effects))
-    if study.free and scatter is None:
-        scatter = Scatter.none(len(study.recording.names))
-    found = [_fitted(study, model, start, max_evaluations, scatter) for start in starts]
-    values, residual, _ = min(found, key=lambda f: _cost(study, f[1]))
+    if problem.free and record_effects is None:
+        record_effects = RecordEffects.none(len(problem.recording.names))
+    found = [_fitted(problem, model, start, max_evaluations, record_effects) for start in starts]
+    values, residual, _ = min(found, key=lambda f: _cost(problem, f[1]))
     evaluations = sum(count for _, _, count in found)
-    part = sure(study, model, values)
-    if part is not study:
-        values, residual, count = _fitted(part, model, values, max_evaluations, scatter)
-        part = sure(study, model, values)
+    part = mask_doubtful(problem, model, values)
+    if part is not problem:
+        values, residual, count = _fitted(part, model, values, max_evaluations, record_effects)
+        part = mask_doubtful(problem, model, values)
         evaluations += count
-    for _ in range(ROUNDS if scatter is not None else 0):
-        assert scatter is not None
+    for _ in range(ROUNDS if record_effects is not None else 0):
+        assert record_effects is not None
         modelled = model.force(part.block.signals, values)
-        last, scatter = scatter, estimate(study.free, part.block, modelled, scatter)
-        values, residual, count = _fitted(part, model, values, max_evaluations, scatter)
+        last, record_effects = (
+            record_effects,
+            estimate(problem.free, part.block, modelled, record_effects),
+        )
+        values, residual, count = _fitted(part, model, values, max_evaluations, record_effects)
         evaluations += count
-        if scatter.settled(last):
+        if record_effects.settled(last):
             break
-    unseen = leave_out(part, model, values, residual, scatter)
-    return Trial(part, model, values, residual, unseen, evaluations, scatter)
+    cross_validated = cross_validated_residual(part, model, values, residual, record_effects)
+    return Hypothesis(part, model, values, residual, cross_validated, evaluations, record_effects)
 
 
-def ranked(
-    study: Study,
+def rank_starts(
+    problem: Problem,
     effects: Sequence[Effect],
     points: Sequence[Mapping[str, float]],
-    scatter: Scatter | None = None,
+    record_effects: RecordEffects | None = None,
 ) -> list[dict[str, float]]:
     """Starts after a short search from each, the most promising first."""
     model = Model(tuple(effects))
-    found = [_fitted(study, model, point, GLANCE, scatter) for point in points]
-    found.sort(key=lambda f: _cost(study, f[1]))
+    found = [_fitted(problem, model, point, GLANCE, record_effects) for point in points]
+    found.sort(key=lambda f: _cost(problem, f[1]))
     return [values for values, _, _ in found]
 
 
 def _fitted(
-    study: Study,
+    problem: Problem,
     model: Model,
     start: Mapping[str, float],
     max_evaluations: int,
-    scatter: Scatter | None = None,
+    record_effects: RecordEffects | None = None,
 ) -> tuple[dict[str, float], Array, int]:
-    given = {**start, **study.held}  # perhaps of a larger model
+    given = {**start, **problem.held}  # perhaps of a larger model
     full = {n: given.get(n, q.start) for n, q in model.quantities.items()}
-    block = study.block if scatter is None else scatter.shared(study.block)
+    block = problem.block if record_effects is None else record_effects.shared(problem.block)
     values, count, _ = fit(
-        model, block, start=full, fixed=study.held, max_evaluations=max_evaluations
+        model, block, start=full, fixed=problem.held, max_evaluations=max_evaluations
     )
     residual = block.force - model.force(block.signals, values)
-    if scatter is not None:
-        residual = residual * scatter.along(block.signals.starts)[0]
+    if record_effects is not None:
+        residual = residual * record_effects.along(block.signals.starts)[0]
     return values, residual, count
 
 
-def _cost(study: Study, residual: Array) -> float:
-    cost = float(np.dot(study.block.weight, residual * residual))
+def _cost(problem: Problem, residual: Array) -> float:
+    cost = float(np.dot(problem.block.weight, residual * residual))
     return cost if np.isfinite(cost) else np.inf
 
 
-def leave_out(
-    study: Study,
+def cross_validated_residual(
+    problem: Problem,
     model: Model,
     values: Mapping[str, float],
     residual: Array,
-    scatter: Scatter | None = None,
+    record_effects: RecordEffects | None = None,
 ) -> Array:
     """(n,) error on each group by a fit without it [N].
 
@@ -137,26 +140,26 @@ def leave_out(
     """
     free = []
     for name, q in model.quantities.items():
-        if name in study.held:
+        if name in problem.held:
             continue
         v = values[name]
         if q.low < v < q.high:
             free.append(name)
-    J = jacobian(model, study.block.signals, values, free)
-    if scatter is not None:
-        J = J * scatter.along(study.block.signals.starts)[0]
-    scale = np.sqrt(np.einsum("ij,ij,j->i", J, J, study.block.weight))
+    J = jacobian(model, problem.block.signals, values, free)
+    if record_effects is not None:
+        J = J * record_effects.along(problem.block.signals.starts)[0]
+    scale = np.sqrt(np.einsum("ij,ij,j->i", J, J, problem.block.weight))
     scale[scale == 0.0] = 1.0
     J = J / scale[:, None]
-    weighted = J * study.block.weight
+    weighted = J * problem.block.weight
     whole = (1.0 + KEPT) * (weighted @ J.T)
     out = np.empty_like(residual)
-    order = np.argsort(study.group, kind="stable")
-    bounds = np.searchsorted(study.group[order], np.arange(study.count + 1))
-    for g in range(study.count):
+    order = np.argsort(problem.group, kind="stable")
+    bounds = np.searchsorted(problem.group[order], np.arange(problem.count + 1))
+    for g in range(problem.count):
         rows = order[bounds[g] : bounds[g + 1]]
         part, r = J[:, rows], residual[rows]
-        weight = study.block.weight[rows]
+        weight = problem.block.weight[rows]
         own = (part * weight) @ part.T
         step = np.linalg.lstsq(whole - own, (part * weight) @ r, rcond=1e-10)[0]
         out[rows] = r + step @ part

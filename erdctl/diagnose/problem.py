@@ -14,7 +14,7 @@ from erdctl.bench.identifiability import Lack, unmet
 from erdctl.core.blocks import Block, whole
 from erdctl.core.recording import Array, Index, Recording
 from erdctl.core.signals import Signals
-from erdctl.diagnose.record_effects import NOTHING, Free
+from erdctl.diagnose.record_effects import NONE_VARY, Varying
 from erdctl.model.composed import Model
 from erdctl.model.effect import Slot, Values
 from erdctl.model.parameters import Parameters
@@ -26,7 +26,7 @@ UNCERTAIN = 3.0  # standard deviations of xdot's noise within which its sign is 
 
 
 @dataclass(frozen=True, eq=False)
-class Study:
+class Problem:
     """A recording prepared for fits.
 
     block : signals, force, weights (0 where a record settles or the direction is uncertain)
@@ -42,7 +42,7 @@ class Study:
     stretch: Index
     held: dict[str, float]
     needs: dict[str, Lack]
-    free: Free = NOTHING
+    free: Varying = NONE_VARY
 
     @cached_property
     def count(self) -> int:
@@ -65,7 +65,7 @@ class Study:
         sums = np.bincount(self.stretch, values * self.block.weight)
         return sums / np.maximum(weight, 1e-300), weight
 
-    def clearly(self, worse: Array, better: Array) -> tuple[float, float]:
+    def t_statistics(self, worse: Array, better: Array) -> tuple[float, float]:
         """How clearly one residual (n,) [N] is smaller than another.
 
         The logarithm of the ratio of their squares, its mean over its standard error: over
@@ -78,7 +78,7 @@ class Study:
         group = self.group_of[use]
         count = np.bincount(group)
         by_group = (np.bincount(group, ratio) / np.maximum(count, 1))[count > 0]
-        return over_scatter(ratio), over_scatter(by_group)
+        return t_statistic(ratio), t_statistic(by_group)
 
     @cached_property
     def group_of(self) -> Index:
@@ -87,26 +87,26 @@ class Study:
         return self.group[first]
 
 
-def over_scatter(values: Array) -> float:
+def t_statistic(values: Array) -> float:
     """Mean of independent values over its standard error."""
     n = len(values)
-    scatter = float(values.std(ddof=1)) / np.sqrt(n) if n > 1 else np.inf
+    error = float(values.std(ddof=1)) / np.sqrt(n) if n > 1 else np.inf
     mean = float(values.mean()) if n else 0.0
     if mean == 0.0:
         return 0.0
-    return float(mean / scatter) if scatter > 0 else float(np.copysign(np.inf, mean))
+    return float(mean / error) if error > 0 else float(np.copysign(np.inf, mean))
 
 
-def sure(study: Study, model: Model, values: Values) -> Study:
-    """The study without the samples that a force channel fills from doubtful ones.
+def mask_doubtful(problem: Problem, model: Model, values: Values) -> Problem:
+    """The problem without the samples that a force channel fills from doubtful ones.
 
     A channel that is late shows the turn of a record late, too: with its uncertain direction, and
     drawn out over the samples between which the force jumps. One that averages dilutes both.
     """
     channel = model.of(Slot.CHANNEL)
     if not channel:
-        return study
-    s = study.block.signals
+        return problem
+    s = problem.block.signals
     unsure = uncertain(s)
     unsure[1:] |= unsure[:-1]  # and the samples that share a step with them
     unsure[:-1] |= unsure[1:]
@@ -115,12 +115,12 @@ def sure(study: Study, model: Model, values: Values) -> Study:
     doubt = unsure.astype(np.float64)
     for effect in channel:
         doubt = effect.act(doubt, s, effect.local(values))
-    weight = np.where(doubt > SEEN, 0.0, study.block.weight)
-    return replace(study, block=study.block._replace(weight=weight))
+    weight = np.where(doubt > SEEN, 0.0, problem.block.weight)
+    return replace(problem, block=problem.block._replace(weight=weight))
 
 
-def prepare(recording: Recording, free: Free = NOTHING) -> Study:
-    """The study of a recording with a measured force."""
+def prepare(recording: Recording, free: Varying = NONE_VARY) -> Problem:
+    """The problem of a recording with a measured force."""
     needs = unmet(recording)
     held = {
         name: 1.0 if name.endswith(".beta") else 0.0
@@ -131,23 +131,23 @@ def prepare(recording: Recording, free: Free = NOTHING) -> Study:
     block.weight[uncertain(block.signals)] = 0.0
     group = groups(recording)
     if len(recording.names) == 1:
-        free = NOTHING  # one record has nothing to differ from
-    return Study(recording, block, group, stretches(recording, group), held, needs, free)
+        free = NONE_VARY  # one record has nothing to differ from
+    return Problem(recording, block, group, stretches(recording, group), held, needs, free)
 
 
-def keeping(study: Study, given: Parameters, untestable: Mapping[str, str]) -> Study:
-    """The study with given values for what the log cannot identify.
+def with_given(problem: Problem, given: Parameters, untestable: Mapping[str, str]) -> Problem:
+    """The problem with given values for what the log cannot identify.
 
     untestable : effects of the given model that the log cannot show, each with what is missing
     """
-    needs = dict(study.needs)
-    held = {name: given.values[name] for name in study.held}
+    needs = dict(problem.needs)
+    held = {name: given.values[name] for name in problem.held}
     for effect in given.model.effects:
         if effect.name in untestable:
             keys = [effect.key(q.symbol) for q in effect.quantities]
             held |= {key: given.values[key] for key in keys}
             needs |= dict.fromkeys(keys, Lack(untestable[effect.name]))
-    return replace(study, held=held, needs=needs)
+    return replace(problem, held=held, needs=needs)
 
 
 def groups(recording: Recording) -> Index:

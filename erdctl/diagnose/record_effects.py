@@ -29,7 +29,7 @@ SETTLED = 0.1  # of its error by which a value may still move
 
 
 @dataclass(frozen=True)
-class Free:
+class Varying:
     """What may differ from record to record."""
 
     gain: bool = False
@@ -39,11 +39,11 @@ class Free:
         return self.gain or self.offset
 
 
-NOTHING = Free()
+NONE_VARY = Varying()
 
 
 @dataclass(frozen=True, eq=False)
-class Scatter:
+class RecordEffects:
     """Gain (r,) [1] and offset (r,) [N] of the force in each record, with standard errors.
 
     An error is infinite where a record does not determine the value.
@@ -55,7 +55,7 @@ class Scatter:
     offset_error: Array
 
     @classmethod
-    def none(cls, records: int) -> Scatter:
+    def none(cls, records: int) -> RecordEffects:
         """No scatter."""
         unknown = np.full(records, np.inf)
         return cls(np.ones(records), np.zeros(records), unknown, unknown)
@@ -70,7 +70,7 @@ class Scatter:
         gain, offset = self.along(block.signals.starts)
         return Block(block.signals, (block.force - offset) / gain, block.weight * gain**2)
 
-    def settled(self, before: Scatter) -> bool:
+    def settled(self, before: RecordEffects) -> bool:
         """Whether it has moved by less than matters."""
         pairs = (
             (self.gain - before.gain, self.gain_error),
@@ -79,7 +79,7 @@ class Scatter:
         return all(bool((np.abs(move) <= SETTLED * error).all()) for move, error in pairs)
 
 
-def estimate(free: Free, block: Block, modelled: Array, last: Scatter) -> Scatter:
+def estimate(free: Varying, block: Block, modelled: Array, last: RecordEffects) -> RecordEffects:
     """The scatter between a measured force and a modelled one (n,) [N]; errors are of noise alone.
 
     last : the scatter before, for the colour of the noise
@@ -98,17 +98,17 @@ def estimate(free: Free, block: Block, modelled: Array, last: Scatter) -> Scatte
     value, error = np.zeros((2, *right.shape))
     for r in range(len(starts) - 1):
         value[:, r], error[:, r] = _solved(normal[:, :, r], right[:, r], meat[:, :, r])
-    out = Scatter.none(len(starts) - 1)
+    out = RecordEffects.none(len(starts) - 1)
     new_gain, new_offset, errors = out.gain, out.offset, [out.gain_error, out.offset_error]
     if free.gain:
-        new_gain = np.maximum(1.0 + drawn(value[0], error[0]), LEAST_GAIN)
+        new_gain = np.maximum(1.0 + shrunk(value[0], error[0]), LEAST_GAIN)
         errors[0] = error[0]
     if free.offset:
         left = block.force - np.repeat(new_gain, np.diff(starts)) * modelled
         mass = _per_record(weight, starts)
         value[-1] = _per_record(weight * left, starts) / np.where(mass > 0, mass, 1.0)
-        new_offset, errors[1] = drawn(value[-1], error[-1]), error[-1]
-    return Scatter(new_gain, new_offset, *errors)
+        new_offset, errors[1] = shrunk(value[-1], error[-1]), error[-1]
+    return RecordEffects(new_gain, new_offset, *errors)
 
 
 def _per_record(values: Array, starts: Index) -> Array:
@@ -125,7 +125,7 @@ def _solved(normal: Array, right: Array, meat: Array) -> tuple[Array, Array]:
     return inverse @ right, np.sqrt(np.diag(inverse @ meat @ inverse))
 
 
-def drawn(value: Array, error: Array) -> Array:
+def shrunk(value: Array, error: Array) -> Array:
     """(r,) deviations from the mean, drawn to 0 by their errors (r,); they add up to 0.
 
         d = tau^2 / (tau^2 + e^2) (v - mu),   sum (v - mu)^2 / (tau^2 + e^2) = r - 1
@@ -156,8 +156,13 @@ def drawn(value: Array, error: Array) -> Array:
 
 
 def errors(
-    free: Free, block: Block, model: Model, values: Values, names: tuple[str, ...], found: Scatter
-) -> tuple[Array, Scatter]:
+    free: Varying,
+    block: Block,
+    model: Model,
+    values: Values,
+    names: tuple[str, ...],
+    found: RecordEffects,
+) -> tuple[Array, RecordEffects]:
     """(p, p) covariance of shared parameters, and errors of the scatter, each given the others.
 
     names : the shared parameters that were estimated.  Both under coloured noise; the means over
@@ -203,7 +208,7 @@ def errors(
     error = np.sqrt(np.maximum(np.diag(covariance)[p:], 0.0))
     error = np.where(np.isfinite(fixed), error, np.inf).reshape(len(own), records)
     unknown = np.full(records, np.inf)
-    return covariance[:p, :p], Scatter(
+    return covariance[:p, :p], RecordEffects(
         found.gain,
         found.offset,
         error[0] if free.gain else unknown,

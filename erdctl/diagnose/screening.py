@@ -2,7 +2,7 @@
 
 At each of a grid of starts the effect changes the force by some D. What D explains of the residual
 beyond what the parameters of the present model can (their Jacobian is projected out) needs one
-evaluation of the model instead of a search. Full trials begin at the best starts found here.
+evaluation of the model instead of a search. Full hypotheses begin at the best starts found here.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ import numpy as np
 
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
-from erdctl.diagnose.hypothesis import Trial
-from erdctl.diagnose.problem import Study
+from erdctl.diagnose.hypothesis import Hypothesis
+from erdctl.diagnose.problem import Problem
 from erdctl.estimate.covariance import jacobian
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
@@ -33,7 +33,7 @@ MOST = 30  # starts for one effect
 
 
 @dataclass(frozen=True)
-class Prospect:
+class Candidate:
     """An effect, the part of the mean square that it may take, and where to start."""
 
     effect: Effect
@@ -42,20 +42,20 @@ class Prospect:
 
 
 class Screen:
-    """Looks at effects beside one trial; what they share is computed once."""
+    """Looks at effects beside one hypothesis; what they share is computed once."""
 
-    def __init__(self, study: Study, parent: Trial) -> None:
-        self.study, self.parent = study, parent
-        self.root = np.sqrt(parent.study.block.weight)
-        signals = study.block.signals
+    def __init__(self, problem: Problem, parent: Hypothesis) -> None:
+        self.problem, self.parent = problem, parent
+        self.root = np.sqrt(parent.problem.block.weight)
+        signals = problem.block.signals
         free = [
             n for n, q in parent.model.quantities.items()
-            if n not in study.held and q.low < parent.values[n] < q.high
+            if n not in problem.held and q.low < parent.values[n] < q.high
         ]  # fmt: skip
-        scatter = parent.scatter
+        record_effects = parent.record_effects
         self.lever = self.root  # of a force of the model on a weighted residual
-        if scatter is not None:
-            self.lever = self.root * scatter.along(signals.starts)[0]
+        if record_effects is not None:
+            self.lever = self.root * record_effects.along(signals.starts)[0]
         J = jacobian(parent.model, signals, parent.values, free) * self.lever
         scale = np.sqrt(np.einsum("ij,ij->i", J, J))
         J /= np.where(scale > 0, scale, 1.0)[:, None]
@@ -66,20 +66,20 @@ class Screen:
         self.square = float(self.residual @ self.residual)
         self.force = parent.model.force(signals, parent.values)
 
-    def look(self, effect: Effect, best: int = 2) -> Prospect | None:
+    def assess(self, effect: Effect, best: int = 2) -> Candidate | None:
         """What one effect promises; None if it cannot act beside the parent's."""
         found = []
-        for guess in starts(effect, self.study):
+        for guess in starts(effect, self.problem):
             try:
                 gain = self._gain(effect, guess)
             except ValueError:
                 return None
             found.append((gain, {effect.key(s): v for s, v in guess.items()}))
         found.sort(key=lambda f: -f[0])
-        return Prospect(effect, found[0][0], tuple(guess for _, guess in found[:best]))
+        return Candidate(effect, found[0][0], tuple(guess for _, guess in found[:best]))
 
     def _gain(self, effect: Effect, guess: dict[str, float]) -> float:
-        signals = self.study.block.signals
+        signals = self.problem.block.signals
         rows, signs = [], []
         if effect.apply is not None:
             model = Model((*self.parent.effects, effect))
@@ -106,12 +106,12 @@ class Screen:
         return np.asarray(rows - (rows @ self.basis.T) @ self.basis)
 
 
-def starts(effect: Effect, study: Study) -> list[dict[str, float]]:
+def starts(effect: Effect, problem: Problem) -> list[dict[str, float]]:
     """A grid of starts for the shape parameters of an effect, by symbol."""
     if effect.guesses is not None:
-        return [dict(g) for g in effect.guesses(study.block.signals)]
+        return [dict(g) for g in effect.guesses(problem.block.signals)]
     shape = [q for q in effect.quantities if not q.linear]
-    axes = [_axis(q, study) for q in shape]
+    axes = [_axis(q, problem) for q in shape]
     while np.prod([len(a) for a in axes]) > MOST:
         longest = max(range(len(axes)), key=lambda i: len(axes[i]))
         axes[longest] = axes[longest][::2]
@@ -120,10 +120,10 @@ def starts(effect: Effect, study: Study) -> list[dict[str, float]]:
     ] or [{}]
 
 
-def _axis(q: Quantity, study: Study) -> list[float]:
-    r = study.recording
+def _axis(q: Quantity, problem: Problem) -> list[float]:
+    r = problem.recording
     assert r.force is not None
-    s = study.block.signals
+    s = problem.block.signals
     longest = float((s.t[s.starts[1:] - 1] - s.t[s.starts[:-1]]).max())
     stroke, force = float(np.ptp(r.x)) / 2, float(np.ptp(r.force))
     speed = float(np.abs(r.xdot).max())

@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from erdctl.diagnose.companion_effects import companies, jointly
+from erdctl.diagnose.companion_effects import companion_sets, joint_task
 from erdctl.diagnose.comparison import LEAST, compare
-from erdctl.diagnose.executor import Crew, Task
-from erdctl.diagnose.forward_step import Seen, extension, grown, key_of
-from erdctl.diagnose.hypothesis import Trial, attempt, fresh_start
-from erdctl.diagnose.problem import Study
-from erdctl.diagnose.residual.predictability import Remainder, examine
+from erdctl.diagnose.executor import Executor, Task
+from erdctl.diagnose.forward_step import Explored, forward_step, key_of, with_effect
+from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis, fresh_start
+from erdctl.diagnose.problem import Problem
+from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.diagnose.screening import Screen
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
@@ -27,20 +27,20 @@ CONFIRM = 12  # steps of a search from where another has ended
 
 
 @dataclass(frozen=True, eq=False)
-class Choice:
+class Selection:
     """What the search found.
 
     base : the paper's model, or that of given parameters;  best : with the chosen effects
     singles : the base with every effect alone
     without : for each chosen effect, the best model that lacks it
-    rivals : for each chosen effect, those that would do as well in its place, best first
+    look-alikes : for each chosen effect, those that would do as well in its place, best first
     """
 
-    base: Trial
-    best: Trial
-    singles: tuple[Trial, ...]
-    without: Mapping[str, Trial]
-    rivals: Mapping[str, tuple[tuple[str, Trial], ...]]
+    base: Hypothesis
+    best: Hypothesis
+    singles: tuple[Hypothesis, ...]
+    without: Mapping[str, Hypothesis]
+    look_alikes: Mapping[str, tuple[tuple[str, Hypothesis], ...]]
 
     @property
     def named(self) -> tuple[Effect, ...]:
@@ -48,198 +48,230 @@ class Choice:
         return _beyond(self.base, self.best)
 
 
-def confirm(study: Study, found: Choice, crew: Crew) -> Choice:
-    """The same choice refitted on another study, usually all samples, from where it was found.
+def refit(problem: Problem, found: Selection, executor: Executor) -> Selection:
+    """The same choice refitted on another problem, usually all samples, from where it was found.
 
     What a part of the samples spoke for and all of them do not is dropped.
     """
     again = {key_of(t.effects): t for t in (found.base, found.best, *found.without.values())}
     tasks = [
-        Task("all samples", t.effects, (t.values,), CONFIRM, scatter=t.scatter)
+        Task("all samples", t.effects, (t.values,), CONFIRM, record_effects=t.record_effects)
         for t in again.values()
     ]
-    seen = Seen(_must(t) for t in crew.run(study, tasks))
-    seen.descents.update((key, key_of(found.best.effects)) for key in again)
-    base = seen[key_of(found.base.effects)]
-    best = _prune(study, base, seen[key_of(found.best.effects)], seen, crew)
+    explored = Explored(_fitted_together(t) for t in executor.run(problem, tasks))
+    explored.restarts.update((key, key_of(found.best.effects)) for key in again)
+    base = explored[key_of(found.base.effects)]
+    best = _backward_elimination(
+        problem, base, explored[key_of(found.best.effects)], explored, executor
+    )
     names = [e.name for e in _beyond(base, best)]
-    without = {n: seen[key_of(best.effects) - {n}] for n in names}
-    rivals = {n: found.rivals[n] for n in names}
-    return Choice(base, best, found.singles, without, rivals)
+    without = {n: explored[key_of(best.effects) - {n}] for n in names}
+    look_alikes = {n: found.look_alikes[n] for n in names}
+    return Selection(base, best, found.singles, without, look_alikes)
 
 
-def choose(
-    study: Study,
+def search(
+    problem: Problem,
     candidates: Sequence[Effect],
     most: int,
-    crew: Crew,
+    executor: Executor,
     seed: int = 0,
     given: Parameters | None = None,
-) -> Choice:
+) -> Selection:
     """Search for the effects, at most `most`, that the recording shows beside a given model."""
-    base = _base(study, given, crew)
-    seen = Seen([base])
-    best, rest, singles = _climb(study, base, candidates, most, seen, crew, seed)
-    if rest.real:
+    base = _base(problem, given, executor)
+    explored = Explored([base])
+    best, rest, singles = _forward_selection(
+        problem, base, candidates, most, explored, executor, seed
+    )
+    if rest.significant:
         alone = best
-        joint = [jointly(study, base, together) for together in companies(candidates)]
-        for trial in crew.run(study, joint):
-            if trial is not None and _takes_over(study, best, trial):
-                best = trial
-                seen.keep(trial)
+        joint = [joint_task(problem, base, together) for together in companion_sets(candidates)]
+        for hypothesis in executor.run(problem, joint):
+            if hypothesis is not None and _replaces(problem, best, hypothesis):
+                best = hypothesis
+                explored.keep(hypothesis)
         if best is not alone:
             left = most - len(_beyond(base, best))
-            best, _, _ = _climb(study, best, candidates, left, seen, crew, seed)
-    best = _prune(study, base, best, seen, crew)
-    best = _second_look(study, base, best, most, seen, crew)
-    best = _as_good_as_seen(study, base, best, seen, crew)
-    rivals: dict[str, tuple[tuple[str, Trial], ...]] = {}
+            best, _, _ = _forward_selection(
+                problem, best, candidates, left, explored, executor, seed
+            )
+    best = _backward_elimination(problem, base, best, explored, executor)
+    best = _second_pass(problem, base, best, most, explored, executor)
+    best = _as_good_as_seen(problem, base, best, explored, executor)
+    look_alikes: dict[str, tuple[tuple[str, Hypothesis], ...]] = {}
     for effect in _beyond(base, best):
-        found = _rivals(study, best, effect, candidates, singles, seen, crew)
+        found = _look_alikes(problem, best, effect, candidates, singles, explored, executor)
         name = effect.name
-        likelier = [f for f in found if _likelier(study, f[1], best)]
+        likelier = [f for f in found if _preferred(problem, f[1], best)]
         if likelier:
             name, first = likelier[0]
             found = [(effect.name, best), *(f for f in found if f[1] is not first)]
             best = first
-        rivals[name] = tuple(found[:2])
-    lesser = _lesser(study, base, best, seen, crew)
-    without = {e.name: trial for e, trial in zip(_beyond(base, best), lesser, strict=True)}
-    return Choice(seen[key_of(base.effects)], best, tuple(singles), without, rivals)
+        look_alikes[name] = tuple(found[:2])
+    lesser = _without_each(problem, base, best, explored, executor)
+    without = {
+        e.name: hypothesis for e, hypothesis in zip(_beyond(base, best), lesser, strict=True)
+    }
+    return Selection(explored[key_of(base.effects)], best, tuple(singles), without, look_alikes)
 
 
-def _climb(
-    study: Study,
-    best: Trial,
+def _forward_selection(
+    problem: Problem,
+    best: Hypothesis,
     candidates: Sequence[Effect],
     most: int,
-    seen: Seen,
-    crew: Crew,
+    explored: Explored,
+    executor: Executor,
     seed: int,
-) -> tuple[Trial, Remainder, list[Trial]]:
-    """Up to `most` effects beside those of a trial, one by one, in a beam.
+) -> tuple[Hypothesis, LackOfFit, list[Hypothesis]]:
+    """Up to `most` effects beside those of a hypothesis, one by one, in a beam.
 
-    Returns the best hypothesis, what remains of it, and the trials of a single effect more.
+    Returns the best hypothesis, what remains of it, and the hypotheses of a single effect more.
     """
-    pool, singles = [best], list[Trial]()
-    rest: Remainder | None = None
+    pool, singles = [best], list[Hypothesis]()
+    rest: LackOfFit | None = None
     for depth in range(most):
-        if depth or seen.keys() > {key_of(best.effects)}:
-            rest = examine(best.study, best.residual, seed)
+        if depth or explored.keys() > {key_of(best.effects)}:
+            rest = lack_of_fit_test(best.problem, best.residual, seed)
             if not rest.hint:
                 break  # more effects would have nothing to explain
         stage = f"{depth + 1} effects" if depth else "each effect"
-        more = grown(study, pool, candidates, stage, seen, crew)
+        more = forward_step(problem, pool, candidates, stage, explored, executor)
         singles = singles if depth else more
         more.sort(key=lambda t: (t.score, len(t.model.shape)))
-        better = [t for t in more if compare(study, best, t).real]
+        better = [t for t in more if compare(problem, best, t).significant]
         if better:
             best, rest = better[0], None
         elif depth:
             break
         # Also hypotheses that gain nothing alone: one may be worth something beside another.
         pool = (better or more)[: BEAM if depth + 1 < WIDE else 1]
-    return best, rest or examine(best.study, best.residual, seed), singles
+    return best, rest or lack_of_fit_test(best.problem, best.residual, seed), singles
 
 
-def _base(study: Study, given: Parameters | None, crew: Crew) -> Trial:
+def _base(problem: Problem, given: Parameters | None, executor: Executor) -> Hypothesis:
     """The model before any effect is added, from fresh starts and from the given values."""
-    crew.progress("base", "the paper's model" if given is None else "the given model")
+    executor.progress("base", "the paper's model" if given is None else "the given model")
     fresh = [fresh_start(0.05, 0.4), fresh_start(0.01, 1.0)]
     if given is None:
-        return attempt(study, (), fresh)
+        return fit_hypothesis(problem, (), fresh)
     starts = [*({**given.values, **f} for f in fresh), given.values]
-    return attempt(study, given.model.effects, starts)
+    return fit_hypothesis(problem, given.model.effects, starts)
 
 
-def _beyond(base: Trial, trial: Trial) -> tuple[Effect, ...]:
-    """The effects of a trial that the base does not have."""
-    return tuple(e for e in trial.effects if e not in base.effects)
+def _beyond(base: Hypothesis, hypothesis: Hypothesis) -> tuple[Effect, ...]:
+    """The effects of a hypothesis that the base does not have."""
+    return tuple(e for e in hypothesis.effects if e not in base.effects)
 
 
-def _must(trial: Trial | None) -> Trial:
-    assert trial is not None, "effects of a trial can act together"
-    return trial
+def _fitted_together(hypothesis: Hypothesis | None) -> Hypothesis:
+    assert hypothesis is not None, "effects of a trial can act together"
+    return hypothesis
 
 
-def _takes_over(study: Study, best: Trial, joint: Trial) -> bool:
+def _replaces(problem: Problem, best: Hypothesis, joint: Hypothesis) -> bool:
     """Whether effects that come together replace what was found one by one."""
-    return compare(study, best, joint).real or _likelier(study, joint, best)
+    return compare(problem, best, joint).significant or _preferred(problem, joint, best)
 
 
-def _likelier(study: Study, rival: Trial, best: Trial) -> bool:
-    """Whether a rival should have the name: it is as good with less, or better with no more."""
-    extra = len(rival.model.quantities) - len(best.model.quantities)
+def _preferred(problem: Problem, look_alike: Hypothesis, best: Hypothesis) -> bool:
+    """Whether a look-alike should have the name: it is as good with less, or better with no more."""
+    extra = len(look_alike.model.quantities) - len(best.model.quantities)
     if extra < 0:
-        return not compare(study, rival, best).real
-    return extra == 0 and compare(study, best, rival).gain > 0.0
+        return not compare(problem, look_alike, best).significant
+    return extra == 0 and compare(problem, best, look_alike).gain > 0.0
 
 
-def _lesser(study: Study, base: Trial, best: Trial, seen: Seen, crew: Crew) -> list[Trial]:
-    """The best trial without each of its effects in turn, but for those of the base.
+def _without_each(
+    problem: Problem, base: Hypothesis, best: Hypothesis, explored: Explored, executor: Executor
+) -> list[Hypothesis]:
+    """The best hypothesis without each of its effects in turn, but for those of the base.
 
     Searched for from where the larger one ended, too: else an effect may owe its worth to a smaller
     hypothesis that was stuck, and not to what it adds.
     """
     rests = [tuple(e for e in best.effects if e is not out) for out in _beyond(base, best)]
-    new = [rest for rest in rests if (key_of(rest), key_of(best.effects)) not in seen.descents]
-    tasks = [Task("second pass", rest, (best.values,), scatter=best.scatter) for rest in new]
-    for rest, trial in zip(new, crew.run(study, tasks), strict=True):
-        seen.descents.add((key_of(rest), key_of(best.effects)))
-        seen.keep(_must(trial))
-    return [seen[key_of(rest)] for rest in rests]
+    new = [rest for rest in rests if (key_of(rest), key_of(best.effects)) not in explored.restarts]
+    tasks = [
+        Task("second pass", rest, (best.values,), record_effects=best.record_effects)
+        for rest in new
+    ]
+    for rest, hypothesis in zip(new, executor.run(problem, tasks), strict=True):
+        explored.restarts.add((key_of(rest), key_of(best.effects)))
+        explored.keep(_fitted_together(hypothesis))
+    return [explored[key_of(rest)] for rest in rests]
 
 
-def _prune(study: Study, base: Trial, best: Trial, seen: Seen, crew: Crew) -> Trial:
+def _backward_elimination(
+    problem: Problem, base: Hypothesis, best: Hypothesis, explored: Explored, executor: Executor
+) -> Hypothesis:
     """Remove effects that others have made useless, the one with the least evidence first.
 
     Losses that scatter hides one by one may be clear together: then the last of them stays.
     """
-    top = min(seen.values(), key=lambda t: t.score)
+    top = min(explored.values(), key=lambda t: t.score)
     while _beyond(base, best):
-        lesser = _lesser(study, base, best, seen, crew)
-        worth = [(compare(study, t, best), t) for t in lesser]
-        useless = [(c.clear, i, t) for i, (c, t) in enumerate(worth) if not c.real]
-        missed = compare(study, best, top).real  # already: then it is no reason to keep anything
-        idle = [t for *_, t in sorted(useless) if missed or not compare(study, t, top).real]
+        lesser = _without_each(problem, base, best, explored, executor)
+        worth = [(compare(problem, t, best), t) for t in lesser]
+        useless = [(c.t_stretches, i, t) for i, (c, t) in enumerate(worth) if not c.significant]
+        missed = compare(
+            problem, best, top
+        ).significant  # already: then it is no reason to keep anything
+        idle = [
+            t for *_, t in sorted(useless) if missed or not compare(problem, t, top).significant
+        ]
         if not idle:
             return best
         best = idle[0]
     return best
 
 
-def _second_look(
-    study: Study, base: Trial, best: Trial, most: int, seen: Seen, crew: Crew
-) -> Trial:
+def _second_pass(
+    problem: Problem,
+    base: Hypothesis,
+    best: Hypothesis,
+    most: int,
+    explored: Explored,
+    executor: Executor,
+) -> Hypothesis:
     """What another effect had put in the shade may be worth its place once that one is gone."""
     key = key_of(best.effects)
     if len(_beyond(base, best)) >= most:
         return best
-    more = [t for k, t in seen.items() if k > key and len(k) == len(key) + 1]
-    better = [t for t in more if compare(study, best, t).real]
-    return _prune(study, base, min(better, key=lambda t: t.score), seen, crew) if better else best
+    more = [t for k, t in explored.items() if k > key and len(k) == len(key) + 1]
+    better = [t for t in more if compare(problem, best, t).significant]
+    return (
+        _backward_elimination(problem, base, min(better, key=lambda t: t.score), explored, executor)
+        if better
+        else best
+    )
 
 
-def _as_good_as_seen(study: Study, base: Trial, best: Trial, seen: Seen, crew: Crew) -> Trial:
+def _as_good_as_seen(
+    problem: Problem, base: Hypothesis, best: Hypothesis, explored: Explored, executor: Executor
+) -> Hypothesis:
     """Pruning goes one way down from one hypothesis; another of that size may have done better."""
     while True:
         size = len(key_of(best.effects))
-        even = [t for k, t in seen.items() if len(k) == size and t.score < best.score]
-        better = [t for t in even if _likelier(study, t, best)]
+        even = [t for k, t in explored.items() if len(k) == size and t.score < best.score]
+        better = [t for t in even if _preferred(problem, t, best)]
         if not better:
             return best
-        best = _prune(study, base, min(better, key=lambda t: t.score), seen, crew)
+        best = _backward_elimination(
+            problem, base, min(better, key=lambda t: t.score), explored, executor
+        )
 
 
-def _rivals(
-    study: Study,
-    best: Trial,
+def _look_alikes(
+    problem: Problem,
+    best: Hypothesis,
     effect: Effect,
     candidates: Sequence[Effect],
-    singles: Sequence[Trial],
-    seen: Seen,
-    crew: Crew,
-) -> list[tuple[str, Trial]]:
+    singles: Sequence[Hypothesis],
+    explored: Explored,
+    executor: Executor,
+) -> list[tuple[str, Hypothesis]]:
     """Effects that explain as much in the place of one: no worse by more than scatter."""
     rest = tuple(e for e in best.effects if e is not effect)
     order = sorted(singles, key=lambda t: t.score)
@@ -247,23 +279,31 @@ def _rivals(
     likely += [c for c in candidates if c.name in effect.equivalents]
     names = key_of(best.effects)
     keys = {r.name: key_of(rest) | {r.name} for r in likely if r.name not in names}
-    if key_of(rest) not in seen:
-        task = Task("second pass", rest, (best.values,), scatter=best.scatter)
-        (base,) = crew.run(study, [task])
-        seen.keep(_must(base))
-    new = [r for r in dict.fromkeys(likely) if r.name in keys and keys[r.name] not in seen]
-    screen = Screen(study, seen[key_of(rest)]) if new else None
-    prospects = [screen.look(rival) for rival in new] if screen else []
-    tasks = [extension("look-alikes", seen[key_of(rest)], p) for p in prospects if p is not None]
-    for trial in crew.run(study, tasks):
-        if trial is not None:
-            seen.keep(trial)
+    if key_of(rest) not in explored:
+        task = Task("second pass", rest, (best.values,), record_effects=best.record_effects)
+        (base,) = executor.run(problem, [task])
+        explored.keep(_fitted_together(base))
+    new = [r for r in dict.fromkeys(likely) if r.name in keys and keys[r.name] not in explored]
+    screen = Screen(problem, explored[key_of(rest)]) if new else None
+    found_candidates = [screen.assess(look_alike) for look_alike in new] if screen else []
+    tasks = [
+        with_effect("look-alikes", explored[key_of(rest)], p)
+        for p in found_candidates
+        if p is not None
+    ]
+    for hypothesis in executor.run(problem, tasks):
+        if hypothesis is not None:
+            explored.keep(hypothesis)
     found = []
     for name, key in keys.items():
-        if key not in seen:
+        if key not in explored:
             continue
-        against = compare(study, seen[key], best)
-        if against.clear < TIE or against.gain < LEAST or _likelier(study, seen[key], best):
-            found.append((name, seen[key]))
+        against = compare(problem, explored[key], best)
+        if (
+            against.t_stretches < TIE
+            or against.gain < LEAST
+            or _preferred(problem, explored[key], best)
+        ):
+            found.append((name, explored[key]))
     found.sort(key=lambda f: f[1].score)
     return found

@@ -56,5 +56,5 @@ EFFECT = Effect(
     ),
     apply=backlash,
     free_play=free_play,
-    beside=("mount_compliance", "coulomb_friction"),
+    companions=("mount_compliance", "coulomb_friction"),
 )  # fmt: skip

@@ -51,5 +51,5 @@ EFFECT = Effect(
         ),
     ),
     apply=preyield_elasticity,
-    beside=("preyield_viscosity",),
+    companions=("preyield_viscosity",),
 )  # fmt: skip

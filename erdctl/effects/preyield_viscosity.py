@@ -44,6 +44,6 @@ EFFECT = Effect(
         ),
     ),
     apply=preyield_viscosity,
-    beside=("mount_compliance",),
+    companions=("mount_compliance",),
     of_speed=True,
 )  # fmt: skip

@@ -10,7 +10,7 @@ from msgspec import to_builtins
 
 from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict
 from erdctl.diagnose.residual.localisation import Region
-from erdctl.diagnose.residual.resemblance import likeness
+from erdctl.diagnose.residual.resemblance import resemblance
 from erdctl.io.parameters import provenance, to_document
 from erdctl.model.parameters import Estimate, Parameters
 from erdctl.score.nrmse import Validation
@@ -46,13 +46,16 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
             "params": to_builtins(to_document(corrected)),
         },
         "heldout": {
-            "groups": found.study.count,
-            **{k: _scores(v) for k, v in zip(("before", "after"), found.unseen, strict=True)},
+            "groups": found.problem.count,
+            **{
+                k: _scores(v)
+                for k, v in zip(("before", "after"), found.cross_validated, strict=True)
+            },
         },
         "remaining": {
             "rms": found.carried.overall.rms,
             "over_noise": found.carried.overall.rms / found.noise_rms if found.noise_rms else 1.0,
-            "misfit_rms": found.remainder.misfit_rms,
+            "misfit_rms": found.lack_of_fit.misfit_rms,
             "text": remaining_text(found),
         },
         **_records(found),
@@ -67,7 +70,7 @@ def parameters(found: Diagnosis) -> Parameters:
     values = found.fit.values
     estimates = {}
     for name, q in found.fit.model.quantities.items():
-        need = found.study.needs.get(name)
+        need = found.problem.needs.get(name)
         if need is None:
             estimates[name] = Estimate(value=values[name], unit=q.unit, stderr=errors.get(name))
         else:
@@ -77,7 +80,7 @@ def parameters(found: Diagnosis) -> Parameters:
     return Parameters(
         model=found.fit.model,
         estimates=estimates,
-        provenance=provenance(found.study.recording, found.noise_rms),
+        provenance=provenance(found.problem.recording, found.noise_rms),
         fits={"method": "diagnose"},
     )
 
@@ -86,7 +89,7 @@ def baseline(found: Diagnosis) -> Parameters:
     """The parameters of the model to answer for: those given, or the paper's as fitted here."""
     if found.given is not None:
         return found.given
-    base = found.choice.base
+    base = found.selection.base
     estimates = {
         name: Estimate(value=base.values[name], unit=q.unit)
         for name, q in base.model.quantities.items()
@@ -116,7 +119,7 @@ def finding_text(finding: Finding) -> str:
 
 def remaining_text(found: Diagnosis) -> str:
     """What is left, in words."""
-    left = found.remainder
+    left = found.lack_of_fit
     if found.verdict is not Verdict.UNEXPLAINED:
         return (
             f"what remains, {found.carried.overall.rms:.3g} N rms, holds nothing that motion,"
@@ -126,38 +129,42 @@ def remaining_text(found: Diagnosis) -> str:
         f"{left.misfit_rms:.3g} N rms beyond a noise of {left.noise_rms:.3g} N can be predicted"
         " from motion and duty, but by no effect in the catalogue"
     )
-    if left.ripple is not None:
+    if left.spectral_line is not None:
         words += (
-            f"; {100 * left.ripple.share:.0f} % of it swings at {left.ripple.frequency:.3g} Hz and"
+            f"; {100 * left.spectral_line.share:.0f} % of it swings at {left.spectral_line.frequency:.3g} Hz and"
             " turns over with the motion, as a ripple of the yield force does"
         )
-    if left.jumps > 0.0:
+    if left.impulses > 0.0:
         words += (
-            f"; {100 * left.jumps:.0f} % of it comes in sudden jumps, as of a seal that sticks and"
+            f"; {100 * left.impulses:.0f} % of it comes in sudden jumps, as of a seal that sticks and"
             " slips, a joint that knocks or a valve that opens"
         )
-    like = likeness(found.choice.best.study, left.predicted)
-    if like is not None:
-        words += f"; it is most like {like.form} (correlation {like.correlation:+.2f})"
+    resembles = resemblance(found.selection.best.problem, left.predicted)
+    if resembles is not None:
+        words += f"; it is most like {resembles.form} (correlation {resembles.correlation:+.2f})"
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
 
 
 def record_values(found: Diagnosis) -> list[dict[str, Any]]:
     """Gain and offset of each record, as far as they were free; no error where undetermined."""
-    free, scatter = found.study.free, found.scatter
-    if scatter is None:
+    free, record_effects = found.problem.free, found.record_effects
+    if record_effects is None:
         return []
 
     def value(number: float, unit: str, error: float) -> dict[str, Any]:
         return {"value": number, "unit": unit, "stderr": error if isfinite(error) else None}
 
     out = []
-    for i, name in enumerate(found.study.recording.names):
+    for i, name in enumerate(found.problem.recording.names):
         entry: dict[str, Any] = {"name": name}
         if free.gain:
-            entry["gain"] = value(float(scatter.gain[i]), "1", float(scatter.gain_error[i]))
+            entry["gain"] = value(
+                float(record_effects.gain[i]), "1", float(record_effects.gain_error[i])
+            )
         if free.offset:
-            entry["offset"] = value(float(scatter.offset[i]), "N", float(scatter.offset_error[i]))
+            entry["offset"] = value(
+                float(record_effects.offset[i]), "N", float(record_effects.offset_error[i])
+            )
         out.append(entry)
     return out
 
@@ -183,8 +190,8 @@ def _finding(f: Finding, corrected: Parameters) -> dict[str, Any]:
         "where": None if f.where is None else _where(f.where),
         "evidence": {
             "gain_unseen": f.gain.gain,
-            "gain_over_scatter": f.gain.clear,
-            "gain_over_scatter_of_groups": f.gain.steady,
+            "gain_over_scatter": f.gain.t_stretches,
+            "gain_over_scatter_of_groups": f.gain.t_groups,
             "runner_up": f.runner_up,
         },
         "heldout": {"nrmse_before": f.before, "nrmse_after": f.after},

@@ -125,7 +125,7 @@ class Effect:
     of_speed: bool = False
     carries: tuple[str, ...] | None = None
     free_play: Callable[[Values], float] | None = field(default=None, repr=False)
-    beside: tuple[str, ...] = ()
+    companions: tuple[str, ...] = ()
     equivalents: tuple[str, ...] = ()
     order: int = 0
 

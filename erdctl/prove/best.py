@@ -16,7 +16,7 @@ import numpy as np
 from erdctl.core.blocks import Block, thinned
 from erdctl.core.recording import DIRECTIONS
 from erdctl.core.signals import Signals
-from erdctl.diagnose.problem import Study, prepare
+from erdctl.diagnose.problem import Problem, prepare
 from erdctl.diagnose.screening import starts
 from erdctl.estimate.least_squares import fit
 from erdctl.model.composed import Model
@@ -40,14 +40,16 @@ class Reached:
     cost: float
 
 
-def best_fit(study: Study, effects: Sequence[Effect], damper: Values, diagnosed: Values) -> Reached:
+def best_fit(
+    problem: Problem, effects: Sequence[Effect], damper: Values, diagnosed: Values
+) -> Reached:
     """The true structure on a log.
 
     damper : the plant's own paper parameters, to start from
     diagnosed : what the diagnosis found, a start for those effects that it holds
     """
     model = Model(tuple(effects))
-    rough = prepare(thinned(study.recording, SEARCH))
+    rough = prepare(thinned(problem.recording, SEARCH))
     guesses = [_guesses(rough, e, damper, diagnosed, few=len(effects) > 1) for e in effects]
     points = [_joined([damper, *point]) for point in product(*guesses)]
     if all(name in diagnosed for name in model.quantities):
@@ -57,7 +59,7 @@ def best_fit(study: Study, effects: Sequence[Effect], damper: Values, diagnosed:
     full = [fine.values]
     if all(name in diagnosed for name in model.quantities):
         full.append({n: diagnosed[n] for n in model.quantities})
-    return _ranked(study, model, full, SHARPEN)[0]
+    return _ranked(problem, model, full, SHARPEN)[0]
 
 
 def acts(effects: Sequence[Effect], signals: Signals) -> bool:
@@ -76,13 +78,13 @@ def damper_values(key: Mapping[str, Any]) -> dict[str, float]:
 
 
 def _guesses(
-    study: Study, effect: Effect, damper: Values, diagnosed: Values, *, few: bool
+    problem: Problem, effect: Effect, damper: Values, diagnosed: Values, *, few: bool
 ) -> list[dict[str, float]]:
     """Starts for one effect; of a pair only those that do best alone, or there are too many."""
     own = {effect.key(q.symbol) for q in effect.quantities}
-    out = [{effect.key(s): v for s, v in g.items()} for g in starts(effect, study)]
+    out = [{effect.key(s): v for s, v in g.items()} for g in starts(effect, problem)]
     if few:
-        alone = _ranked(study, Model((effect,)), [_joined([damper, g]) for g in out], LOOK)
+        alone = _ranked(problem, Model((effect,)), [_joined([damper, g]) for g in out], LOOK)
         out = [{n: v for n, v in r.values.items() if n in own} for r in alone[:KEPT]]
     if own <= set(diagnosed):
         out.append({n: diagnosed[n] for n in own})
@@ -90,18 +92,18 @@ def _guesses(
 
 
 def _ranked(
-    study: Study, model: Model, points: Sequence[Values], evaluations: int
+    problem: Problem, model: Model, points: Sequence[Values], evaluations: int
 ) -> list[Reached]:
     """Fits from every point, the best first."""
-    fits = [_fitted(study, model, point, evaluations) for point in points]
+    fits = [_fitted(problem, model, point, evaluations) for point in points]
     return sorted(fits, key=lambda r: r.cost)
 
 
-def _fitted(study: Study, model: Model, point: Values, evaluations: int) -> Reached:
-    block: Block = study.block
-    start = {n: v for n, v in {**_defaults(model), **point, **study.held}.items()
+def _fitted(problem: Problem, model: Model, point: Values, evaluations: int) -> Reached:
+    block: Block = problem.block
+    start = {n: v for n, v in {**_defaults(model), **point, **problem.held}.items()
              if n in model.quantities}  # fmt: skip
-    values, _, _ = fit(model, block, start=start, fixed=study.held, max_evaluations=evaluations)
+    values, _, _ = fit(model, block, start=start, fixed=problem.held, max_evaluations=evaluations)
     residual = block.force - model.force(block.signals, values)
     cost = float(np.average(residual**2, weights=block.weight))
     return Reached(model, values, cost if np.isfinite(cost) else np.inf)

@@ -129,13 +129,13 @@ def _errors(sealed: Sealed, found: Diagnosis, key: Mapping[str, Any]) -> Errors:
         missed: Array = true - model.force(signals, values)
         return float(np.sqrt(np.mean(missed**2)))
 
-    base, corrected = found.choice.base, found.choice.best
+    base, corrected = found.selection.base, found.selection.best
     hidden = [e["name"] for e in key["effects"]]
     best = None
     if hidden and all(name in CATALOGUE for name in hidden):
         truth = [effects.get(name) for name in hidden]
         if acts(truth, signals):
-            reached = best_fit(found.study, truth, damper_values(key), corrected.values)
+            reached = best_fit(found.problem, truth, damper_values(key), corrected.values)
             best = rms(reached.model, reached.values)
     return Errors(
         paper=rms(base.model, base.values),

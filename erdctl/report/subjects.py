@@ -36,8 +36,8 @@ def of_diagnosis(found: Diagnosis, parameters: Parameters) -> Subject:
 
     parameters : of the corrected model, with errors
     """
-    recording, signals = found.study.recording, found.study.block.signals
-    base, best = found.choice.base, found.choice.best
+    recording, signals = found.problem.recording, found.problem.block.signals
+    base, best = found.selection.base, found.selection.best
     before = base.model.force(signals, base.values)
     name = "paper's model"
     if found.given is not None:

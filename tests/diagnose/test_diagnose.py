@@ -77,14 +77,14 @@ def test_something_outside_the_catalogue_is_unexplained() -> None:
     r = noisy(campaign(), seed=6)
     found = diagnose(plus(r, 2.0 * np.sin(2 * np.pi * r.x / 0.002)), few())
     assert found.verdict is Verdict.UNEXPLAINED
-    assert found.remainder.misfit_rms > 0.7
+    assert found.lack_of_fit.misfit_rms > 0.7
 
 
 def test_a_misfit_is_located() -> None:
-    study = prepare(noisy(campaign(), seed=2))
-    s = study.block.signals
+    problem = prepare(noisy(campaign(), seed=2))
+    s = problem.block.signals
     misfit = np.where((s.duty > 0.25) & (s.duty < 0.35), 1.0, 0.01)
-    best = locate(study, misfit)[0]
+    best = locate(problem, misfit)[0]
     assert best.variable is Variable.DUTY
     # Half way to the neighbouring levels of this campaign, 20 % and 60 %.
     assert (best.low, best.high) == pytest.approx((0.25, 0.45))

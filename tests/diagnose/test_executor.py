@@ -10,7 +10,7 @@ from rig import campaign, noisy
 from erdctl import effects
 from erdctl.core.recording import Recording
 from erdctl.diagnose.diagnosis import diagnose
-from erdctl.diagnose.executor import Crew, Task
+from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.problem import prepare
 from erdctl.io import documents
 from erdctl.io.diagnosis import to_json
@@ -43,5 +43,5 @@ def test_the_document_is_the_same_for_any_number_of_jobs() -> None:
 
 def test_effects_that_cannot_act_together_are_no_trial() -> None:
     both = tuple(effects.get(name) for name in ("preyield_viscosity", "yield_hysteresis"))
-    study = prepare(rubbing())
-    assert Crew([study]).run(study, [Task("pairs", both, ({},))]) == [None]
+    problem = prepare(rubbing())
+    assert Executor([problem]).run(problem, [Task("pairs", both, ({},))]) == [None]

@@ -136,8 +136,8 @@ def the_corrected_model_predicts_fresh_records(found: Diagnosis) -> None:
     assert fresh.force is not None
     signals, settled = Signals.of(fresh), fresh.t > 0.3
     missed = []
-    for trial in (found.choice.base, found.choice.best):
-        predicted = trial.model.force(signals, trial.values)
+    for hypothesis in (found.selection.base, found.selection.best):
+        predicted = hypothesis.model.force(signals, hypothesis.values)
         missed.append(nrmse(fresh.force[settled], predicted[settled]).nrmse)
     paper, corrected = missed
     print(f"NRMSE on fresh records: paper's model {paper:.4f}, corrected {corrected:.4f}")

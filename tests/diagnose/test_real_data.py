@@ -19,7 +19,7 @@ from erdctl.core.blocks import thinned
 from erdctl.core.recording import Recording
 from erdctl.core.signals import Signals
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
-from erdctl.diagnose.hypothesis import Trial
+from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.score.nrmse import Normalise, nrmse
 
 MOST = 20_000  # samples of a log for a diagnosis; the prediction is of all samples
@@ -54,10 +54,10 @@ def diagnosis(name: str, text: str) -> Diagnosis:
     return diagnose(thinned(split(name, text)[0], MOST), effects.catalogue(), most=EFFECTS)
 
 
-def errors(what: str, trial: Trial, r: Recording) -> tuple[float, float]:
+def errors(what: str, hypothesis: Hypothesis, r: Recording) -> tuple[float, float]:
     """NRMSE over the range and over the standard deviation."""
     assert r.force is not None
-    model = trial.model.force(Signals.of(r), trial.values)
+    model = hypothesis.model.force(Signals.of(r), hypothesis.values)
     found = [nrmse(r.force, model, n).nrmse for n in (Normalise.RANGE, Normalise.STD)]
     print(f"{what}: {found[0]:.4f} of the range, {found[1]:.3f} of the std")
     return found[0], found[1]
@@ -68,14 +68,14 @@ def named(found: Diagnosis) -> set[str]:
     for f in found.findings:
         print(f.effect.name, f.equivalent, f.gain)
         out |= {f.effect.name, *f.equivalent}
-    print(found.verdict, {n: float(f"{v:.4g}") for n, v in found.choice.best.values.items()})
+    print(found.verdict, {n: float(f"{v:.4g}") for n, v in found.selection.best.values.items()})
     return out
 
 
 def held_out(found: Diagnosis, held: Recording) -> tuple[float, float]:
     """NRMSE over the range of the paper's model and of the corrected one."""
-    paper, _ = errors("paper's model", found.choice.base, held)
-    corrected, _ = errors("corrected", found.choice.best, held)
+    paper, _ = errors("paper's model", found.selection.base, held)
+    corrected, _ = errors("corrected", found.selection.best, held)
     return paper, corrected
 
 
@@ -106,7 +106,7 @@ def test_friction_damper_with_backlash(inches: str, reached: float) -> None:
     text = f"tension{inches}amplitude"
     found, held = diagnosis("friction_sine.parquet", text), split("friction_sine.parquet", text)[1]
     assert {"backlash", "mount_compliance"} <= named(found)
-    assert 0.0035 < found.choice.best.values["backlash.g"] < 0.005
+    assert 0.0035 < found.selection.best.values["backlash.g"] < 0.005
     paper, corrected = held_out(found, held)
     assert paper > 0.19
     assert corrected < reached

@@ -13,13 +13,13 @@ from erdctl import effects, plant
 from erdctl.core.recording import Recording
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
 from erdctl.diagnose.problem import prepare
-from erdctl.diagnose.record_effects import Free, Scatter, drawn, estimate
+from erdctl.diagnose.record_effects import RecordEffects, Varying, estimate, shrunk
 from erdctl.io import documents
 from erdctl.io.diagnosis import parameters, to_json
 
 FEW = ("coulomb_friction", "quadratic_damping", "preyield_viscosity", "position_dependent_damping")
 SEED, EFFECT, LEVEL = 28, "quadratic_damping", 3.0  # a short campaign; misfit over noise
-GAINS = Free(gain=True)
+GAINS = Varying(gain=True)
 
 
 def recording(case: plant.Case) -> Recording:
@@ -40,7 +40,7 @@ def concealed(effect: str | None) -> plant.Case:
 
 
 @cache
-def diagnosed(effect: str | None, free: Free) -> Diagnosis:
+def diagnosed(effect: str | None, free: Varying) -> Diagnosis:
     return diagnose(recording(concealed(effect)), [effects.get(n) for n in FEW], free=free)
 
 
@@ -51,14 +51,14 @@ def true_gains(case: plant.Case) -> np.ndarray:
 
 def test_scatter_is_a_mismatch_unless_it_is_carried() -> None:
     """What the option is for: without it the scatter is a misfit that no effect explains."""
-    assert diagnosed(None, Free()).verdict is Verdict.UNEXPLAINED
+    assert diagnosed(None, Varying()).verdict is Verdict.UNEXPLAINED
     assert diagnosed(None, GAINS).verdict is Verdict.ADEQUATE
-    assert diagnosed(None, Free(gain=True, offset=True)).verdict is Verdict.ADEQUATE
+    assert diagnosed(None, Varying(gain=True, offset=True)).verdict is Verdict.ADEQUATE
 
 
 @pytest.mark.parametrize("effect", [None, EFFECT])
 def test_gains_come_out_within_their_errors(effect: str | None) -> None:
-    found = diagnosed(effect, GAINS).scatter
+    found = diagnosed(effect, GAINS).record_effects
     assert found is not None
     off = found.gain - true_gains(concealed(effect))
     print(off / found.gain_error)
@@ -75,18 +75,18 @@ def test_an_effect_keeps_its_name() -> None:
 
 
 def test_the_document_tells_shared_from_per_record() -> None:
-    found = diagnosed(EFFECT, Free(gain=True, offset=True))
+    found = diagnosed(EFFECT, Varying(gain=True, offset=True))
     document = to_json(found)
     names = [r["name"] for r in document["records"]]
-    assert names == list(found.study.recording.names)
+    assert names == list(found.problem.recording.names)
     first = document["records"][0]
     assert first["gain"]["unit"] == "1"
     assert first["offset"]["unit"] == "N"
     assert first["gain"]["stderr"] > 0
     # The corrected parameters are the shared ones, and their scores are what validate prints.
     values = parameters(found).values
-    force = found.fit.model.force(found.study.block.signals, values)
-    rms = np.sqrt(np.mean((found.study.block.force - force) ** 2))
+    force = found.fit.model.force(found.problem.block.signals, values)
+    rms = np.sqrt(np.mean((found.problem.block.force - force) ** 2))
     assert document["corrected"]["rms"] == pytest.approx(rms, rel=1e-3)
     assert document["with_records"]["rms"] < 0.7 * document["corrected"]["rms"]
     assert document["remaining"]["over_noise"] == pytest.approx(1.0, rel=0.05)
@@ -98,36 +98,36 @@ def test_offsets_come_out_and_the_common_one_is_a_finding() -> None:
     assert r.force is not None
     force = r.force + np.repeat(shifts + 5.0, np.diff(r.starts))
     candidates = [effects.get(n) for n in ("gas_preload", "coulomb_friction")]
-    found = diagnose(replace(r, force=force), candidates, free=Free(offset=True))
+    found = diagnose(replace(r, force=force), candidates, free=Varying(offset=True))
     assert [f.effect.name for f in found.findings] == ["gas_preload"]
     assert found.verdict is Verdict.EXPLAINED
     assert found.fit.values["gas_preload.F_0"] == pytest.approx(5.0, abs=0.1)
-    assert found.scatter is not None
-    off = found.scatter.offset - (shifts - shifts.mean())
-    assert np.abs(off / found.scatter.offset_error).max() < 4.0
+    assert found.record_effects is not None
+    off = found.record_effects.offset - (shifts - shifts.mean())
+    assert np.abs(off / found.record_effects.offset_error).max() < 4.0
     assert np.abs(off).max() < 0.15
 
 
 def test_without_scatter_values_stay_at_the_mean() -> None:
     found = diagnose(
         noisy(campaign(100.0, 6.0), seed=9), [effects.get("coulomb_friction")],
-        free=Free(gain=True, offset=True),
+        free=Varying(gain=True, offset=True),
     )  # fmt: skip
     assert found.verdict is Verdict.ADEQUATE
-    assert found.scatter is not None
-    assert np.abs(found.scatter.gain - 1.0).max() < 0.003
-    assert np.abs(found.scatter.offset).max() < 0.05
+    assert found.record_effects is not None
+    assert np.abs(found.record_effects.gain - 1.0).max() < 0.003
+    assert np.abs(found.record_effects.offset).max() < 0.05
 
 
 def test_a_record_that_determines_nothing_keeps_the_mean() -> None:
     """In one that stands still there is no force to scale."""
-    study = prepare(noisy(campaign(100.0, 6.0), seed=9), GAINS)
-    modelled = study.block.force.copy()
-    modelled[study.recording.slices[0]] = 0.0
-    gains = np.repeat(1.0 + 0.01 * np.arange(-4, 5), np.diff(study.recording.starts))
+    problem = prepare(noisy(campaign(100.0, 6.0), seed=9), GAINS)
+    modelled = problem.block.force.copy()
+    modelled[problem.recording.slices[0]] = 0.0
+    gains = np.repeat(1.0 + 0.01 * np.arange(-4, 5), np.diff(problem.recording.starts))
     noise = 0.1 * np.random.default_rng(1).standard_normal(len(modelled))
-    block = study.block._replace(force=gains * modelled + noise)
-    found = estimate(GAINS, block, modelled, Scatter.none(9))
+    block = problem.block._replace(force=gains * modelled + noise)
+    found = estimate(GAINS, block, modelled, RecordEffects.none(9))
     assert found.gain[0] == 1.0
     assert np.isinf(found.gain_error[0])
     assert found.gain[1:] == pytest.approx(1.0 + 0.01 * (np.arange(-3, 5) - 0.5), abs=2e-3)
@@ -135,9 +135,9 @@ def test_a_record_that_determines_nothing_keeps_the_mean() -> None:
 
 def test_values_are_drawn_by_their_errors() -> None:
     """By hand: tau = 1, half way; no scatter beyond the errors, all the way."""
-    assert drawn(np.array([1.0, 3.0]), np.ones(2)) == pytest.approx([-0.5, 0.5])
-    assert drawn(np.array([1.0, 1.5]), np.ones(2)).tolist() == [0.0, 0.0]
-    assert drawn(np.array([1.0, 3.0]), np.array([1.0, np.inf])).tolist() == [0.0, 0.0]
+    assert shrunk(np.array([1.0, 3.0]), np.ones(2)) == pytest.approx([-0.5, 0.5])
+    assert shrunk(np.array([1.0, 1.5]), np.ones(2)).tolist() == [0.0, 0.0]
+    assert shrunk(np.array([1.0, 3.0]), np.array([1.0, np.inf])).tolist() == [0.0, 0.0]
 
 
 def test_the_same_for_any_number_of_jobs() -> None:

@@ -52,14 +52,14 @@ def test_the_smoothing_is_found_beside_a_damper() -> None:
     assert found.verdict is Verdict.EXPLAINED
     assert found.findings[0].effect.name == "force_smoothing"
     assert {f.effect.name for f in found.findings} <= {"force_smoothing", "coulomb_friction"}
-    best = found.choice.best
+    best = found.selection.best
     assert best.values["force_smoothing.w"] == pytest.approx(PART, rel=0.02)
 
     fresh = recording(2.0, 0.005, 0.35)
     assert fresh.force is not None
     before, after = (
         nrmse(fresh.force, t.model.force(Signals.of(fresh), t.values)).nrmse
-        for t in (found.choice.base, best)
+        for t in (found.selection.base, best)
     )
     print(before, after)
     assert before > 0.07

@@ -9,12 +9,12 @@ import pytest
 from rig import campaign, noisy
 
 from erdctl import effects
-from erdctl.diagnose.executor import Crew
-from erdctl.diagnose.forward_step import Seen, extension, key_of
-from erdctl.diagnose.hypothesis import Trial, attempt, fresh_start
-from erdctl.diagnose.problem import Study, prepare
-from erdctl.diagnose.screening import Prospect
-from erdctl.diagnose.search import _lesser
+from erdctl.diagnose.executor import Executor
+from erdctl.diagnose.forward_step import Explored, key_of, with_effect
+from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis, fresh_start
+from erdctl.diagnose.problem import Problem, prepare
+from erdctl.diagnose.screening import Candidate
+from erdctl.diagnose.search import _without_each
 from erdctl.estimate.least_squares import SHORTEST, at_bound
 from erdctl.model.paper import QUANTITIES
 
@@ -22,17 +22,17 @@ FRICTION = effects.get("coulomb_friction")
 
 
 @pytest.fixture(scope="module")
-def study() -> Study:
+def problem() -> Problem:
     return prepare(noisy(campaign(100.0, 6.0), seed=4))
 
 
-def no_steps(study: Study) -> Trial:
+def no_steps(problem: Problem) -> Hypothesis:
     """The paper's model as from a search that never left a lag of nothing."""
-    trial = attempt(study, (), [fresh_start(0.05, 0.4)])
-    stuck = {**trial.values, **fresh_start(SHORTEST, 0.4)}
-    s = study.block.signals
-    error = study.block.force - trial.model.force(s, stuck)
-    return replace(trial, values=stuck, residual=error, unseen=error)
+    hypothesis = fit_hypothesis(problem, (), [fresh_start(0.05, 0.4)])
+    stuck = {**hypothesis.values, **fresh_start(SHORTEST, 0.4)}
+    s = problem.block.signals
+    error = problem.block.force - hypothesis.model.force(s, stuck)
+    return replace(hypothesis, values=stuck, residual=error, cross_validated=error)
 
 
 def test_a_parameter_at_its_bound_is_known() -> None:
@@ -44,23 +44,23 @@ def test_a_parameter_at_its_bound_is_known() -> None:
     assert not at_bound(beta, 0.4)
 
 
-def test_what_is_added_to_a_cornered_model_also_starts_afresh(study: Study) -> None:
-    prospect = Prospect(FRICTION, 0.1, ({},))
-    cornered = no_steps(study)
+def test_what_is_added_to_a_cornered_model_also_starts_afresh(problem: Problem) -> None:
+    candidate = Candidate(FRICTION, 0.1, ({},))
+    cornered = no_steps(problem)
     free = replace(cornered, values={**cornered.values, **fresh_start(0.03, 0.5)})
-    assert len(extension("", free, prospect).starts) == 1
-    *_, last = extension("", cornered, prospect).starts
+    assert len(with_effect("", free, candidate).starts) == 1
+    *_, last = with_effect("", cornered, candidate).starts
     assert not at_bound(QUANTITIES["T_d"], last["compression.T_d"])
 
 
-def test_a_smaller_model_is_searched_for_from_where_the_larger_ended(study: Study) -> None:
-    base = no_steps(study)
-    larger = attempt(study, (FRICTION,), [fresh_start(0.05, 0.4)])
-    seen = Seen([base, larger])
-    (lesser,) = _lesser(study, base, larger, seen, Crew([study]))
+def test_a_smaller_model_is_searched_for_from_where_the_larger_ended(problem: Problem) -> None:
+    base = no_steps(problem)
+    larger = fit_hypothesis(problem, (FRICTION,), [fresh_start(0.05, 0.4)])
+    seen = Explored([base, larger])
+    (lesser,) = _without_each(problem, base, larger, seen, Executor([problem]))
     assert lesser.score < 0.8 * base.score
     assert seen[key_of(base.effects)] is lesser
     assert lesser.score == pytest.approx(larger.score, rel=0.02)  # nothing rubs in this log
     assert np.ptp(lesser.residual) < np.ptp(base.residual)
-    (again,) = _lesser(study, base, larger, seen, Crew([study]))
+    (again,) = _without_each(problem, base, larger, seen, Executor([problem]))
     assert again is lesser

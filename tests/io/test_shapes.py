@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 from erdctl import effects
 from erdctl.cli.app import build
 from erdctl.diagnose.diagnosis import diagnose
-from erdctl.diagnose.record_effects import Free
+from erdctl.diagnose.record_effects import Varying
 from erdctl.io import documents
 from erdctl.io.diagnosis import to_json
 from erdctl.io.parameters import read_parameters
@@ -106,7 +106,7 @@ def test_diagnoses(tmp_path: Path) -> None:
     assert plain["findings"]
     check("diagnosis", plain)
     check("parameters", plain["corrected"]["params"])
-    given = diagnose(r, few[:1], most=1, given=read_parameters(TABLE_2), free=Free(gain=True))
+    given = diagnose(r, few[:1], most=1, given=read_parameters(TABLE_2), free=Varying(gain=True))
     document = to_json(given, {"name": "p.json", "sha256": "ab" * 32})
     assert {"refitted", "records", "with_records"} <= set(document)
     check("diagnosis", document)

@@ -91,8 +91,8 @@ def test_the_key_is_opened_after_the_diagnosis_is_written(
 def test_the_true_structure_refitted_reaches_the_noise(sealed: Sealed) -> None:
     key = opened(sealed)
     recording = read_logs([str(sealed.log)], need_force=True, report=print).recording
-    study = prepare(recording)
-    reached = best_fit(study, [effects.get("coulomb_friction")], damper_values(key), {})
+    problem = prepare(recording)
+    reached = best_fit(problem, [effects.get("coulomb_friction")], damper_values(key), {})
     assert np.sqrt(reached.cost) == pytest.approx(key["force_noise"]["rms"], rel=0.02)
     friction = key["effects"][0]["parameters"]["F_c"]["value"]
     assert reached.values["coulomb_friction.F_c"] == pytest.approx(friction, rel=0.05)

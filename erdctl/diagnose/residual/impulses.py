@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from erdctl.core.recording import Array
-from erdctl.diagnose.problem import Study
+from erdctl.diagnose.problem import Problem
 from erdctl.estimate.autoregressive import ColouredNoise
 
 FAR = 6.0  # times the scale of the middle half of the innovations
@@ -30,31 +30,31 @@ MOSTLY = 0.5  # of that of those that are far out: what else is sudden is spikes
 QUANTA = 3.0  # steps of the force channel that a jump must be more than
 
 
-def jumping(study: Study, residual: Array) -> float:
+def impulse_share(problem: Problem, residual: Array) -> float:
     """The share of a residual's (n,) square [N^2] that jumps hold; 0 if there are none to speak of.
 
     Innovations add to the square of a residual each for itself, so the share is theirs.
     """
-    s, block = study.block.signals, study.block
-    quiet, n = _quiet(study), len(s)
+    s, block = problem.block.signals, problem.block
+    lower, n = _quiet(problem), len(s)
     values = residual * (block.weight > 0)
     far = np.zeros(len(values), dtype=np.bool_)
     found = values
     for _ in range(3):
         noise = ColouredNoise.of(np.where(far, 0.0, values), s.starts, ORDER)
         found = _innovations(values, noise.coefficients, s.starts)
-        scale = 1.4826 * float(np.median(np.abs(found[quiet]))) if quiet.any() else 0.0
-        far = quiet & (np.abs(found) > FAR * scale)
+        scale = 1.4826 * float(np.median(np.abs(found[lower]))) if lower.any() else 0.0
+        far = lower & (np.abs(found) > FAR * scale)
     if scale == 0.0:
         return 0.0
     mean = np.convolve(values, np.ones(AFTER) / AFTER)  # of a sample and those before it
     change = np.zeros_like(values)
     change[1 : n - AFTER] = mean[AFTER : n - 1] - mean[: n - AFTER - 1]
     jump = far & (change * found > STAYS * found**2) & (np.abs(found) > QUANTA * _step(block.force))
-    if np.count_nonzero(jump) < FEW or len(np.unique(study.group[jump])) < PLACES:
+    if np.count_nonzero(jump) < FEW or len(np.unique(problem.group[jump])) < PLACES:
         return 0.0
-    all_, sudden, jumped = (float(np.sum(found[which] ** 2)) for which in (quiet, far, jump))
-    return jumped / all_ if jumped > max(SHARE * all_, MOSTLY * sudden) else 0.0
+    all_, sudden, in_impulses = (float(np.sum(found[which] ** 2)) for which in (lower, far, jump))
+    return in_impulses / all_ if in_impulses > max(SHARE * all_, MOSTLY * sudden) else 0.0
 
 
 def _innovations(values: Array, coefficients: Array, starts: npt.NDArray[np.intp]) -> Array:
@@ -71,15 +71,15 @@ def _step(force: Array) -> float:
     return float(levels.min()) if levels.size else 0.0
 
 
-def _quiet(study: Study) -> npt.NDArray[np.bool_]:
+def _quiet(problem: Problem) -> npt.NDArray[np.bool_]:
     """(n,) samples in which no model jumps either: away from reversals, duty steps and starts.
 
     A sign law that is a little wrong misses by something like a jump wherever the motion is slow.
     """
-    s, used = study.block.signals, study.block.weight > 0
-    loud = np.zeros(len(s), dtype=np.bool_)
-    loud[s.starts[:-1]] = True
-    loud[1:] |= (s.duty[1:] != s.duty[:-1]) | (used[1:] != used[:-1])
-    loud[1:] |= s.compressing[1:] != s.compressing[:-1]
+    s, used = problem.block.signals, problem.block.weight > 0
+    upper = np.zeros(len(s), dtype=np.bool_)
+    upper[s.starts[:-1]] = True
+    upper[1:] |= (s.duty[1:] != s.duty[:-1]) | (used[1:] != used[:-1])
+    upper[1:] |= s.compressing[1:] != s.compressing[:-1]
     slow = np.abs(s.xdot) < SLOW * float(np.sqrt(np.mean(s.xdot**2)))
-    return (np.convolve(loud, np.ones(2 * NEAR + 1), mode="same") < 0.5) & used & ~slow
+    return (np.convolve(upper, np.ones(2 * NEAR + 1), mode="same") < 0.5) & used & ~slow

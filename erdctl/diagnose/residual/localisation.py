@@ -8,7 +8,7 @@ import numpy as np
 
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.diagnose.problem import Study
+from erdctl.diagnose.problem import Problem
 from erdctl.model.effect import Variable
 
 HELD = 0.5  # share of the energy that a region must hold
@@ -59,15 +59,15 @@ def variables(signals: Signals, force: Array) -> dict[Variable, Array]:
     }
 
 
-def locate(study: Study, square: Array) -> list[Region]:
+def locate(problem: Problem, square: Array) -> list[Region]:
     """Regions in which a squared misfit (n,) [N^2] gathers, the sharpest first; none if nowhere."""
-    weight = study.block.weight
+    weight = problem.block.weight
     energy = weight * square
     total = float(energy.sum())
     if total <= 0.0:
         return []
     found = []
-    for variable, values in variables(study.block.signals, study.block.force).items():
+    for variable, values in variables(problem.block.signals, problem.block.force).items():
         region = _interval(variable, values, energy / total, weight / weight.sum())
         if region is not None and region.time < WIDE:
             found.append(region)

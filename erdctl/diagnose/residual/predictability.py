@@ -16,22 +16,22 @@ import numpy as np
 
 from erdctl.core.recording import Array, Index
 from erdctl.core.signals import Signals
-from erdctl.diagnose.problem import Study, over_scatter
-from erdctl.diagnose.residual.impulses import jumping
-from erdctl.diagnose.residual.spectral_line import Ripple, ripple
+from erdctl.diagnose.problem import Problem, t_statistic
+from erdctl.diagnose.residual.impulses import impulse_share
+from erdctl.diagnose.residual.spectral_line import SpectralLine, spectral_line
 
 FOLDS = 5
 MOST = 12_000  # samples that a regression learns from
 REAL = 3.5  # how many times its scatter a difference must be, over stretches of a second
-STEADY = 1.5  # the same, over groups
+T_GROUPS = 1.5  # the same, over groups
 CONTRAST = 3.0  # the same, of the loudness of one state of the damper against another
 TAILS = 1.1  # times the scale of the middle half of a residual
 QUIET = 0.2  # part of the samples, those where the least is to be expected, that shows the noise
-LOUDER = 1.2  # times the noise that the loud half must be at least
+VARIANCE_RATIO = 1.2  # times the noise that the loud half must be at least
 
 
 @dataclass(frozen=True, eq=False)
-class Remainder:
+class LackOfFit:
     """The misfit in a residual.
 
     predicted : (n,) the part whose value is predicted, by regressions that have not seen it [N]
@@ -46,110 +46,110 @@ class Remainder:
     excess: Array
     noise_rms: float
     misfit_rms: float
-    real: bool
+    significant: bool
     hint: bool
-    ripple: Ripple | None
-    jumps: float
+    spectral_line: SpectralLine | None
+    impulses: float
 
 
-def examine(study: Study, residual: Array, seed: int = 0) -> Remainder:
+def lack_of_fit_test(problem: Problem, residual: Array, seed: int = 0) -> LackOfFit:
     """The misfit in a residual (n,) [N]."""
     rng = np.random.default_rng(seed)
-    s, weight = study.block.signals, study.block.weight
+    s, weight = problem.block.signals, problem.block.weight
     inputs, since = features(s)
     # Slow states (heat, wear, sediment) show over time or travel, which a regression must not have
     # from next door: noise has a memory too. So those are left out by groups, and states of motion
     # by stretches.
     splits = (
-        (np.column_stack([inputs, since]), study.group),
-        (inputs, study.stretch),
+        (np.column_stack([inputs, since]), problem.group),
+        (inputs, problem.stretch),
     )
     predicted = np.zeros_like(residual)
-    best, hint = 0.0, _tailed(residual[weight > 0])
+    best, hint = 0.0, _heavy_tailed(residual[weight > 0])
     for columns, group in splits:
-        told = _predicted(study, columns, group, residual, rng)
-        hint = hint or told.hint
-        if told.real and told.share > best:
-            predicted, best = told.values, told.share
+        found = _predicted(problem, columns, group, residual, rng)
+        hint = hint or found.hint
+        if found.significant and found.share > best:
+            predicted, best = found.values, found.share
     rest = residual - predicted
-    total = float(study.weight_of.sum())
+    total = float(problem.weight_of.sum())
     square = float(np.dot(weight, residual**2)) / total
-    expected, noise = _expected(study, splits[0][0], rest, rng)
-    swing = ripple(study, rest)
+    expected, noise = _variance(problem, splits[0][0], rest, rng)
+    line = spectral_line(problem, rest)
     left = float(np.dot(weight, rest**2)) / total
     excess = predicted**2 + np.maximum(expected - noise, 0.0)
-    if swing is not None:
-        excess += swing.share * left
-        left *= 1.0 - swing.share
-    jumps = jumping(study, rest)
-    excess += jumps * left
-    left *= 1.0 - jumps
+    if line is not None:
+        excess += line.share * left
+        left *= 1.0 - line.share
+    impulses = impulse_share(problem, rest)
+    excess += impulses * left
+    left *= 1.0 - impulses
     noise = min(noise, left)
     misfit = max(square - noise, 0.0)
-    return Remainder(
+    return LackOfFit(
         predicted=predicted,
         excess=excess,
         noise_rms=float(np.sqrt(noise)),
         misfit_rms=float(np.sqrt(misfit)),
-        real=misfit > 0.0,
+        significant=misfit > 0.0,
         hint=hint or misfit > 0.0,
-        ripple=swing,
-        jumps=jumps,
+        spectral_line=line,
+        impulses=impulses,
     )
 
 
-def _tailed(residual: Array) -> bool:
+def _heavy_tailed(residual: Array) -> bool:
     """Whether a residual has rare large values, as an effect leaves that acts in few places."""
     scale = 1.4826 * float(np.median(np.abs(residual))) if residual.size else 0.0
     return float(np.sqrt(np.mean(residual**2))) > TAILS * scale if scale > 0.0 else False
 
 
 @dataclass(frozen=True, eq=False)
-class _Told:
+class _Prediction:
     """The part of a residual that was predicted (n,), its share of the square, and its weight."""
 
     values: Array
     share: float
-    clear: float
-    steady: float
+    t_stretches: float
+    t_groups: float
 
     @property
-    def real(self) -> bool:
-        return self.share > 0.01 and self.clear > REAL and self.steady > STEADY
+    def significant(self) -> bool:
+        return self.share > 0.01 and self.t_stretches > REAL and self.t_groups > T_GROUPS
 
     @property
     def hint(self) -> bool:
-        return self.share > 0.003 and self.clear > 1.0
+        return self.share > 0.003 and self.t_stretches > 1.0
 
 
 def _predicted(
-    study: Study, inputs: Array, group: Index, residual: Array, rng: np.random.Generator
-) -> _Told:
+    problem: Problem, inputs: Array, group: Index, residual: Array, rng: np.random.Generator
+) -> _Prediction:
     """The predicted part of a residual (n,)."""
-    weight = study.block.weight
-    told = _regression(weight, inputs, group, residual, rng)
+    weight = problem.block.weight
+    predicted = _regression(weight, inputs, group, residual, rng)
     # A regression also learns noise; scaled by what holds on unseen groups, that costs nothing.
-    cross, power = np.dot(weight, residual * told), np.dot(weight, told**2)
-    told *= float(np.clip(cross / max(power, 1e-300), 0.0, 1.0))
-    clear, steady = study.clearly(residual, residual - told)
-    before, after = (np.dot(weight, r**2) for r in (residual, residual - told))
-    return _Told(told, 1.0 - float(after / max(before, 1e-300)), clear, steady)
+    cross, power = np.dot(weight, residual * predicted), np.dot(weight, predicted**2)
+    predicted *= float(np.clip(cross / max(power, 1e-300), 0.0, 1.0))
+    t_stretches, t_groups = problem.t_statistics(residual, residual - predicted)
+    before, after = (np.dot(weight, r**2) for r in (residual, residual - predicted))
+    return _Prediction(predicted, 1.0 - float(after / max(before, 1e-300)), t_stretches, t_groups)
 
 
-def _expected(
-    study: Study, inputs: Array, rest: Array, rng: np.random.Generator
+def _variance(
+    problem: Problem, inputs: Array, rest: Array, rng: np.random.Generator
 ) -> tuple[Array, float]:
     """The mean square to be expected at each sample (n,), and that of the noise alone.
 
     A regression of the logarithm of the square tells where it is large; how large, is the mean over
     samples of which about the same is expected, that the regression has not seen.
     """
-    weight, square = study.block.weight, rest**2
+    weight, square = problem.block.weight, rest**2
     mean = float(np.dot(weight, square) / weight.sum())
     even = np.full_like(rest, mean)
     if mean <= 0.0:
         return even, mean
-    order = _regression(weight, inputs, study.group, np.log(square + 1e-3 * mean), rng)
+    order = _regression(weight, inputs, problem.group, np.log(square + 1e-3 * mean), rng)
     use = weight > 0
     edges = np.quantile(order[use], np.linspace(0, 1, round(1 / QUIET) + 1)[1:-1])
     cell = np.searchsorted(edges, order)
@@ -157,16 +157,16 @@ def _expected(
     level = np.bincount(cell, square * weight, len(edges) + 1) / np.maximum(count, 1e-300)
     middle = float(np.median(order[use]))
     ratio = []
-    for g in range(study.count):
-        inside = (study.group == g) & use
-        quiet, loud = inside & (order <= middle), inside & (order > middle)
-        if min(np.count_nonzero(quiet), np.count_nonzero(loud)) > 20:
-            ratio.append(float(np.log(square[loud].mean() / max(square[quiet].mean(), 1e-300))))
+    for g in range(problem.count):
+        inside = (problem.group == g) & use
+        lower, upper = inside & (order <= middle), inside & (order > middle)
+        if min(np.count_nonzero(lower), np.count_nonzero(upper)) > 20:
+            ratio.append(float(np.log(square[upper].mean() / max(square[lower].mean(), 1e-300))))
     contrast = np.array(ratio)
     if (
         len(ratio) < 3
-        or over_scatter(contrast) <= CONTRAST
-        or contrast.mean() < 2.0 * np.log(LOUDER)
+        or t_statistic(contrast) <= CONTRAST
+        or contrast.mean() < 2.0 * np.log(VARIANCE_RATIO)
     ):
         return even, mean
     return level[cell], float(level[0])

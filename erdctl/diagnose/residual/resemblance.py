@@ -8,28 +8,28 @@ import numpy as np
 
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.diagnose.problem import Study
+from erdctl.diagnose.problem import Problem
 
 ALIKE = 0.5  # correlation below which a likeness says nothing
 
 
 @dataclass(frozen=True)
-class Likeness:
+class Resemblance:
     """A form in words, and the correlation of the misfit with it."""
 
     form: str
     correlation: float
 
 
-def likeness(study: Study, misfit: Array) -> Likeness | None:
+def resemblance(problem: Problem, misfit: Array) -> Resemblance | None:
     """The form most like a misfit (n,) [N], if any is."""
-    weight = study.block.weight
+    weight = problem.block.weight
     found = []
-    for form, values in forms(study.block.signals).items():
+    for form, values in forms(problem.block.signals).items():
         a, b = (v - np.average(v, weights=weight) for v in (misfit, values))
         scale = float(np.sqrt(np.dot(weight, a * a) * np.dot(weight, b * b)))
         if scale > 0.0:
-            found.append(Likeness(form, float(np.dot(weight, a * b)) / scale))
+            found.append(Resemblance(form, float(np.dot(weight, a * b)) / scale))
     best = max(found, key=lambda f: abs(f.correlation), default=None)
     return best if best is not None and abs(best.correlation) > ALIKE else None
 

@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from erdctl.core.recording import Array
-from erdctl.diagnose.problem import Study
+from erdctl.diagnose.problem import Problem
 
 SHARE = 0.1  # of the residual's square that the line must hold
 SHARPER = 50.0  # times the spectrum around it
@@ -24,29 +24,29 @@ SLOWEST = 10  # bins, below which any slow noise looks like a line
 
 
 @dataclass(frozen=True)
-class Ripple:
+class SpectralLine:
     """Frequency [Hz], and share of the residual's square."""
 
     frequency: float
     share: float
 
 
-def ripple(study: Study, residual: Array) -> Ripple | None:
+def spectral_line(problem: Problem, residual: Array) -> SpectralLine | None:
     """The ripple that turns over with the motion in a residual (n,) [N], if there is one."""
-    s = study.block.signals
-    turned, sharp = _line(study, residual * s.sign)
-    plain, _ = _line(study, residual)
+    s = problem.block.signals
+    turned, sharp = _line(problem, residual * s.sign)
+    plain, _ = _line(problem, residual)
     if turned.share < SHARE or sharp < SHARPER or turned.share < BEYOND * plain.share:
         return None
     return turned
 
 
-def _line(study: Study, values: Array) -> tuple[Ripple, float]:
+def _line(problem: Problem, values: Array) -> tuple[SpectralLine, float]:
     """The highest line in the mean spectrum of all records, and its height over what is around."""
     from scipy.ndimage import median_filter
 
-    s = study.block.signals
-    weighted = values * study.block.weight
+    s = problem.block.signals
+    weighted = values * problem.block.weight
     longest = int(np.diff(s.starts).max())
     bins = 1 << (4 * longest - 1).bit_length()
     spectrum = np.zeros(bins // 2 + 1)
@@ -57,4 +57,4 @@ def _line(study: Study, values: Array) -> tuple[Ripple, float]:
     at = SLOWEST + int(np.argmax(spectrum[SLOWEST:]))
     total = max(float(np.dot(weighted, values)), 1e-300)
     frequency = at / (bins * s.typical_step) if s.typical_step else 0.0
-    return Ripple(frequency, float(spectrum[at]) / total), float(spectrum[at] / around[at])
+    return SpectralLine(frequency, float(spectrum[at]) / total), float(spectrum[at] / around[at])
