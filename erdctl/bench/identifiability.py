@@ -6,7 +6,7 @@ met means "can be tested", one that is not "cannot be told from this log", never
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import pi
 from typing import Generic, TypeVar
@@ -245,3 +245,16 @@ def unmet(recording: Recording) -> dict[str, Lack]:
 def untestable(survey: Survey, candidates: Sequence[Effect]) -> dict[str, str]:
     """Effects that a log cannot show, each with what is missing."""
     return {c.name: c.lack.reason for c in effects(survey, candidates) if c.lack is not None}
+
+
+def held_values(needs: Mapping[str, Lack]) -> dict[str, float]:
+    """Values for parameters that the data cannot identify, chosen so that the rest can be fitted.
+
+    With one level of duty any beta will do, since sigma takes up the difference; without a field
+    there is no yield force; without control steps there is no lag to see.
+    """
+    return {
+        name: 1.0 if name.endswith(".beta") else 0.0
+        for name, need in needs.items()
+        if not need.confounded
+    }

@@ -90,10 +90,11 @@ def command(
     from erdctl.cli.pictures import draw, wanted
     from erdctl.cli.reading import read_logs
     from erdctl.core.errors import CheckFailed
+    from erdctl.diagnose.corrected import parameters
     from erdctl.diagnose.diagnosis import Verdict, diagnose
     from erdctl.diagnose.record_effects import Varying
     from erdctl.io import documents
-    from erdctl.io.diagnosis import parameters, to_json
+    from erdctl.io.diagnosis import to_json
     from erdctl.report.text import progress, say
 
     check_report(report)
@@ -164,7 +165,7 @@ def _report(found: Diagnosis, document: dict[str, Any], path: str, seed: int) ->
     import sys
 
     from erdctl.cli.pages import write_report
-    from erdctl.io.diagnosis import baseline, parameters
+    from erdctl.diagnose.corrected import baseline, parameters
     from erdctl.model.simulate import simulate
     from erdctl.report.page.diagnosis import diagnosis_page
     from erdctl.report.page.render import Run
@@ -179,7 +180,8 @@ def _report(found: Diagnosis, document: dict[str, Any], path: str, seed: int) ->
 
 
 def _show(found: Diagnosis) -> None:
-    from erdctl.io.diagnosis import finding_text, parameters, record_values, remaining_text
+    from erdctl.diagnose.corrected import parameters
+    from erdctl.diagnose.wording import finding_text, record_values, remaining_text
     from erdctl.report.text import number, say, table
 
     def with_error(value: float, error: float | None) -> str:

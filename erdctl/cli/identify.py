@@ -77,8 +77,7 @@ def _parameters(found: Identification, method: Method, recording: object) -> Par
 
     from erdctl.core.errors import InputProblem
     from erdctl.core.recording import Recording
-    from erdctl.io.parameters import provenance
-    from erdctl.model.parameters import Parameters
+    from erdctl.model.parameters import Parameters, provenance
 
     assert isinstance(recording, Recording)
     estimates = dict(found.joint)

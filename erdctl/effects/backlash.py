@@ -20,7 +20,8 @@ from __future__ import annotations
 
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import MotionSlot, Values
 
 
 def backlash(s: Signals, p: Values) -> Signals:
@@ -41,7 +42,7 @@ def free_play(p: Values) -> float:
 EFFECT = Effect(
     name="backlash",
     stage=Stage.MOTION,
-    slot=Slot.MOTION,
+    slot=MotionSlot(backlash, free_play=free_play),
     title="lost motion between the measured rod and the piston",
     equation="x_p = x - q, |q| <= g/2, dq/dt = xdot in the play and 0 on its flanks",
     source="Nordin and Gutman, Automatica 38 (2002) 1633-1649",
@@ -54,7 +55,5 @@ EFFECT = Effect(
             low=1e-7, high=0.05, start=1e-4, scale=Scale.LOG,
         ),
     ),
-    apply=backlash,
-    free_play=free_play,
     companions=("mount_compliance", "coulomb_friction"),
 )  # fmt: skip

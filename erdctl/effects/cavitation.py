@@ -24,7 +24,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import ScaleSlot, Values
 
 NEGLIGIBLE = 1e-12  # m
 
@@ -61,7 +62,7 @@ def _void(s: Signals, x_v: float, growth: float) -> tuple[Array, Array]:
     return void[stroke], total - began[stroke]
 
 
-def guesses(s: Signals) -> list[dict[str, float]]:
+def guesses(s: Signals, rest: Array) -> list[dict[str, float]]:
     """Starts of a search: voids that every compression fills, and such as only long ones do."""
     stroke = float(np.ptp(s.x)) / 2
     sizes = [part * stroke for part in (0.003, 0.01, 0.03, 0.1, 0.3)]
@@ -74,7 +75,7 @@ def guesses(s: Signals) -> list[dict[str, float]]:
 EFFECT = Effect(
     name="cavitation",
     stage=Stage.FLUID,
-    slot=Slot.SCALE,
+    slot=ScaleSlot(cavitation),
     title="release force lost until the void is taken up",
     equation="F_viscous, F_yield -> (1 - lambda min(1, V / (e x_v))) of them in release;"
     " dV = g dx up to x_v in compression, dV = dx down to 0 in release",
@@ -100,6 +101,5 @@ EFFECT = Effect(
             low=0.0, high=1.0, start=0.5,
         ),
     ),
-    apply=cavitation,
     guesses=guesses,
 )  # fmt: skip

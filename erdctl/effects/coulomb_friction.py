@@ -14,7 +14,8 @@ from __future__ import annotations
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import TermSlot, Values
 
 
 def coulomb_friction(s: Signals, p: Values) -> Array:
@@ -25,7 +26,7 @@ def coulomb_friction(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="coulomb_friction",
     stage=Stage.FRICTION,
-    slot=Slot.TERM,
+    slot=TermSlot(),
     title="constant seal friction",
     equation="F = F_c sign(xdot)",
     source="Armstrong-Hélouvry, Dupont and Canudas de Wit, Automatica 30 (1994) 1083-1138",

@@ -16,8 +16,9 @@ from __future__ import annotations
 
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.faults import ONSET, FaultKind, onsets, set_in
+from erdctl.model.slots import ScaleSlot, Values
 
 
 def deformation_fault(s: Signals, p: Values) -> dict[str, Array]:
@@ -28,7 +29,7 @@ def deformation_fault(s: Signals, p: Values) -> dict[str, Array]:
 EFFECT = Effect(
     name="deformation_fault",
     stage=Stage.FAULT,
-    slot=Slot.SCALE,
+    slot=ScaleSlot(deformation_fault),
     title="a deformed duct takes a part of the viscous and the yield force",
     equation="F = gas + f [viscous + yield] for t >= t_0",
     source="the ER damper paper, Eq. 23",
@@ -36,6 +37,5 @@ EFFECT = Effect(
     requires=(Requirement.TIME,),
     shows=Variable.TIME,
     quantities=ONSET,
-    apply=deformation_fault,
     guesses=onsets,
 )

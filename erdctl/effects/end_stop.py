@@ -17,7 +17,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import TermSlot, Values
 
 
 def end_stop(s: Signals, p: Values) -> Array:
@@ -26,7 +27,7 @@ def end_stop(s: Signals, p: Values) -> Array:
     return np.array([np.maximum(s.x - stop, 0.0), -np.maximum(-s.x - stop, 0.0)])
 
 
-def starts(s: Signals) -> list[Values]:
+def starts(s: Signals, rest: Array) -> list[Values]:
     """Stops that the recorded stroke would touch."""
     reached = float(np.abs(s.x).max())
     return [{"x_stop": max(part * reached, 1e-4)} for part in (0.5, 0.7, 0.85, 0.95)]
@@ -35,7 +36,7 @@ def starts(s: Signals) -> list[Values]:
 EFFECT = Effect(
     name="end_stop",
     stage=Stage.MOTION,
-    slot=Slot.TERM,
+    slot=TermSlot(),
     title="stiff contact beyond a stroke limit",
     equation="F = k_c max(x - x_stop, 0) - k_r max(-x - x_stop, 0)",
     source="Dixon, The Shock Absorber Handbook (2007); Hunt and Crossley (1975)",

@@ -18,7 +18,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import FieldSlot, Values
 
 
 def field_saturation(field: Array, s: Signals, p: Values, way: str) -> Array:
@@ -30,7 +31,7 @@ def field_saturation(field: Array, s: Signals, p: Values, way: str) -> Array:
     return level
 
 
-def alike(s: Signals) -> list[dict[str, float]]:
+def alike(s: Signals, rest: Array) -> list[dict[str, float]]:
     """Starts of a search: about the same in both directions."""
     return [{"a_c": a, "a_r": a} for a in (0.1, 0.3, 1.0, 3.0, 10.0)]
 
@@ -38,7 +39,7 @@ def alike(s: Signals) -> list[dict[str, float]]:
 EFFECT = Effect(
     name="field_saturation",
     stage=Stage.FIELD,
-    slot=Slot.FIELD,
+    slot=FieldSlot(field_saturation),
     title="yield stress levels off at high duty",
     equation="F_ER -> sigma tanh(a v^beta) / a",
     source="Choi et al., Appl. Phys. Lett. 78 (2001) 3806-3808",
@@ -54,6 +55,5 @@ EFFECT = Effect(
             for way in DIRECTIONS
         ),
     ),
-    apply=field_saturation,
     guesses=alike,
 )  # fmt: skip

@@ -16,7 +16,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import ControlSlot, Values
 
 
 def field_threshold(s: Signals, p: Values) -> Array:
@@ -28,7 +29,7 @@ def field_threshold(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="field_threshold",
     stage=Stage.FIELD,
-    slot=Slot.CONTROL,
+    slot=ControlSlot(field_threshold),
     title="no yield stress below a critical duty",
     equation="F_ER -> sigma max(v - v_c, 0)^beta",
     source="Block and Kelly, J. Phys. D 21 (1988) 1661-1677",
@@ -41,6 +42,5 @@ EFFECT = Effect(
             low=0.0, high=0.95, start=0.05,
         ),
     ),
-    apply=field_threshold,
     order=20,  # the fluid comes after the amplifier
 )  # fmt: skip

@@ -15,7 +15,8 @@ vehicle suspension applications, Smart Mater. Struct. 5 (1996) 591-606; J. C. Ma
 from __future__ import annotations
 
 from erdctl.core.quantity import Quantity, Scale
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import SeriesSlot, Values
 
 
 def fluid_compressibility(p: Values) -> float:
@@ -26,7 +27,7 @@ def fluid_compressibility(p: Values) -> float:
 EFFECT = Effect(
     name="fluid_compressibility",
     stage=Stage.FLUID,
-    slot=Slot.SERIES,
+    slot=SeriesSlot(fluid_compressibility, carries=("viscous", "yield")),
     title="fluid force through a series stiffness (Maxwell)",
     equation="F_f = c_vis v + F_ER sign(v), v = xdot - s_f dF_f/dt",
     source="Peel, Stanway and Bullough, Smart Mater. Struct. 5 (1996) 591-606",
@@ -39,7 +40,5 @@ EFFECT = Effect(
             low=1e-12, high=1.0, start=1e-5, scale=Scale.LOG,
         ),
     ),
-    apply=fluid_compressibility,
-    carries=("viscous", "yield"),
     equivalents=("mount_compliance",),
 )  # fmt: skip

@@ -17,7 +17,8 @@ from __future__ import annotations
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import TermSlot, Values
 
 
 def fluid_inertia(s: Signals, p: Values) -> Array:
@@ -28,7 +29,7 @@ def fluid_inertia(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="fluid_inertia",
     stage=Stage.FLUID,
-    slot=Slot.TERM,
+    slot=TermSlot(),
     title="inertia of the fluid column and of the moving parts",
     equation="F = m d2x/dt2",
     source="Peel, Stanway and Bullough, Smart Mater. Struct. 5 (1996) 591-606",

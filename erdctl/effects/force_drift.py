@@ -16,7 +16,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import TermSlot, Values
 
 
 def force_drift(s: Signals, p: Values) -> Array:
@@ -28,7 +29,7 @@ def force_drift(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="force_drift",
     stage=Stage.SENSOR,
-    slot=Slot.TERM,
+    slot=TermSlot(),
     title="slow zero drift of the force channel",
     equation="F = d_1 (t - t_0) + d_2 (t - t_0)^2, t_0 the first time of the record",
     source="VDI/VDE/DKD 2638 (2008)",

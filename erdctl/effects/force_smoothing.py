@@ -24,7 +24,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array, Index
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import ChannelSlot, Values
 
 FINEST = 1e-9  # of a log: a window narrower than that is lost in rounding
 
@@ -128,7 +129,7 @@ def _cycles(s: Signals) -> Array:
 EFFECT = Effect(
     name="force_smoothing",
     stage=Stage.SENSOR,
-    slot=Slot.CHANNEL,
+    slot=ChannelSlot(force_smoothing),
     title="force recorded as a moving average over a part of the motion's cycle",
     equation="F_rec(t) = mean of F from t - w T/2 to t + w T/2",
     source="Smith, The Scientist and Engineer's Guide to Digital Signal Processing (1997) ch. 15",
@@ -141,6 +142,5 @@ EFFECT = Effect(
             low=0.0, high=0.5, start=0.1,
         ),
     ),
-    apply=force_smoothing,
     order=1,
 )  # fmt: skip

@@ -16,7 +16,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import TermSlot, Values
 
 
 def gas_preload(s: Signals, p: Values) -> Array:
@@ -27,7 +28,7 @@ def gas_preload(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="gas_preload",
     stage=Stage.GAS,
-    slot=Slot.TERM,
+    slot=TermSlot(),
     title="constant static gas force",
     equation="F = F_0",
     source="the ER damper paper, Eqs. 3 and 4",

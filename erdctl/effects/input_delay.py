@@ -22,7 +22,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import FieldSlot, Values
 
 
 def input_delay(field: Array, s: Signals, p: Values, way: str) -> Array:
@@ -43,7 +44,7 @@ def input_delay(field: Array, s: Signals, p: Values, way: str) -> Array:
 EFFECT = Effect(
     name="input_delay",
     stage=Stage.FIELD,
-    slot=Slot.FIELD,
+    slot=FieldSlot(input_delay),
     title="dead time between duty and yield stress",
     equation="T_d dF_ER/dt + F_ER = sigma v(t - tau)^beta",
     source="Koo, Goncalves and Ahmadian, Smart Mater. Struct. 15 (2006) 351-358",
@@ -56,6 +57,5 @@ EFFECT = Effect(
             low=0.0, high=1.0, start=5e-3,
         ),
     ),
-    apply=input_delay,
     order=10,  # of a constant delay and a memoryless law the order does not matter
 )  # fmt: skip

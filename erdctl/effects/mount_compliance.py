@@ -15,7 +15,8 @@ supplemental fluid dampers, Struct. Design Tall Build. 2 (1993) 93-132; J. C. Ma
 from __future__ import annotations
 
 from erdctl.core.quantity import Quantity, Scale
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import SeriesSlot, Values
 
 
 def mount_compliance(p: Values) -> float:
@@ -26,7 +27,7 @@ def mount_compliance(p: Values) -> float:
 EFFECT = Effect(
     name="mount_compliance",
     stage=Stage.MOTION,
-    slot=Slot.SERIES,
+    slot=SeriesSlot(mount_compliance),
     title="elastic mount in series with the damper, of stiffness k_m = 1 / s_m",
     equation="x_p = x - s_m F, xdot_p = xdot - s_m dF/dt",
     source="Constantinou and Symans, Struct. Design Tall Build. 2 (1993) 93-132",
@@ -39,6 +40,5 @@ EFFECT = Effect(
             low=1e-12, high=1.0, start=1e-5, scale=Scale.LOG,
         ),
     ),
-    apply=mount_compliance,
     equivalents=("fluid_compressibility",),
 )  # fmt: skip

@@ -16,8 +16,9 @@ from __future__ import annotations
 
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.faults import ONSET, FaultKind, onsets, set_in
+from erdctl.model.slots import ScaleSlot, Values
 
 
 def oil_leakage(s: Signals, p: Values) -> dict[str, Array]:
@@ -28,7 +29,7 @@ def oil_leakage(s: Signals, p: Values) -> dict[str, Array]:
 EFFECT = Effect(
     name="oil_leakage",
     stage=Stage.FAULT,
-    slot=Slot.SCALE,
+    slot=ScaleSlot(oil_leakage),
     title="leakage of the fluid takes a part of all forces",
     equation="F = f [gas + viscous + yield] for t >= t_0",
     source="the ER damper paper, Eq. 20",
@@ -36,6 +37,5 @@ EFFECT = Effect(
     requires=(Requirement.TIME,),
     shows=Variable.TIME,
     quantities=ONSET,
-    apply=oil_leakage,
     guesses=onsets,
 )

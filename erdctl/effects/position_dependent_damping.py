@@ -17,7 +17,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import ScaleSlot, Values
 
 
 def position_dependent_damping(s: Signals, p: Values) -> dict[str, Array]:
@@ -32,7 +33,7 @@ def position_dependent_damping(s: Signals, p: Values) -> dict[str, Array]:
 EFFECT = Effect(
     name="position_dependent_damping",
     stage=Stage.POSITION,
-    slot=Slot.SCALE,
+    slot=ScaleSlot(position_dependent_damping),
     title="damping varies along the stroke",
     equation="F_viscous -> max(1 + b_1 x + b_2 x^2, 0) of it, F_yield with e_1, e_2",
     source="Dixon, The Shock Absorber Handbook (2007)",
@@ -57,5 +58,4 @@ EFFECT = Effect(
             low=-1e7, high=1e7, start=100.0,
         ),
     ),
-    apply=position_dependent_damping,
 )  # fmt: skip

@@ -19,7 +19,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import ScaleSlot, Values
 
 REFERENCE = 0.1  # m/s
 
@@ -32,7 +33,7 @@ def power_law_yield(s: Signals, p: Values) -> dict[str, Array]:
 EFFECT = Effect(
     name="power_law_yield",
     stage=Stage.FLUID,
-    slot=Slot.SCALE,
+    slot=ScaleSlot(power_law_yield),
     title="the yield force rises with a power of speed (Herschel-Bulkley)",
     equation="F_ER -> F_ER (|xdot| / 0.1 m/s)^n",
     source="Yang, Spencer, Carlson and Sain, Engineering Structures 24 (2002) 309-323",
@@ -45,6 +46,5 @@ EFFECT = Effect(
             low=0.0, high=1.0, start=0.1,
         ),
     ),
-    apply=power_law_yield,
     of_speed=True,
 )  # fmt: skip

@@ -19,8 +19,9 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.kernels import follow
+from erdctl.model.slots import TermSlot, Values
 
 
 def presliding_friction(s: Signals, p: Values) -> Array:
@@ -36,7 +37,7 @@ def presliding_friction(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="presliding_friction",
     stage=Stage.FRICTION,
-    slot=Slot.TERM,
+    slot=TermSlot(),
     title="elastic pre-sliding loop at reversal (Dahl, LuGre)",
     equation="F = F_c z, dz/dx = (1 - z sign(xdot)) / x_d",
     source="Dahl, AIAA Journal 14 (1976) 1675-1682; Canudas de Wit et al. (1995)",

@@ -19,8 +19,9 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.kernels import follow
+from erdctl.model.slots import Values, YieldSlot
 
 
 def preyield_elasticity(force: Array, s: Signals, p: Values) -> Array:
@@ -37,7 +38,7 @@ def preyield_elasticity(force: Array, s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="preyield_elasticity",
     stage=Stage.FLUID,
-    slot=Slot.YIELD,
+    slot=YieldSlot(preyield_elasticity),
     title="the yield force rebuilds over a distance after every reversal (Bouc-Wen)",
     equation="x_d dF_y/d|x| + F_y = F_ER sign(xdot)",
     source="Spencer et al., J. Engineering Mechanics 123 (1997) 230-238, Eqs. 3, 4",
@@ -50,6 +51,5 @@ EFFECT = Effect(
             low=1e-7, high=0.1, start=1e-4, scale=Scale.LOG,
         ),
     ),
-    apply=preyield_elasticity,
     companions=("preyield_viscosity",),
 )  # fmt: skip

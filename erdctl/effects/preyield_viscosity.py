@@ -16,7 +16,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import SignSlot, Values
 
 
 def preyield_viscosity(s: Signals, p: Values) -> Array:
@@ -30,7 +31,7 @@ def preyield_viscosity(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="preyield_viscosity",
     stage=Stage.FLUID,
-    slot=Slot.SIGN,
+    slot=SignSlot(preyield_viscosity),
     title="bi-viscous flow: tanh(xdot / v_y) in place of sign(xdot)",
     equation="F_ER sign(xdot) -> F_ER tanh(xdot / v_y)",
     source="Stanway, Sproston and El-Wahed, Smart Mater. Struct. 5 (1996) 464-482",
@@ -43,7 +44,6 @@ EFFECT = Effect(
             low=1e-6, high=10.0, start=0.01, scale=Scale.LOG,
         ),
     ),
-    apply=preyield_viscosity,
     companions=("mount_compliance",),
     of_speed=True,
 )  # fmt: skip

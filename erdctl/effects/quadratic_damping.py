@@ -15,7 +15,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import TermSlot, Values
 
 
 def quadratic_damping(s: Signals, p: Values) -> Array:
@@ -26,7 +27,7 @@ def quadratic_damping(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="quadratic_damping",
     stage=Stage.FLUID,
-    slot=Slot.TERM,
+    slot=TermSlot(),
     title="turbulent loss",
     equation="F = c_2 xdot |xdot|",
     source="Dixon, The Shock Absorber Handbook (2007)",

@@ -18,7 +18,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import LagSlot, Values
 
 
 def rise_decay_asymmetry(s: Signals, p: Values) -> Array:
@@ -29,7 +30,7 @@ def rise_decay_asymmetry(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="rise_decay_asymmetry",
     stage=Stage.FIELD,
-    slot=Slot.LAG,
+    slot=LagSlot(rise_decay_asymmetry),
     title="T_d differs between rising and falling yield force",
     equation="T_d -> r T_d while |F_ER| > |u|",
     source="Koo, Goncalves and Ahmadian, Smart Mater. Struct. 15 (2006) 351-358",
@@ -42,5 +43,4 @@ EFFECT = Effect(
             low=0.02, high=50.0, start=2.0, off=1.0, scale=Scale.LOG,
         ),
     ),
-    apply=rise_decay_asymmetry,
 )  # fmt: skip

@@ -17,8 +17,9 @@ from __future__ import annotations
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.kernels import follow
+from erdctl.model.slots import Values, YieldSlot
 
 
 def signed_yield_lag(force: Array, s: Signals, p: Values) -> Array:
@@ -35,7 +36,7 @@ def signed_yield_lag(force: Array, s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="signed_yield_lag",
     stage=Stage.FLUID,
-    slot=Slot.YIELD,
+    slot=YieldSlot(signed_yield_lag),
     title="the lag acts on the signed yield force, which rebuilds after every reversal",
     equation="T_s dF_y/dt + F_y = F_ER sign(xdot)",
     source="Gamota and Filisko, J. Rheol. 35 (1991) 399-425",
@@ -48,5 +49,4 @@ EFFECT = Effect(
             low=1e-5, high=10.0, start=0.01, scale=Scale.LOG,
         ),
     ),
-    apply=signed_yield_lag,
 )  # fmt: skip

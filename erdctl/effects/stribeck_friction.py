@@ -17,7 +17,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import TermSlot, Values
 
 
 def stribeck_friction(s: Signals, p: Values) -> Array:
@@ -28,7 +29,7 @@ def stribeck_friction(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="stribeck_friction",
     stage=Stage.FRICTION,
-    slot=Slot.TERM,
+    slot=TermSlot(),
     title="friction that falls from static to kinetic with speed",
     equation="F = [F_k + F_sk exp(-(xdot / v_s)^2)] sign(xdot), F_sk = F_s - F_k",
     source="Armstrong-Hélouvry, Dupont and Canudas de Wit, Automatica 30 (1994) 1083-1138",

@@ -16,7 +16,8 @@ from __future__ import annotations
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import ControlSlot, Values
 
 
 def supply_slew(s: Signals, p: Values) -> Array:
@@ -32,7 +33,7 @@ def supply_slew(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="supply_slew",
     stage=Stage.FIELD,
-    slot=Slot.CONTROL,
+    slot=ControlSlot(supply_slew),
     title="the high-voltage amplifier is slew-rate limited",
     equation="dv_a/dt = sign(v - v_a) / T_full until v_a = v",
     source="Horowitz and Hill, The Art of Electronics (2015), Sec. 4.4",
@@ -45,6 +46,5 @@ EFFECT = Effect(
             low=1e-4, high=100.0, start=0.05, scale=Scale.LOG,
         ),
     ),
-    apply=supply_slew,
     order=10,  # the amplifier comes before the fluid
 )  # fmt: skip

@@ -23,7 +23,8 @@ from collections.abc import Mapping
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import FeedbackSlot, Values
 
 
 def thermal_fade(parts: Mapping[str, Array], s: Signals, p: Values) -> dict[str, Array]:
@@ -41,7 +42,7 @@ def thermal_fade(parts: Mapping[str, Array], s: Signals, p: Values) -> dict[str,
 EFFECT = Effect(
     name="thermal_fade",
     stage=Stage.FLUID,
-    slot=Slot.FEEDBACK,
+    slot=FeedbackSlot(thermal_fade),
     title="viscosity and yield stress fall as dissipated power heats the fluid",
     equation=(
         "F_viscous -> exp(-a_v h) F_viscous, F_yield -> exp(-a_y h) F_yield,"
@@ -65,5 +66,4 @@ EFFECT = Effect(
             low=0.1, high=1e6, start=100.0, off=100.0, scale=Scale.LOG,
         ),
     ),
-    apply=thermal_fade,
 )  # fmt: skip

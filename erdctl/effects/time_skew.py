@@ -19,7 +19,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import ChannelSlot, Values
 
 
 def time_skew(column: Array, s: Signals, p: Values) -> Array:
@@ -33,7 +34,7 @@ def time_skew(column: Array, s: Signals, p: Values) -> Array:
     return out
 
 
-def delays(s: Signals) -> list[dict[str, float]]:
+def delays(s: Signals, rest: Array) -> list[dict[str, float]]:
     """Starts of a search: the cost has a dip of its own for every jump that meets another."""
     step = s.typical_step or 1e-3
     longest = 0.2 * float(np.diff(s.t[[s.starts[:-1], s.starts[1:] - 1]], axis=0).min())
@@ -44,7 +45,7 @@ def delays(s: Signals) -> list[dict[str, float]]:
 EFFECT = Effect(
     name="time_skew",
     stage=Stage.MOTION,
-    slot=Slot.CHANNEL,
+    slot=ChannelSlot(time_skew),
     title="force channel recorded late (or early) against the motion",
     equation="F_rec(t) = F(t - tau)",
     source="Laakso et al., IEEE Signal Processing Magazine 13 (1996) 30-60",
@@ -57,6 +58,5 @@ EFFECT = Effect(
             low=-0.5, high=0.5, start=2e-3,
         ),
     ),
-    apply=time_skew,
     guesses=delays,
 )  # fmt: skip

@@ -20,7 +20,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import SignSlot, Values
 
 
 def yield_hysteresis(s: Signals, p: Values) -> Array:
@@ -35,7 +36,7 @@ def yield_hysteresis(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="yield_hysteresis",
     stage=Stage.FLUID,
-    slot=Slot.SIGN,
+    slot=SignSlot(yield_hysteresis),
     title="loop of the yield force: tanh(k_1 x + c_1 xdot), c_1 = 1 / v_y, k_1 = kappa / v_y",
     equation="F_ER sign(xdot) -> F_ER tanh((xdot + kappa x) / v_y)",
     source="Guo, Yang and Pan, J. Intell. Mater. Syst. Struct. 17 (2006) 3-14",
@@ -52,5 +53,4 @@ EFFECT = Effect(
             low=0.0, high=1e4, start=1.0,
         ),
     ),
-    apply=yield_hysteresis,
 )  # fmt: skip

@@ -27,10 +27,11 @@ from erdctl.mimic.inverse import Laws, compensate, follow, laws_of, static_duty
 from erdctl.mimic.outcome import Correction, Flags, Plan, Reach
 from erdctl.model.amplifier import Amplifier
 from erdctl.model.composed import Model
-from erdctl.model.effect import Slot, Stage, Values
+from erdctl.model.effect import Stage
 from erdctl.model.faults import Fault, FaultFactors, effectiveness, factors
 from erdctl.model.parameters import Parameters
 from erdctl.model.response import Prepared
+from erdctl.model.slots import ChannelSlot, Values
 from erdctl.score.nrmse import nrmse
 
 if TYPE_CHECKING:
@@ -143,7 +144,9 @@ def mimic(
 
 def _damper(whole: Model) -> tuple[Model, tuple[str, ...]]:
     """The model without the effects of the force channel, and their names."""
-    channel = [e for e in whole.effects if e.slot is Slot.CHANNEL or e.stage is Stage.SENSOR]
+    channel = [
+        e for e in whole.effects if isinstance(e.slot, ChannelSlot) or e.stage is Stage.SENSOR
+    ]
     if not channel:
         return whole, ()
     return Model(tuple(e for e in whole.effects if e not in channel)), tuple(

@@ -188,7 +188,7 @@ def set_in(kind: FaultKind, s: Signals, p: Mapping[str, float]) -> dict[str, Arr
     return {"gas": found.gas, "viscous": found.viscous, "yield": found.yield_}
 
 
-def onsets(s: Signals) -> list[dict[str, float]]:
+def onsets(s: Signals, rest: Array) -> list[dict[str, float]]:
     """Where a search for a fault may begin: onsets over the length of the records [s]."""
     parts = (0.15, 0.3, 0.45, 0.6, 0.75, 0.9)
     return [{"f": 0.5, "t_0": float(t_0)} for t_0 in np.quantile(s.t, parts)]

@@ -1,0 +1,323 @@
+"""Where an effect enters the model, and what its function receives and must return there.
+
+One class a slot: it holds the effect's function, whose type is a Protocol, so that a type checker
+holds every effect to its slot; and it calls the function, so that what comes back is checked where
+it is used. Common to all:
+
+s : `Signals`, motion and control at the samples;  p : the effect's values by symbol;  (n,) : one
+value a sample. Values are those *at* a sample, but for two that hold until the next one:
+
+- the duty that `ControlSlot` returns is **held** from its sample to the next, as an amplifier does;
+- the normalised yield force that `FieldSlot` returns is the **mean over the step** that begins at
+  its sample, which Eq. 12 needs: what swings or jumps within a step and is given at the sample
+  comes out half a step late.
+
+A function is pure, finite for all values within the bounds of its parameters, and returns its
+argument itself (or what has no effect) at the off values. It sees records one after the other,
+divided by `s.starts`, and must not let one see another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+
+from erdctl.core.errors import EffectFailed, ErdctlError
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+
+Values = Mapping[str, float]
+Groups = Mapping[str, Array]
+
+GROUPS = ("gas", "viscous", "yield")
+
+
+class MotionFunction(Protocol):
+    """Motion of the piston from that of the rod; `Signals.with_motion` makes it."""
+
+    def __call__(self, s: Signals, p: Values, /) -> Signals: ...
+
+
+class SamplesFunction(Protocol):
+    """(n,) of what the slot takes the place of; see the slot."""
+
+    def __call__(self, s: Signals, p: Values, /) -> Array: ...
+
+
+class FieldFunction(Protocol):
+    """(n,) normalised steady yield force from `field`, in one direction."""
+
+    def __call__(self, field: Array, s: Signals, p: Values, way: str, /) -> Array: ...
+
+
+class ColumnFunction(Protocol):
+    """(n,) what becomes of a force (n,) [N]."""
+
+    def __call__(self, column: Array, s: Signals, p: Values, /) -> Array: ...
+
+
+class ScaleFunction(Protocol):
+    """(n,) factors of groups; a group that is not in it keeps its force."""
+
+    def __call__(self, s: Signals, p: Values, /) -> Groups: ...
+
+
+class FeedbackFunction(Protocol):
+    """(n,) factors of groups from the forces that act without it, by group and `other`."""
+
+    def __call__(self, parts: Groups, s: Signals, p: Values, /) -> Groups: ...
+
+
+class NumberFunction(Protocol):
+    """One number."""
+
+    def __call__(self, p: Values, /) -> float: ...
+
+
+class TermFunction(Protocol):
+    """(k, n) forces at unit amplitudes, one row for each linear parameter, in their order [N]."""
+
+    def __call__(self, s: Signals, p: Values, /) -> Array: ...
+
+
+class StartsFunction(Protocol):
+    """Starts of a search, each with a number for every parameter that is not linear.
+
+    `rest` is what the present model leaves of the force (n,) [N], 0 where it has no weight: from it
+    a frequency or a time can be read. All starts are looked at with one evaluation of the model
+    each, so some tens are cheap and thousands are not; the best few are searched from.
+    """
+
+    def __call__(self, s: Signals, rest: Array, /) -> Sequence[Values]: ...
+
+
+@dataclass(frozen=True)
+class MotionSlot:
+    """The piston's motion, at the samples and on straight lines between them.
+
+    free_play : (p) -> play [m] in the joint of a compliance in series with the whole damper, which
+        takes it over from `function`: a play bears no force, so that what is stretched unloads
+    """
+
+    function: MotionFunction
+    free_play: NumberFunction | None = None
+
+    def __call__(self, s: Signals, p: Values) -> Signals:
+        out = _called(self.function, s, p)
+        if not isinstance(out, Signals):
+            raise EffectFailed(self.function, f"returned {_seen(out)}, expected Signals")
+        for name in ("x", "xdot"):
+            _samples(self.function, getattr(out, name), s, name)
+        return out
+
+
+@dataclass(frozen=True)
+class ControlSlot:
+    """(n,) duty [1] that reaches the electrodes, held from its sample to the next."""
+
+    function: SamplesFunction
+
+    def __call__(self, s: Signals, p: Values) -> Array:
+        return _samples(self.function, _called(self.function, s, p), s)
+
+
+@dataclass(frozen=True)
+class FieldSlot:
+    """(n,) steady yield force over sigma [1], from v^beta: its mean over the step that begins here.
+
+    way : "compression" or "release", the direction for which it is
+    """
+
+    function: FieldFunction
+
+    def __call__(self, field: Array, s: Signals, p: Values, way: str) -> Array:
+        return _samples(self.function, _called(self.function, field, s, p, way), s)
+
+
+@dataclass(frozen=True)
+class LagSlot:
+    """(n,) factor of T_d [1] in the step that begins here, while the yield force falls."""
+
+    function: SamplesFunction
+
+    def __call__(self, s: Signals, p: Values) -> Array:
+        return _samples(self.function, _called(self.function, s, p), s)
+
+
+@dataclass(frozen=True)
+class SignSlot:
+    """(n,) in -1..1, in place of sign(xdot), at the samples."""
+
+    function: SamplesFunction
+
+    def __call__(self, s: Signals, p: Values) -> Array:
+        return _samples(self.function, _called(self.function, s, p), s)
+
+
+@dataclass(frozen=True)
+class YieldSlot:
+    """(n,) what becomes of the signed yield force [N], at the samples; may remember."""
+
+    function: ColumnFunction
+
+    def __call__(self, column: Array, s: Signals, p: Values) -> Array:
+        return _samples(self.function, _called(self.function, column, s, p), s)
+
+
+@dataclass(frozen=True)
+class ViscousSlot:
+    """(n,) in place of xdot [m/s] in the viscous force, at the samples."""
+
+    function: SamplesFunction
+
+    def __call__(self, s: Signals, p: Values) -> Array:
+        return _samples(self.function, _called(self.function, s, p), s)
+
+
+@dataclass(frozen=True)
+class GasSlot:
+    """(n,) in place of x [m] in the gas force, at the samples."""
+
+    function: SamplesFunction
+
+    def __call__(self, s: Signals, p: Values) -> Array:
+        return _samples(self.function, _called(self.function, s, p), s)
+
+
+@dataclass(frozen=True)
+class ScaleSlot:
+    """(n,) factors [1] of the groups `gas`, `viscous`, `yield`, at the samples."""
+
+    function: ScaleFunction
+
+    def __call__(self, s: Signals, p: Values) -> Groups:
+        return _groups(self.function, _called(self.function, s, p), s)
+
+
+@dataclass(frozen=True)
+class TermSlot:
+    """Nothing but added forces: `Effect.columns`."""
+
+
+@dataclass(frozen=True)
+class FeedbackSlot:
+    """(n,) factors [1] of groups that depend on the forces themselves, at the samples.
+
+    It is to march free-running, with the forces that its own factors leave.
+    """
+
+    function: FeedbackFunction
+
+    def __call__(self, parts: Groups, s: Signals, p: Values) -> Groups:
+        return _groups(self.function, _called(self.function, parts, s, p), s)
+
+
+@dataclass(frozen=True)
+class SeriesSlot:
+    """Compliance [m/N] in series with some groups, or with the whole damper (`carries` None)."""
+
+    function: NumberFunction
+    carries: tuple[str, ...] | None = None
+
+    def __call__(self, p: Values) -> float:
+        return _number(self.function, _called(self.function, p))
+
+
+@dataclass(frozen=True)
+class ChannelSlot:
+    """(n,) what the force channel records of a force [N], at the samples; linear in it."""
+
+    function: ColumnFunction
+
+    def __call__(self, column: Array, s: Signals, p: Values) -> Array:
+        return _samples(self.function, _called(self.function, column, s, p), s)
+
+
+Slot = (
+    MotionSlot | ControlSlot | FieldSlot | LagSlot | SignSlot | YieldSlot | ViscousSlot | GasSlot
+    | ScaleSlot | TermSlot | FeedbackSlot | SeriesSlot | ChannelSlot
+)  # fmt: skip
+
+
+def added_forces(function: TermFunction, rows: int, s: Signals, p: Values) -> Array:
+    """(k, n) forces at unit amplitudes, as many as the effect has linear parameters."""
+    out = _called(function, s, p)
+    if not isinstance(out, np.ndarray) or out.shape != (rows, len(s)):
+        raise EffectFailed(
+            function,
+            f"returned {_seen(out)}, expected {rows} x {len(s)} forces: a row for each linear"
+            " parameter, a column for each sample",
+        )
+    return _finite(function, out)
+
+
+def checked_starts(
+    function: StartsFunction, symbols: Sequence[str], s: Signals, rest: Array
+) -> list[dict[str, float]]:
+    """Starts of a search as plain numbers, one for each of some symbols."""
+    out = []
+    for start in _called(function, s, rest):
+        if not isinstance(start, Mapping) or set(start) != set(symbols):
+            raise EffectFailed(
+                function, f"gave the start {_seen(start)}, expected a number for each of {symbols}"
+            )
+        out.append({symbol: _number(function, start[symbol]) for symbol in symbols})
+    if not out:
+        raise EffectFailed(function, "gave no start of a search")
+    return out
+
+
+def free_play_of(slot: MotionSlot, p: Values) -> float:
+    """Play in a joint [m]; 0 for a motion that has none."""
+    return 0.0 if slot.free_play is None else _number(slot.free_play, _called(slot.free_play, p))
+
+
+def _called(function: Callable[..., Any], *arguments: Any) -> Any:
+    try:
+        return function(*arguments)
+    except (ErdctlError, MemoryError):
+        raise
+    except Exception as error:
+        raise EffectFailed(function, f"{type(error).__name__}: {error}") from error
+
+
+def _samples(function: Callable[..., Any], out: Any, s: Signals, what: str = "") -> Array:
+    if not isinstance(out, np.ndarray) or out.shape != (len(s),):
+        of = f" for {what}" if what else ""
+        raise EffectFailed(function, f"returned {_seen(out)}{of}, expected {len(s)} samples")
+    return _finite(function, out)
+
+
+def _groups(function: Callable[..., Any], out: Any, s: Signals) -> Groups:
+    if not isinstance(out, Mapping) or not set(out) <= set(GROUPS):
+        raise EffectFailed(
+            function, f"returned {_seen(out)}, expected factors of some of {', '.join(GROUPS)}"
+        )
+    for group, factor in out.items():
+        _samples(function, factor, s, f"group {group}")
+    return out
+
+
+def _number(function: Callable[..., Any], out: Any) -> float:
+    if isinstance(out, (int, float, np.integer, np.floating)) and np.isfinite(out):
+        return float(out)
+    raise EffectFailed(function, f"gave {_seen(out)}, expected a finite number")
+
+
+def _finite(function: Callable[..., Any], out: Array) -> Array:
+    if out.dtype != np.float64 or not np.isfinite(out).all():
+        raise EffectFailed(
+            function,
+            f"returned {out.dtype} values that are not all finite numbers of 64 bits",
+        )
+    return out
+
+
+def _seen(out: object) -> str:
+    """What came back, in words."""
+    if isinstance(out, np.ndarray):
+        return f"an array of shape {out.shape}"
+    return f"{type(out).__name__} {out!r}"[:80]
