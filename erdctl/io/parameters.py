@@ -7,7 +7,7 @@ from typing import Any
 
 import msgspec
 
-from erdctl.core.errors import InputProblem
+from erdctl.core.errors import IncompatibleEffects, InputProblem
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import DIRECTIONS
 from erdctl.io import documents
@@ -116,7 +116,7 @@ def _check_together(parameters: Parameters, name: str) -> None:
     moment = Signals(t, still, still + 1e-3, still, np.array([1e-3, 0.0]), np.array([0, 2]))
     try:
         parameters.model.force(moment, parameters.values)
-    except ValueError as error:
+    except IncompatibleEffects as error:
         names = ", ".join(e.name for e in parameters.model.effects)
         raise InputProblem(f"effects {names} together: {error}", file=name) from error
 

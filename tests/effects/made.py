@@ -58,14 +58,13 @@ def sine(
 
 def act(name: str, *arguments: Any) -> Any:
     """What the function of one effect returns."""
-    return effects.get(name).act(*arguments)
+    slot: Any = effects.get(name).slot
+    return slot(*arguments)
 
 
 def unit_forces(name: str, s: Signals, p: Mapping[str, float]) -> Array:
     """The columns of one effect."""
-    columns = effects.get(name).columns
-    assert columns is not None
-    return columns(s, p)
+    return effects.get(name).added(s, p)
 
 
 def force(name: str, s: Signals, p: Mapping[str, float], **changed: float) -> Array:
