@@ -29,7 +29,7 @@ def recording(
     t: Sequence[float] | Array | None = None,
     starts: Sequence[int] | None = None,
 ) -> Recording:
-    """A log from a velocity [m/s]; x [m] is 0 and the sampling even, every `step` [s], unless given.
+    """A log from a velocity [m/s]; unless given, x is 0 [m] and a sample taken every `step` [s].
 
     force : (n,) [N];  t : (n,) [s];  starts : offsets of the records, one record unless given
     """
