@@ -133,6 +133,8 @@ def shrunk(value: Array, error: Array) -> Array:
     tau : standard deviation beyond the errors (Paule and Mandel 1982), 0 if there is none
     mu : mean, weighted as the sum is
     Check: v = 1, 3, e = 1, 1: sum = 2 / (tau^2 + 1) = 1, tau = 1, d = -0.5, 0.5.
+    >>> shrunk(np.array([1.0, 3.0]), np.ones(2)).round(4).tolist()
+    [-0.5, 0.5]
     """
     known = np.isfinite(error)
     out = np.zeros_like(value)

@@ -11,6 +11,13 @@ that it is continuous in x_v
 Valid for a void that forms and is taken up whatever the speed.
 Check: x_v = 2 mm, g = 100, lambda = 0.8, e = 0: 1 mm and 3 mm after full compression 0.2 and 1 of
 both forces; g = 0.5, after 2 mm of compression: 0.5 mm and 1.5 mm into release 0.2 and 1.
+>>> xdot = np.array([0.0, 1.0, 1.0, 0.0, -1.0, -1.0])  # 2 mm up, 0.5 and 1.5 mm down
+>>> p = {"x_v": 2e-3, "g": 0.5, "lambda": 0.8, "e": 0.0}
+>>> cavitation(signals(xdot, step=1e-3), p)["yield"][4:].round(4).tolist()
+[0.2, 1.0]
+>>> cavitation(signals(2.0 * xdot, step=1e-3), p | {"g": 100.0})["viscous"][4:].round(4).tolist()
+[0.2, 1.0]
+
 Source: S. Duym, R. Stiens, K. Reybrouck, Evaluation of shock absorber models, Vehicle System
 Dynamics 27 (1997) 109-127 (vapour that must be taken up before the pressure builds up).
 """

@@ -5,6 +5,9 @@
 xdot : (n,) piston speed [m/s];  F_c : [N], F_c >= 0, off at 0;  sign(0) = 0, as in Eq. 18
 Valid beyond the elastic pre-sliding of the seal, some 10 to 100 um.
 Check: F_c = 3 N, xdot = 0.1, 0, -0.2 m/s gives 3, 0, -3 N.
+>>> (3.0 * coulomb_friction(signals([0.1, 0.0, -0.2]), {})[0]).tolist()
+[3.0, 0.0, -3.0]
+
 Source: B. Armstrong-Hélouvry, P. Dupont, C. Canudas de Wit, A survey of models, analysis tools and
 compensation methods for the control of machines with friction, Automatica 30 (1994) 1083-1138.
 """

@@ -9,6 +9,12 @@ continuous in t_0. Which forces it takes `erdctl.model.faults` says, for mimic a
 Valid for a fault that sets in at once and stays; a record that ends before t_0 is healthy.
 Check: f = 0.5, t_0 = 15 s: 10 N of gas, 6 N of viscous and 4 N of yield force, 20 N at 14 s, are
 18 N at 16 s.
+>>> s = signals(np.ones(9), t=np.linspace(14.0, 16.0, 9))
+>>> left = electrical_fault(s, {"f": 0.5, "t_0": 15.0})
+>>> force = 10.0 * left["gas"] + 6.0 * left["viscous"] + 4.0 * left["yield"]
+>>> force[[0, -1]].round(9).tolist()
+[20.0, 18.0]
+
 Source: the ER damper paper, Eq. 22.
 """
 

@@ -6,6 +6,10 @@ x : (n,) stroke [m], 0 half-way between the stops;  x_stop : free stroke to eith
 k_c, k_r : stiffness of the stop in compression and in release [N/m], >= 0, off at 0
 Valid for an elastic stop met at a speed that its damping does not matter for.
 Check: x_stop = 20 mm, k_c = 1000 N/m, k_r = 2000 N/m, x = 19, 21, -22 mm gives 0, 1, -4 N.
+>>> s = signals([0.0, 0.0, 0.0], x=[0.019, 0.021, -0.022])
+>>> ([1000.0, 2000.0] @ end_stop(s, {"x_stop": 0.02})).round(9).tolist()
+[0.0, 1.0, -4.0]
+
 Source: J. C. Dixon, The Shock Absorber Handbook, 2nd ed. (2007), bump stops; the one-sided spring
 without the damping of K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445.
 """

@@ -7,6 +7,10 @@ v : (n,) duty cycle [1];  a : saturation [1], a >= 0, off at 0
 saturate at one duty v_s, a = v_s^-beta differs between directions as beta does.
 Valid for a yield stress that grows monotonically; beta takes up most of a weak saturation.
 Check: a = 2, v^beta = 0.5 gives tanh(1) / 2 = 0.3808 of sigma; 1 gives tanh(2) / 2 = 0.4820.
+>>> s, p = signals([0.1, 0.1]), {"a_c": 2.0, "a_r": 0.0}
+>>> field_saturation(np.array([0.5, 1.0]), s, p, "compression").round(4).tolist()
+[0.3808, 0.482]
+
 Source: H. J. Choi et al., A yield stress scaling function for electrorheological fluids, Appl.
 Phys. Lett. 78 (2001) 3806-3808 (tanh between the low and the high field's law).
 """

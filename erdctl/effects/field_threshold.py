@@ -6,6 +6,10 @@ v : (n,) duty cycle [1];  v_c : critical duty [1], 0 <= v_c < 1, off at 0
 Valid for fluids whose particles need a critical field to form chains, and for amplifiers that
 give no voltage at small duty.
 Check: v_c = 0.05, beta = 0.5, v = 0.03, 0.05, 0.30 gives 0, 0, 0.5 of sigma.
+>>> s = signals([0.1, 0.1, 0.1], duty=[0.03, 0.05, 0.30])
+>>> (field_threshold(s, {"v_c": 0.05}) ** 0.5).round(4).tolist()
+[0.0, 0.0, 0.5]
+
 Source: H. Block, J. P. Kelly, Electro-rheology, J. Phys. D 21 (1988) 1661-1677 (threshold field).
 """
 

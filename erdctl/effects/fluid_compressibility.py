@@ -7,7 +7,11 @@ s_f : compliance of fluid, hoses and trapped air [m/N], s_f >= 0, off at 0;  1/s
 Valid for pressures at which the bulk modulus is constant. Simulated free-running, with the force
 that the model itself makes (`erdctl.model.series_compliance`); the gas force acts beside it.
 Check: c_vis = 100 N s/m, no field, s_f = 1e-4 m/N: xdot rises from 0 to 0.1 m/s, F_f follows with
-the time constant c_vis s_f = 10 ms: 10 (1 - exp(-1)) = 6.3212 N after 10 ms.
+the time constant c_vis s_f = 10 ms: 10 (1 - exp(-1)) = 6.321 N after 10 ms.
+>>> s = signals([0.0] + 10_000 * [0.1], step=1e-6)
+>>> round(float(force_with(EFFECT, s, {"s_f": 1e-4}, c_vis=100.0)[-1]), 3)
+6.321
+
 Source: D. J. Peel, R. Stanway, W. A. Bullough, Dynamic modelling of an ER vibration damper for
 vehicle suspension applications, Smart Mater. Struct. 5 (1996) 591-606; J. C. Maxwell (1867).
 """

@@ -8,6 +8,9 @@ of piston to duct area
 Valid below about 20 Hz, where the window passes the acceleration (98 % at 7 Hz). At one frequency
 m cannot be told from k_nom, as then d2x/dt2 = -omega^2 x.
 Check: m = 2 kg, xdot = 0.5 t m/s gives 1 N.
+>>> (2.0 * fluid_inertia(signals([0.0, 0.05, 0.10, 0.15], step=0.1), {})[0]).round(9).tolist()
+[1.0, 1.0, 1.0, 1.0]
+
 Source: D. J. Peel, R. Stanway, W. A. Bullough, Dynamic modelling of an ER vibration damper for
 vehicle suspension applications, Smart Mater. Struct. 5 (1996) 591-606.
 """

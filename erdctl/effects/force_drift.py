@@ -6,6 +6,9 @@ t : (n,) time [s];  t_0 : first time of the record [s]
 d_1 [N/s], d_2 [N/s^2] : of either sign, off at 0
 Valid for drifts that a parabola follows over a record, each record beginning with its zero set.
 Check: d_1 = -0.1 N/s, d_2 = 0.01 N/s^2, 20 s into a record: -2 + 4 = 2 N.
+>>> ([-0.1, 0.01] @ force_drift(signals([0.0, 0.0], t=[5.0, 25.0]), {})).round(9).tolist()
+[0.0, 2.0]
+
 Source: VDI/VDE/DKD 2638, Characteristics for force transducers (2008), drift of the zero signal.
 """
 

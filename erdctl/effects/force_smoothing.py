@@ -10,6 +10,11 @@ whatever the stroke, the speed and the force: no law of the damper does that.
 Valid for records that were smoothed one by one, slow tests over longer times than fast ones, before
 they were stored; a window of the same time throughout looks alike where all have one cycle.
 Check: xdot > 0 throughout, samples 1 s apart, F = 0, 4, 8, 0, 0 N, W = 2 s gives 0, 4, 5, 2, 0 N.
+>>> x = np.array([1.0, -1.0, 1.0, -1.0, 0.0]) * 1.25**0.5  # rms 1, as that of xdot: T = 2 pi s
+>>> s = signals(np.ones(5), x=x, step=1.0)
+>>> force_smoothing(np.array([0.0, 4.0, 8.0, 0.0, 0.0]), s, {"w": 1 / np.pi}).round(9).tolist()
+[0.0, 4.0, 5.0, 2.0, 0.0]
+
 Source: S. W. Smith, The Scientist and Engineer's Guide to Digital Signal Processing (1997), ch. 15
 (moving average).
 """

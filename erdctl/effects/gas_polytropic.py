@@ -9,6 +9,10 @@ Eq. 3
 Valid while gas is left: from a x = 0.95 on, the tangent goes on.
 Check: a = 10 /m, gamma = 1, x = 50 mm: (1 / 0.5 - 1) / 10 = 0.1 m, twice x; x = -100 mm:
 (1 / 2 - 1) / 10 = -0.05 m.
+>>> s = signals([0.0, 0.0], x=[0.05, -0.1])
+>>> gas_polytropic(s, {"a": 10.0, "gamma": 1.0}).round(9).tolist()
+[0.1, -0.05]
+
 Source: the ER damper paper, Eq. 3.
 """
 

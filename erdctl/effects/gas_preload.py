@@ -6,6 +6,10 @@ F_0 : [N], off at 0;  P_0 : filling pressure [Pa];  A_s : area of the rod [m^2]
 Valid at any stroke. Of either sign, since on force data alone it is the same as a force_offset, a
 zero error of the force channel; below 0 it must be that.
 Check: P_0 = 500 kPa, A_s = 50 mm^2 = 5e-5 m^2 gives 25 N at every stroke.
+>>> s = signals([0.0, 0.0], x=[-0.01, 0.01])
+>>> (500e3 * 5e-5 * gas_preload(s, {})[0]).round(9).tolist()
+[25.0, 25.0]
+
 Source: the ER damper paper, Eq. 3 at x = 0, in Eq. 4.
 """
 

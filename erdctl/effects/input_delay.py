@@ -9,6 +9,10 @@ its first duty holds.
 Valid for a constant dead time (control cycle, amplifier).
 Check: samples 10 ms apart, v^beta = 0, 1, 1, 1, tau = 4 ms: the step that begins at 10 ms has the
 old value for 4 of its 10 ms, so the field is 0, 0.6, 1, 1.
+>>> field = np.array([0.0, 1.0, 1.0, 1.0])
+>>> input_delay(field, signals(np.ones(4)), {"tau": 4e-3}, "release").round(9).tolist()
+[0.0, 0.6, 1.0, 1.0]
+
 Source: J.-H. Koo, F. D. Goncalves, M. Ahmadian, A comprehensive analysis of the response time of MR
 dampers, Smart Mater. Struct. 15 (2006) 351-358 (delay before the response sets in).
 """

@@ -8,6 +8,10 @@ Valid for a mount that is linear and has little damping of its own. Simulated fr
 with the force that the model itself makes (`erdctl.model.series_compliance`).
 Check: held at x = 10 mm with a gas spring of 1000 N/m and s_m = 1e-4 m/N:
 F = k x / (1 + k s_m) = 10 / 1.1 = 9.0909 N.
+>>> s = signals([0.0, 0.0], x=[0.01, 0.01])
+>>> force_with(EFFECT, s, {"s_m": 1e-4}, k_nom=1000.0).round(4).tolist()
+[9.0909, 9.0909]
+
 Source: M. C. Constantinou, M. D. Symans, Experimental study of seismic response of buildings with
 supplemental fluid dampers, Struct. Design Tall Build. 2 (1993) 93-132; J. C. Maxwell (1867).
 """

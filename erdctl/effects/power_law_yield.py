@@ -7,6 +7,9 @@ n : flow index [1], 0 <= n <= 1, off at 0
 Valid where more field makes the flowing fluid thicker too, so that no plateau is reached as speed
 grows; the viscosity with no field, c_vis, remains.
 Check: n = 0.5, xdot = 0.1, -0.025, 0 m/s gives 1, 0.5, 0 of F_ER.
+>>> power_law_yield(signals([0.1, -0.025, 0.0]), {"n": 0.5})["yield"].round(9).tolist()
+[1.0, 0.5, 0.0]
+
 Source: G. Yang, B. F. Spencer, J. D. Carlson, M. K. Sain, Large-scale MR fluid dampers: modeling
 and dynamic performance considerations, Engineering Structures 24 (2002) 309-323 (Herschel-
 Bulkley).

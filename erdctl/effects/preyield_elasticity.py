@@ -8,6 +8,10 @@ of time: the Bouc-Wen loop with n = 1 and beta = gamma, its height the yield for
 along |x| for an input that is a straight line between samples, or, in a step in which the piston
 turns, jumps where it does. A record begins with F_y steady.
 Check: F_ER = 10 N, x_d = 0.1 mm: 0.1 mm after a reversal F_y = 10 - 20 exp(-1) = 2.6424 N.
+>>> s = signals([-0.1, 0.0, 0.1], step=2e-3)  # the reversal at the second sample
+>>> preyield_elasticity(np.array([-10.0, -10.0, 10.0]), s, {"x_d": 1e-4}).round(4).tolist()
+[-10.0, -10.0, 2.6424]
+
 Source: B. F. Spencer, S. J. Dyke, M. K. Sain, J. D. Carlson, Phenomenological model for
 magnetorheological dampers, J. Engineering Mechanics 123 (1997) 230-238 (Eqs. 3, 4).
 """

@@ -5,6 +5,10 @@
 xdot : (n,) piston speed [m/s];  v_y : speed of yielding [m/s], v_y >= 0, off at 0 (sign)
 Valid below and above yield; the viscosity before yield is F_ER / v_y.
 Check: v_y = 10 mm/s, xdot = 5, -20, 0 mm/s gives tanh 0.5 = 0.4621, -tanh 2 = -0.9640, 0 of F_ER.
+>>> s = signals([0.005, -0.020, 0.0])
+>>> preyield_viscosity(s, {"v_y": 0.01}).round(4).tolist()
+[0.4621, -0.964, 0.0]
+
 Source: R. Stanway, J. L. Sproston, A. K. El-Wahed, Applications of electro-rheological fluids in
 vibration control: a survey, Smart Mater. Struct. 5 (1996) 464-482.
 """

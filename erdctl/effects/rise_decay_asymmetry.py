@@ -7,6 +7,11 @@ Valid where one ratio holds for both directions of motion.
 Chains form at one rate and dissolve at another, whatever makes the yield force rise or fall: a step
 of the duty, or a reversal towards the direction with the smaller steady force.
 Check: r = 2, T_d = 43 ms: 86 ms after a step from 0.3 to 0, F_ER has fallen to exp(-1) = 0.3679.
+>>> s = signals([0.1, 0.1, 0.1], duty=[0.3, 0.0, 0.0], step=0.086)
+>>> force = force_with(EFFECT, s, {"r": 2.0}, sigma=1.0, T_d=0.043)
+>>> (force / force[1]).round(4).tolist()
+[1.0, 1.0, 0.3679]
+
 Source: J.-H. Koo, F. D. Goncalves, M. Ahmadian, A comprehensive analysis of the response time of MR
 dampers, Smart Mater. Struct. 15 (2006) 351-358.
 """

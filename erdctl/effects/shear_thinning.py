@@ -6,6 +6,9 @@ xdot : (n,) piston speed [m/s];  n : flow index [1], 0 < n <= 1, off at 1
 c_vis then is the viscosity at v_0. The Herschel-Bulkley law, with the yield force of Eq. 11.
 Valid for shear rates of one or two decades; near rest the yield force covers the steep start.
 Check: n = 0.5, xdot = 0.1, -0.4, 0 m/s gives 0.1, -0.1 sqrt(4) = -0.2, 0 m/s.
+>>> shear_thinning(signals([0.1, -0.4, 0.0]), {"n": 0.5}).round(9).tolist()
+[0.1, -0.2, 0.0]
+
 Source: X. Wang, F. Gordaninejad, Flow analysis of field-controllable, electro- and magneto-
 rheological fluids using Herschel-Bulkley model, J. Intell. Mater. Syst. Struct. 10 (1999) 601-608.
 """

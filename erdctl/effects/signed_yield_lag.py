@@ -8,6 +8,10 @@ piston turns, jumps where it does. A record begins with F_y steady.
 Valid where chains break and form anew at a reversal. Where this is the lag that the damper has,
 T_d of Eq. 12, which acts on the unsigned force, goes to 0.
 Check: F_ER = 10 N, T_s = 20 ms: 20 ms after a reversal F_y = 10 - 20 exp(-1) = 2.6424 N.
+>>> s = signals([-0.1, 0.0, 0.1], step=0.02)  # the reversal at the second sample
+>>> signed_yield_lag(np.array([-10.0, -10.0, 10.0]), s, {"T_s": 0.02}).round(4).tolist()
+[-10.0, -10.0, 2.6424]
+
 Source: D. R. Gamota, F. E. Filisko, Dynamic mechanical studies of electrorheological materials:
 moderate frequencies, J. Rheol. 35 (1991) 399-425 (elastic stress that rebuilds after a reversal).
 """

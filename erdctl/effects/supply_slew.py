@@ -8,6 +8,10 @@ v_a is handed on as its mean over each step. A record begins with v_a = v.
 Valid for an amplifier with the same limit up and down.
 Check: samples 10 ms apart, v = 0, 0.3, 0.3, 0.3, T_full = 50 ms (0.2 in 10 ms): v_a goes from 0 to
 0.2, then in 5 ms to 0.3: means 0, 0.1, (0.25 + 0.3) / 2 = 0.275, 0.3.
+>>> s = signals(np.ones(4), duty=[0.0, 0.3, 0.3, 0.3], step=0.01)
+>>> supply_slew(s, {"T_full": 0.05}).round(9).tolist()
+[0.0, 0.1, 0.275, 0.3]
+
 Source: P. Horowitz, W. Hill, The Art of Electronics, 3rd ed. (2015), Sec. 4.4 (slew rate).
 """
 

@@ -12,6 +12,11 @@ model itself makes. In temperature, a theta = a h with theta = h / tau would nee
 Valid for one lumped temperature, and falls of up to a few tenths, where exp is as good as others.
 Check: 10 N of viscous force at 1 m/s, a_v = ln 2 / J, a_y = 0, long tau, sampled at 0.1 s: 10 N,
 then 5 N at h = 1 J, then 10 * 2^-1.5 = 3.5355 N at 1.5 J.
+>>> parts, s = {"viscous": np.full(3, 10.0), "yield": np.zeros(3)}, signals(np.ones(3), step=0.1)
+>>> left = thermal_fade(parts, s, {"a_v": np.log(2.0), "a_y": 0.0, "tau": 1e9})
+>>> (10.0 * left["viscous"]).round(4).tolist()
+[10.0, 5.0, 3.5355]
+
 Source: F. Gordaninejad, D. G. Breese, Heating of magnetorheological fluid dampers, J. Intell.
 Mater. Syst. Struct. 10 (1999) 634-645.
 """

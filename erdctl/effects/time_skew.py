@@ -6,6 +6,10 @@ F, F_rec : (n,) force of the damper, and as recorded [N];  tau : delay [s], < 0 
 Straight lines between samples; beyond the ends of a record its first or last force holds.
 Valid for a constant delay (filters, conversion times) of a few samples or more.
 Check: samples 10 ms apart, F = 0, 4, 8, 8 N, tau = 5 ms gives 0, 2, 6, 8 N; -5 ms 2, 6, 8, 8 N.
+>>> s, F = signals(np.ones(4), step=0.01), np.array([0.0, 4.0, 8.0, 8.0])
+>>> [time_skew(F, s, {"tau": tau}).round(9).tolist() for tau in (5e-3, -5e-3)]
+[[0.0, 2.0, 6.0, 8.0], [2.0, 6.0, 8.0, 8.0]]
+
 Source: T. I. Laakso et al., Splitting the unit delay, IEEE Signal Processing Magazine 13 (1996)
 30-60 (linear interpolation as fractional delay).
 """

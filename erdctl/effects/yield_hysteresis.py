@@ -9,6 +9,10 @@ the force changes sign [1/s], kappa >= 0 (the force outlasts the motion), off at
 Valid for steady cycles about x = 0: the loop is tied to the stroke, not to the last reversal.
 Check: v_y = 10 mm/s, kappa = 2 /s: at rest at x = 5 mm tanh(10 / 10) = 0.7616 of F_ER; at
 xdot = -10 mm/s and x = 5 mm 0.
+>>> s = signals([0.0, -0.010], x=[0.005, 0.005])
+>>> yield_hysteresis(s, {"v_y": 0.010, "kappa": 2.0}).round(4).tolist()
+[0.7616, 0.0]
+
 Source: S. Guo, S. Yang, C. Pan, Dynamic modeling of magnetorheological damper behaviors, J. Intell.
 Mater. Syst. Struct. 17 (2006) 3-14.
 """

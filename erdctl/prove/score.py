@@ -58,6 +58,8 @@ class Errors:
         """Part of the error removed, of what the true structure would remove.
 
         Check: paper 5 N, corrected 1.4 N, best 1 N gives 3.6 / 4 = 0.9.
+        >>> round(Errors(paper=5.0, corrected=1.4, best=1.0, span=20.0).removed, 9)
+        0.9
         """
         if self.best is None or self.best >= self.paper:
             return None
@@ -84,7 +86,12 @@ class Naming:
 
 
 def band(level: float) -> str:
-    """Name of the band of a level.  Check: 2.0 is in ">= 2", 1.99 in "1 to 2"."""
+    """Name of the band of a level.
+
+    Check: 2.0 is in ">= 2", 1.99 in "1 to 2".
+    >>> band(2.0), band(1.99)
+    ('>= 2', '1 to 2')
+    """
     for name, edge in zip(BAND_NAMES, BANDS, strict=False):
         if level >= edge:
             return name

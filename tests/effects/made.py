@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from by_hand import signals
 
 from erdctl import effects
-from erdctl.core.recording import Array, Recording
+from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.composed import Model
 
@@ -20,30 +21,6 @@ PLAIN = {
         "k_nom": 200.0, "c_vis": 70.0, "T_d": 0.04, "sigma": 20.0, "beta": 0.5,
     }.items()
 }  # fmt: skip
-
-
-def signals(
-    xdot: Sequence[float] | Array,
-    *,
-    x: Sequence[float] | Array | None = None,
-    duty: Sequence[float] | Array | float = 0.0,
-    step: float = 0.01,
-    t: Array | None = None,
-    starts: Sequence[int] | None = None,
-) -> Signals:
-    """Signals from a velocity; x is 0 and the sampling even unless given."""
-    v = np.asarray(xdot, dtype=float)
-    n = len(v)
-    bounds = [0, n] if starts is None else list(starts)
-    recording = Recording(
-        t=np.arange(n) * step if t is None else t,
-        x=np.zeros(n) if x is None else np.asarray(x, dtype=float),
-        xdot=v,
-        duty=np.broadcast_to(np.asarray(duty, dtype=float), v.shape).copy(),
-        starts=np.array(bounds, dtype=np.intp),
-        names=tuple(str(i) for i in range(len(bounds) - 1)),
-    )
-    return Signals.of(recording)
 
 
 def sine(
