@@ -46,6 +46,8 @@ class Normal(NamedTuple):
         """(k, k) inverse in the determined directions.
 
         Check: diag(4, 0) has the pseudo-inverse diag(0.25, 0).
+        >>> Normal.of(np.diag([4.0, 0.0])).pseudo_inverse().tolist()
+        [[0.25, 0.0], [0.0, 0.0]]
         """
         v = self.vectors
         return np.asarray((v / self.eigenvalues) @ v.T / np.outer(self.scale, self.scale))

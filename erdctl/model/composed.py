@@ -17,10 +17,10 @@ from erdctl.core.quantity import Quantity
 from erdctl.core.recording import COMPRESSION, DIRECTIONS, RELEASE, Array
 from erdctl.core.signals import Signals
 from erdctl.model import paper
+from erdctl.model.checked import GROUPS
 from erdctl.model.effect import Effect, S, in_slot
 from erdctl.model.response import Factors, Prepared, multiplied
 from erdctl.model.slots import (
-    GROUPS,
     ControlSlot,
     FeedbackSlot,
     FieldSlot,

@@ -12,10 +12,10 @@ from erdctl.core.errors import IncompatibleEffects
 from erdctl.core.recording import COMPRESSION, RELEASE, Array
 from erdctl.core.signals import Signals
 from erdctl.model import paper
+from erdctl.model.checked import GROUPS
 from erdctl.model.effect import Effect, in_slot
 from erdctl.model.paper import pair
 from erdctl.model.slots import (
-    GROUPS,
     ChannelSlot,
     FeedbackSlot,
     ScaleSlot,

@@ -19,20 +19,18 @@ divided by `s.starts`, and must not let one see another.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 
-from erdctl.core.errors import EffectFailed, ErdctlError
+from erdctl.core.errors import EffectFailed
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.checked import Groups, called, finite, groups, in_words, number, samples
 
 Values = Mapping[str, float]
-Groups = Mapping[str, Array]
-
-GROUPS = ("gas", "viscous", "yield")
 
 
 class MotionFunction(Protocol):
@@ -106,11 +104,11 @@ class MotionSlot:
     free_play: NumberFunction | None = None
 
     def __call__(self, s: Signals, p: Values) -> Signals:
-        out = _called(self.function, s, p)
+        out = called(self.function, s, p)
         if not isinstance(out, Signals):
-            raise EffectFailed(self.function, f"returned {_seen(out)}, expected Signals")
+            raise EffectFailed(self.function, f"returned {in_words(out)}, expected Signals")
         for name in ("x", "xdot"):
-            _samples(self.function, getattr(out, name), s, name)
+            samples(self.function, getattr(out, name), s, name)
         return out
 
 
@@ -121,7 +119,7 @@ class ControlSlot:
     function: SamplesFunction
 
     def __call__(self, s: Signals, p: Values) -> Array:
-        return _samples(self.function, _called(self.function, s, p), s)
+        return samples(self.function, called(self.function, s, p), s)
 
 
 @dataclass(frozen=True)
@@ -134,7 +132,7 @@ class FieldSlot:
     function: FieldFunction
 
     def __call__(self, field: Array, s: Signals, p: Values, way: str) -> Array:
-        return _samples(self.function, _called(self.function, field, s, p, way), s)
+        return samples(self.function, called(self.function, field, s, p, way), s)
 
 
 @dataclass(frozen=True)
@@ -144,7 +142,7 @@ class LagSlot:
     function: SamplesFunction
 
     def __call__(self, s: Signals, p: Values) -> Array:
-        return _samples(self.function, _called(self.function, s, p), s)
+        return samples(self.function, called(self.function, s, p), s)
 
 
 @dataclass(frozen=True)
@@ -154,7 +152,7 @@ class SignSlot:
     function: SamplesFunction
 
     def __call__(self, s: Signals, p: Values) -> Array:
-        return _samples(self.function, _called(self.function, s, p), s)
+        return samples(self.function, called(self.function, s, p), s)
 
 
 @dataclass(frozen=True)
@@ -164,7 +162,7 @@ class YieldSlot:
     function: ColumnFunction
 
     def __call__(self, column: Array, s: Signals, p: Values) -> Array:
-        return _samples(self.function, _called(self.function, column, s, p), s)
+        return samples(self.function, called(self.function, column, s, p), s)
 
 
 @dataclass(frozen=True)
@@ -174,7 +172,7 @@ class ViscousSlot:
     function: SamplesFunction
 
     def __call__(self, s: Signals, p: Values) -> Array:
-        return _samples(self.function, _called(self.function, s, p), s)
+        return samples(self.function, called(self.function, s, p), s)
 
 
 @dataclass(frozen=True)
@@ -184,7 +182,7 @@ class GasSlot:
     function: SamplesFunction
 
     def __call__(self, s: Signals, p: Values) -> Array:
-        return _samples(self.function, _called(self.function, s, p), s)
+        return samples(self.function, called(self.function, s, p), s)
 
 
 @dataclass(frozen=True)
@@ -194,7 +192,7 @@ class ScaleSlot:
     function: ScaleFunction
 
     def __call__(self, s: Signals, p: Values) -> Groups:
-        return _groups(self.function, _called(self.function, s, p), s)
+        return groups(self.function, called(self.function, s, p), s)
 
 
 @dataclass(frozen=True)
@@ -212,7 +210,7 @@ class FeedbackSlot:
     function: FeedbackFunction
 
     def __call__(self, parts: Groups, s: Signals, p: Values) -> Groups:
-        return _groups(self.function, _called(self.function, parts, s, p), s)
+        return groups(self.function, called(self.function, parts, s, p), s)
 
 
 @dataclass(frozen=True)
@@ -223,7 +221,7 @@ class SeriesSlot:
     carries: tuple[str, ...] | None = None
 
     def __call__(self, p: Values) -> float:
-        return _number(self.function, _called(self.function, p))
+        return number(self.function, called(self.function, p))
 
 
 @dataclass(frozen=True)
@@ -233,7 +231,7 @@ class ChannelSlot:
     function: ColumnFunction
 
     def __call__(self, column: Array, s: Signals, p: Values) -> Array:
-        return _samples(self.function, _called(self.function, column, s, p), s)
+        return samples(self.function, called(self.function, column, s, p), s)
 
 
 Slot = (
@@ -244,14 +242,14 @@ Slot = (
 
 def added_forces(function: TermFunction, rows: int, s: Signals, p: Values) -> Array:
     """(k, n) forces at unit amplitudes, as many as the effect has linear parameters."""
-    out = _called(function, s, p)
+    out = called(function, s, p)
     if not isinstance(out, np.ndarray) or out.shape != (rows, len(s)):
         raise EffectFailed(
             function,
-            f"returned {_seen(out)}, expected {rows} x {len(s)} forces: a row for each linear"
+            f"returned {in_words(out)}, expected {rows} x {len(s)} forces: a row for each linear"
             " parameter, a column for each sample",
         )
-    return _finite(function, out)
+    return finite(function, out)
 
 
 def checked_starts(
@@ -259,12 +257,13 @@ def checked_starts(
 ) -> list[dict[str, float]]:
     """Starts of a search as plain numbers, one for each of some symbols."""
     out = []
-    for start in _called(function, s, rest):
+    for start in called(function, s, rest):
         if not isinstance(start, Mapping) or set(start) != set(symbols):
             raise EffectFailed(
-                function, f"gave the start {_seen(start)}, expected a number for each of {symbols}"
+                function,
+                f"gave the start {in_words(start)}, expected a number for each of {symbols}",
             )
-        out.append({symbol: _number(function, start[symbol]) for symbol in symbols})
+        out.append({symbol: number(function, start[symbol]) for symbol in symbols})
     if not out:
         raise EffectFailed(function, "gave no start of a search")
     return out
@@ -272,52 +271,4 @@ def checked_starts(
 
 def free_play_of(slot: MotionSlot, p: Values) -> float:
     """Play in a joint [m]; 0 for a motion that has none."""
-    return 0.0 if slot.free_play is None else _number(slot.free_play, _called(slot.free_play, p))
-
-
-def _called(function: Callable[..., Any], *arguments: Any) -> Any:
-    try:
-        return function(*arguments)
-    except (ErdctlError, MemoryError):
-        raise
-    except Exception as error:
-        raise EffectFailed(function, f"{type(error).__name__}: {error}") from error
-
-
-def _samples(function: Callable[..., Any], out: Any, s: Signals, what: str = "") -> Array:
-    if not isinstance(out, np.ndarray) or out.shape != (len(s),):
-        of = f" for {what}" if what else ""
-        raise EffectFailed(function, f"returned {_seen(out)}{of}, expected {len(s)} samples")
-    return _finite(function, out)
-
-
-def _groups(function: Callable[..., Any], out: Any, s: Signals) -> Groups:
-    if not isinstance(out, Mapping) or not set(out) <= set(GROUPS):
-        raise EffectFailed(
-            function, f"returned {_seen(out)}, expected factors of some of {', '.join(GROUPS)}"
-        )
-    for group, factor in out.items():
-        _samples(function, factor, s, f"group {group}")
-    return out
-
-
-def _number(function: Callable[..., Any], out: Any) -> float:
-    if isinstance(out, (int, float, np.integer, np.floating)) and np.isfinite(out):
-        return float(out)
-    raise EffectFailed(function, f"gave {_seen(out)}, expected a finite number")
-
-
-def _finite(function: Callable[..., Any], out: Array) -> Array:
-    if out.dtype != np.float64 or not np.isfinite(out).all():
-        raise EffectFailed(
-            function,
-            f"returned {out.dtype} values that are not all finite numbers of 64 bits",
-        )
-    return out
-
-
-def _seen(out: object) -> str:
-    """What came back, in words."""
-    if isinstance(out, np.ndarray):
-        return f"an array of shape {out.shape}"
-    return f"{type(out).__name__} {out!r}"[:80]
+    return 0.0 if slot.free_play is None else number(slot.free_play, called(slot.free_play, p))
