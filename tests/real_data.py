@@ -1,6 +1,6 @@
 """Tests on real recordings may be skipped where the recordings are missing, and nowhere else.
 
-The recordings do not come with the project; they lie in `../shared/data`. Tests that read them carry
+The recordings do not come with the project; they lie in `../shared/data`. Tests that read them have
 the mark `real_data`. Where the folder is there, a session fails if such a test was skipped, and a
 full session fails if none ran of a file that holds some. Reports of all processes arrive at the
 first one, so this holds under xdist, too.
