@@ -31,7 +31,8 @@ class Tally:
     """Rates of a group of cases; a rate of nothing where a question does not arise.
 
     named : first finding right;  wrong : first finding wrong
-    all_found : every hidden effect has its finding;  spurious : findings per case that match nothing
+    all_found : every hidden effect has its finding
+    spurious : findings per case that match nothing hidden
     right : verdict as it should be for what is hidden
     removed : attainable reduction: the error removed, over what the true structure removes; median
     """
