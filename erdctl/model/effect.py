@@ -104,7 +104,7 @@ class Effect:
         cost, or a scale that depends on the motion)
     free_play : (p) -> play [m] in the joint of a compliance in series with the whole damper, which
         takes it over from `apply`: a play bears no force, so that what is stretched unloads first
-    beside : effects that commonly come with it, and without which it may be worth nothing
+    companions : effects that commonly come with it, and without which it may improve no fit
     equivalents : effects that force data can hardly tell from this one, whatever the log
     order : effects of one slot act in this order
     """

@@ -40,7 +40,7 @@ def test_the_splits() -> None:
         duty=np.array([0.0, 0.0, 0.2, 0.2]), force=force,
         starts=np.array([0, 2, 4], dtype=np.intp), names=("a", "b"),
     )  # fmt: skip
-    found = validate(recording, force + [1.0, -1.0, 3.0, -3.0])
+    found = validate(recording, force + np.array([1.0, -1.0, 3.0, -3.0]))
     assert {d: s.nrmse for d, s in found.by_duty.items()} == {0.0: 0.1, 0.2: 0.15}
     assert {r: s.rms for r, s in found.by_record.items()} == {"a": 1.0, "b": 3.0}
     assert {d: s.samples for d, s in found.by_direction.items()} == {"compression": 2, "release": 2}
