@@ -22,6 +22,7 @@ RUNS = "import pytest\n\n@pytest.mark.real_data\ndef test_real():\n    pass\n"
 SKIPS = RUNS.replace("    pass", "    pytest.skip('not at hand')")
 LEFT_OUT = f"import pytest\npytest.importorskip('no_such_library')\n{RUNS}"
 NOT_CALLED = RUNS.replace("def test_real", "def real")
+NONE_RAN = "no test on real recordings ran of tests/test_real.py"
 
 
 def session(
@@ -44,20 +45,20 @@ def session(
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("workers", ["0", "2"])
 @pytest.mark.parametrize(
-    ("test", "shared", "code", "message"),
+    ("test", "shared", "workers", "code", "message"),
     [
-        (RUNS, True, 0, "tests on real recordings: 1 ran, 0 skipped"),
-        (SKIPS, True, 1, "skipped, but"),
-        (LEFT_OUT, True, 1, "no test on real recordings ran of tests/test_real.py"),
-        (NOT_CALLED, True, 1, "no test on real recordings ran of tests/test_real.py"),
-        (SKIPS, False, 0, "0 ran, 1 skipped (no folder"),
+        pytest.param(RUNS, True, "0", 0, "1 ran, 0 skipped", id="runs"),
+        pytest.param(RUNS, True, "2", 0, "1 ran, 0 skipped", id="runs-in-processes"),
+        pytest.param(SKIPS, True, "0", 1, "skipped, but", id="skips"),
+        pytest.param(SKIPS, True, "2", 1, "skipped, but", id="skips-in-processes"),
+        pytest.param(LEFT_OUT, True, "2", 1, NONE_RAN, id="left-out-in-processes"),
+        pytest.param(NOT_CALLED, True, "0", 1, NONE_RAN, id="not-called"),
+        pytest.param(SKIPS, False, "0", 0, "0 ran, 1 skipped (no folder", id="no-folder"),
     ],
-    ids=["runs", "skips", "left-out", "not-called", "no-folder"],
 )
 def test_a_full_session(
-    test: str, shared: bool, code: int, message: str, workers: str, tmp_path: Path
+    test: str, shared: bool, workers: str, code: int, message: str, tmp_path: Path
 ) -> None:
     done = session(tmp_path, test, "-n", workers, shared=shared)
     assert done.returncode == code, done.stdout + done.stderr
