@@ -1,8 +1,8 @@
 """Every command that README, tutorial, proof and help texts show is run, and prints what they say.
 
-Shortened: `diagnose` searches few effects unless it is the tutorial's (see doc_snippets). `prove` is
-parsed only, since a case takes ten seconds and tests/prove runs the command. What runs pytest is left
-to CI.
+Shortened: `diagnose` searches few effects unless it is the tutorial's (see doc_snippets). `prove`
+is parsed only, since a case takes ten seconds and tests/prove runs the command. What runs pytest
+is left to CI.
 """
 
 from __future__ import annotations
