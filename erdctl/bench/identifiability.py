@@ -1,7 +1,7 @@
 """Which parameters and effects a log can show, before anything is fitted.
 
 `identify`, `diagnose` and `inspect` all ask here, so that they cannot disagree. A demand that is
-met means "can be tested", one that is not "cannot be told from this log", never "absent".
+met means "can be tested", one that is not "cannot be identified from this log", never "absent".
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ class Demand(Generic[S]):
     confounded: bool = False
 
     def check(self, subject: S, bench: Bench) -> Check:
-        """The demand held against a log."""
+        """The demand, checked on a log."""
         found = self.found(subject)
         met = found >= self.least or self.spared(subject)
         return Check(self.what, self.unit, self.least, found, met, self.drive(bench))
@@ -153,7 +153,7 @@ _STROKE = Demand[Excitation](
 )  # fmt: skip
 _SPEEDS = Demand[Excitation](
     "spread of the speed over its mean", "1", 0.01, lambda e: e.speeds, lambda b: b.sine(),
-    "the speed is constant, so viscous and yield force cannot be told apart",
+    "the speed is constant, so viscous and yield force cannot be separated",
     spared=lambda e: e.null >= ENOUGH or e.field < ENOUGH,
 )  # fmt: skip
 

@@ -5,7 +5,7 @@
 F_f : (n,) viscous and yield force [N];  v : (n,) speed of the flow in the duct [m/s]
 s_f : compliance of fluid, hoses and trapped air [m/N], s_f >= 0, off at 0;  1/s_f is A_p^2 K / V
 Valid for pressures at which the bulk modulus is constant. Simulated free-running, with the force
-that the model itself makes (`erdctl.model.series_compliance`); the gas force acts beside it.
+that the model itself makes (`erdctl.model.series_compliance`); the gas force acts in parallel.
 Check: c_vis = 100 N s/m, no field, s_f = 1e-4 m/N: xdot rises from 0 to 0.1 m/s, F_f follows with
 the time constant c_vis s_f = 10 ms: 10 (1 - exp(-1)) = 6.321 N after 10 ms.
 >>> s = signals([0.0] + 10_000 * [0.1], step=1e-6)

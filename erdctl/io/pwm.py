@@ -34,7 +34,7 @@ class Sequence:
     static: bool
 
     def columns(self) -> dict[str, Array]:
-        """Columns beside the log's own motion; `duty` and forces are the first faulty damper's."""
+        """Columns that join the log's motion; `duty` and forces are the first faulty damper's."""
         channel, plan = next(iter(self.plans.items()))
         return {
             "duty": self.duties[channel],

@@ -77,7 +77,7 @@ class Effect:
     guesses : starts of a search where the grid would not do (several dips of the cost, a scale that
         depends on the motion, a frequency). The grid is made by unit: m, m/s, m/N, 1/m, 1/m^2, s
         and 1/J from what the recording spans, others from 0.1 to 10 times the parameter's start
-    companions : effects that commonly come with it, and without which it may be worth nothing
+    companions : effects that commonly come with it, and without which it may improve no fit
     equivalents : effects that force data can hardly tell from this one, whatever the log
     order : effects of one slot act in this order
     """

@@ -16,7 +16,7 @@ from erdctl.core.recording import Array, Index
 LIMIT = 300.0
 # Above this decay a step, segments would be so short that doubling costs less.
 FAST = 0.5
-GONE = 1e-30  # of a decay: no longer seen beside any sum, and kept out of slow denormal numbers
+GONE = 1e-30  # of a decay: lost in any sum, and kept out of slow denormal numbers
 
 
 def first_order(exponent: Array | float, source: Array, initial: Array, starts: Index) -> Array:

@@ -1,6 +1,6 @@
 """The best that could be reached: the true structure, all its parameters fitted to the same log.
 
-It is told what is hidden and where the damper's own parameters lie, so that its search does not
+It is given what is hidden and where the damper's own parameters lie, so that its search does not
 fail where a diagnosis may.
 """
 

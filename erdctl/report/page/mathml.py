@@ -216,7 +216,7 @@ def _name(text: str) -> Markup:
     if head in FUNCTIONS or head in {"gas", "viscous", "yield"}:
         out = Markup('<mi mathvariant="normal">{}</mi>').format(head)
     elif head.endswith("dot") and len(head) > 3:
-        # The combining form would sit beside the letter where no mathematical font is at hand.
+        # The combining form would sit next to the letter where no mathematical font is at hand.
         out = Markup('<mover accent="true"><mi>{}</mi><mo>˙</mo></mover>').format(head[:-3])
     else:
         out = Markup("<mi>{}</mi>").format(GREEK.get(head, head))
