@@ -139,15 +139,15 @@ def _given(params: str | None, logs: Sequence[str]) -> tuple[Parameters | None, 
 
 
 def _candidates(only: Sequence[str], exclude: Sequence[str]) -> list[Effect]:
-    from erdctl import effects
     from erdctl.core.errors import InputProblem, UsageProblem
+    from erdctl.effects import catalogue, get
 
     def names(options: Sequence[str]) -> list[str]:
         return [name.strip() for option in options for name in option.split(",") if name.strip()]
 
     try:
-        barred = {effects.get(name).name for name in names(exclude)}
-        chosen = [effects.get(name) for name in names(only)] or list(effects.catalogue())
+        barred = {get(name).name for name in names(exclude)}
+        chosen = [get(name) for name in names(only)] or list(catalogue())
     except InputProblem as problem:
         raise UsageProblem(str(problem)) from None
     return [e for e in chosen if e.name not in barred]

@@ -23,12 +23,12 @@ def command(
       erdctl effects
       erdctl effects coulomb_friction
     """
-    from erdctl import effects
     from erdctl.core.errors import InputProblem, UsageProblem
+    from erdctl.effects import catalogue, get
     from erdctl.io import documents
 
     try:
-        chosen = effects.catalogue() if name is None else (effects.get(name),)
+        chosen = catalogue() if name is None else (get(name),)
     except InputProblem as problem:
         raise UsageProblem(str(problem)) from None
     if as_json:

@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 from rig import campaign, noisy
 
-from erdctl import effects
 from erdctl.diagnose.executor import Executor
 from erdctl.diagnose.forward_step import Explored, key_of, with_effect
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis, fresh_start
 from erdctl.diagnose.problem import Problem, prepare
 from erdctl.diagnose.screening import Candidate
 from erdctl.diagnose.search import _without_each
+from erdctl.effects import get
 from erdctl.estimate.least_squares import SHORTEST, at_bound
 from erdctl.model.paper import QUANTITIES
 
-FRICTION = effects.get("coulomb_friction")
+FRICTION = get("coulomb_friction")
 
 
 @pytest.fixture(scope="module")

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from erdctl import effects
 from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
+from erdctl.effects import get
 from erdctl.model.composed import Model
 
 # A damper with equal parameters in both directions, so that a test's own equations stay short.
@@ -58,12 +58,12 @@ def sine(
 
 def act(name: str, *arguments: Any) -> Any:
     """What the function of one effect returns."""
-    return effects.get(name).act(*arguments)
+    return get(name).act(*arguments)
 
 
 def unit_forces(name: str, s: Signals, p: Mapping[str, float]) -> Array:
     """The columns of one effect."""
-    columns = effects.get(name).columns
+    columns = get(name).columns
     assert columns is not None
     return columns(s, p)
 
@@ -73,6 +73,6 @@ def force(name: str, s: Signals, p: Mapping[str, float], **changed: float) -> Ar
     values = dict(PLAIN)
     for symbol, value in changed.items():
         values |= {f"compression.{symbol}": value, f"release.{symbol}": value}
-    effect = effects.get(name)
+    effect = get(name)
     model = Model((effect,))
     return model.force(s, values | {effect.key(symbol): value for symbol, value in p.items()})

@@ -10,13 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rig import TRUTH
 
-from erdctl import effects
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.signals import Signals
+from erdctl.effects import catalogue
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect, Slot
 
-COUPLED = [e for e in effects.catalogue() if e.slot in (Slot.SERIES, Slot.FEEDBACK)]
+COUPLED = [e for e in catalogue() if e.slot in (Slot.SERIES, Slot.FEEDBACK)]
 SPRINGS = [e for e in COUPLED if e.slot is Slot.SERIES]
 FEEDBACKS = [e for e in COUPLED if e.slot is Slot.FEEDBACK]
 CHOICES = [(e,) for e in COUPLED] + list(product(SPRINGS, FEEDBACKS))
