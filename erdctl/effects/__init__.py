@@ -6,12 +6,13 @@ add effects through the entry-point group `erdctl.effects`: the effect's name, a
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
 from pkgutil import iter_modules
 
-from erdctl.core.errors import InputProblem
+from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.model.effect import Effect
 
 GROUP = "erdctl.effects"
@@ -50,3 +51,16 @@ def get(name: str) -> Effect:
 def catalogue() -> tuple[Effect, ...]:
     """Every effect."""
     return tuple(get(name) for name in names())
+
+
+def candidates(only: Iterable[str] = (), exclude: Iterable[str] = ()) -> tuple[Effect, ...]:
+    """The effects that a user wants tested: `only` these, or else all, less `exclude`.
+
+    Raises UsageProblem, with the names there are, for one that the catalogue has not.
+    """
+    try:
+        barred = {get(name).name for name in exclude}
+        chosen = tuple(get(name) for name in only) or catalogue()
+    except InputProblem as problem:
+        raise UsageProblem(str(problem)) from None
+    return tuple(e for e in chosen if e.name not in barred)
