@@ -10,10 +10,14 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, runtime_checkable
 import numpy as np
 import pyarrow as pa
 
+from erdctl.bench.inspection import inspect
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Recording
+from erdctl.effects import catalogue
 from erdctl.interface.display import draw, frame_of, html, text
+from erdctl.io import documents
 from erdctl.io.csv_out import typed
+from erdctl.io.inspection import to_json
 from erdctl.io.logs import Log, read_logs
 from erdctl.io.stored import PLAIN, si
 from erdctl.io.tables import append_column, table_of, write_table
@@ -76,9 +80,9 @@ class BenchLog:
 
     def to_dict(self) -> dict[str, Any]:
         """What the log holds and can show: the document of `erdctl.inspect`."""
-        from erdctl.interface.inspect import inspect
-
-        return inspect(self).to_dict()
+        found = inspect(self.recording, catalogue())
+        document: dict[str, Any] = documents.plain(to_json(found, self.log))
+        return document
 
     def table(self) -> pd.DataFrame:
         """One row a sample: t [s], x [m], xdot [m/s], duty [1], force [N], record, and the rest.
@@ -108,7 +112,7 @@ class BenchLog:
     ) -> Figure:
         """A matplotlib Figure: loops, or the motion of a log without a force.
 
-        kind : of `erdctl plot --help`, e.g. time, motion, peak-force, average, slow
+        kind : loops, motion, peak-force, average, slow, or another of `erdctl plot --help`
         records : only these;  span : only this time of each record, (start, end) [s]
         """
         r, modelled = self.recording, self.log.force_model
@@ -173,7 +177,7 @@ def read(paths: Logs, *, map: Maps = None) -> BenchLog:
 
     Example:
         log = erdctl.read("lab.csv", map={"t": "Time[ms]", "x": "Defl FL[mm]", "force": "F_fl[N]"})
-        log.plot("time", span=(2, 5))
+        log.plot("motion", span=(0, 5))
     """
     return open_log(paths, map=map, want_force=True, keep_table=True)
 
