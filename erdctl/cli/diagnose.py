@@ -13,12 +13,8 @@ from erdctl.cli.pictures import Plots
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from erdctl.core.recording import Recording
     from erdctl.diagnose.diagnosis import Diagnosis
-    from erdctl.model.effect import Effect
     from erdctl.model.parameters import Parameters
-
-WORTHWHILE = 60_000  # samples times effects from which the second that a process needs is worth it
 
 
 def command(
@@ -102,7 +98,9 @@ def command(
     from erdctl.core.errors import CheckFailed
     from erdctl.diagnose.corrected import parameters
     from erdctl.diagnose.diagnosis import Verdict, diagnose
+    from erdctl.diagnose.jobs import worthwhile
     from erdctl.diagnose.record_effects import Varying
+    from erdctl.effects import candidates
     from erdctl.io import documents
     from erdctl.io.diagnosis import to_json
     from erdctl.report.text import progress, say
@@ -111,13 +109,13 @@ def command(
     asked = wanted(plot, "before-after")
     given, file = _given(params, logs)
     log = read_logs(logs, maps=maps, need_force=True, want_hash=True, report=say)
-    candidates = _candidates(only, exclude)
+    tested = candidates(_names(only), _names(exclude))
     with progress() as step:
         found = diagnose(
-            log.recording, candidates, most=max_effects,
+            log.recording, tested, most=max_effects,
             given=given,
             free=Varying(gain=record_gains, offset=record_offsets), seed=seed,
-            jobs=jobs or _jobs(log.recording, candidates), progress=step,
+            jobs=jobs or worthwhile(log.recording, tested), progress=step,
         )  # fmt: skip
     document = to_json(found, file)
     documents.write(document, output)
@@ -149,26 +147,8 @@ def _given(params: str | None, logs: Sequence[str]) -> tuple[Parameters | None, 
     return found, {"name": params, "sha256": hashlib.sha256(data).hexdigest()}
 
 
-def _candidates(only: Sequence[str], exclude: Sequence[str]) -> list[Effect]:
-    from erdctl import effects
-    from erdctl.core.errors import InputProblem, UsageProblem
-
-    def names(options: Sequence[str]) -> list[str]:
-        return [name.strip() for option in options for name in option.split(",") if name.strip()]
-
-    try:
-        barred = {effects.get(name).name for name in names(exclude)}
-        chosen = [effects.get(name) for name in names(only)] or list(effects.catalogue())
-    except InputProblem as problem:
-        raise UsageProblem(str(problem)) from None
-    return [e for e in chosen if e.name not in barred]
-
-
-def _jobs(recording: Recording, candidates: Sequence[Effect]) -> int:
-    """As many processes as cores, where the work is worth starting them."""
-    from erdctl.core.workers import cores
-
-    return cores() if len(recording) * len(candidates) > WORTHWHILE else 1
+def _names(options: Sequence[str]) -> list[str]:
+    return [name.strip() for option in options for name in option.split(",") if name.strip()]
 
 
 def _report(found: Diagnosis, document: dict[str, Any], path: str, seed: int) -> None:

@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from erdctl.cli.options import Logs, Maps, Out
 from erdctl.cli.pictures import Plots
+from erdctl.estimate.method import Method
 
 if TYPE_CHECKING:
     from erdctl.estimate.identify import Identification
     from erdctl.model.parameters import Parameters
-
-
-class Method(StrEnum):
-    """Which of the two fits becomes the parameter values."""
-
-    JOINT = "joint"
-    TWO_STEP = "two-step"
 
 
 def command(
@@ -48,6 +41,7 @@ def command(
     from erdctl.cli.pictures import draw, wanted
     from erdctl.cli.reading import read_logs
     from erdctl.estimate.identify import identify
+    from erdctl.io.identification import parameters_of
     from erdctl.io.parameters import write_parameters
     from erdctl.report.text import progress, say
 
@@ -55,7 +49,7 @@ def command(
     log = read_logs(logs, maps=maps, need_force=True, want_hash=True, report=say)
     with progress() as step:
         found = identify(log.recording, robust=robust, progress=step)
-    parameters = _parameters(found, method, log.recording)
+    parameters = parameters_of(found, method, log.recording)
     write_parameters(parameters, output)
     if asked:
         from erdctl.model.simulate import simulate
@@ -71,43 +65,6 @@ def command(
             ),
         )  # fmt: skip
     _show(found, parameters)
-
-
-def _parameters(found: Identification, method: Method, recording: object) -> Parameters:
-    from dataclasses import replace
-
-    from erdctl.core.errors import InputProblem
-    from erdctl.core.recording import Recording
-    from erdctl.model.parameters import Parameters, provenance
-
-    assert isinstance(recording, Recording)
-    estimates = dict(found.joint)
-    if method is Method.TWO_STEP:
-        for name, e in estimates.items():
-            if e.identified and name not in found.two_step:
-                raise InputProblem(
-                    f"the paper's procedure cannot give {name} from these logs (no null-control"
-                    " data?); use --method joint"
-                )
-            if e.identified:
-                estimates[name] = replace(e, value=found.two_step[name], stderr=None)
-    fits = {
-        "joint": {
-            "rms": found.fit.rms,
-            "samples": found.fit.samples,
-            "evaluations": found.fit.evaluations,
-            "converged": found.fit.converged,
-        },
-        "two_step": {"rms": found.two_step_rms, "values": dict(found.two_step)},
-        "method": method.value,
-    }
-    return Parameters(
-        model=found.model,
-        estimates=estimates,
-        provenance=provenance(recording, found.fit.rms),
-        fits=fits,
-        warnings=found.warnings,
-    )
 
 
 def _show(found: Identification, parameters: Parameters) -> None:

@@ -40,9 +40,9 @@ def command(
       erdctl inspect lab.csv --map "t=Time[ms]" --map "x=Defl FL[mm]" --map "force=F_fl[N]" \\
         --map "duty=PWM[%]"
     """
-    from erdctl import effects
     from erdctl.bench.inspection import inspect
     from erdctl.cli.reading import read_logs
+    from erdctl.effects import catalogue
     from erdctl.io import documents
     from erdctl.io.inspection import to_json
     from erdctl.report.text import progress, say
@@ -52,7 +52,7 @@ def command(
     )
     with progress() as step:
         step("inspecting", f"{len(log.recording)} samples")
-        found = inspect(log.recording, effects.catalogue())
+        found = inspect(log.recording, catalogue())
     document = to_json(found, log)
     if as_json:
         documents.write(document, "-")

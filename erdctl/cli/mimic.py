@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -14,9 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from erdctl.cli.pictures import Wanted
-    from erdctl.core.recording import Recording
-    from erdctl.io.pwm import Sequence
-    from erdctl.mimic import Correction, Plan
+    from erdctl.mimic import Plan
+    from erdctl.mimic.sequence import PwmSequence
     from erdctl.model.parameters import Parameters
 
 
@@ -83,19 +82,16 @@ def command(
       erdctl mimic damper.json drive.csv --fault oil=0.5 -o pwm.csv --plot f-v.png --plot duty:v.png
     """
     import math
-    from dataclasses import replace
     from hashlib import sha256
 
     from erdctl.cli.pictures import wanted
     from erdctl.cli.reading import read_logs
-    from erdctl.core.errors import UsageProblem
-    from erdctl.core.signals import Signals
-    from erdctl.io import documents, formats, pwm
+    from erdctl.core.errors import InputProblem, UsageProblem
+    from erdctl.io import documents, pwm
     from erdctl.io.parameters import parse_parameters
-    from erdctl.io.tables import output_format, write_table
-    from erdctl.mimic import follow, mimic
+    from erdctl.mimic.sequence import at_duty, sequence, too_hot
     from erdctl.model.amplifier import Amplifier
-    from erdctl.model.faults import Corner, on_channel, parse_fault
+    from erdctl.model.faults import parse_fault
     from erdctl.model.simulate import remarks
     from erdctl.report.text import progress, say
 
@@ -103,8 +99,6 @@ def command(
         raise UsageProblem("mimic needs at least one --fault, e.g. --fault oil=0.5@15:31")
     if params == "-" and log == "-":
         raise UsageProblem("PARAMS and LOG cannot both be stdin")
-    if duty is not None and not 0.0 <= duty <= 1.0:
-        raise UsageProblem(f"--duty is a fraction from 0 to 1, not {duty:g}")
     check_report(report)
     asked = wanted(plot, "mimic")
     amplifier = Amplifier(
@@ -117,32 +111,24 @@ def command(
     read = read_logs(
         [log], maps=maps, need_force=False, keep_table=True, want_hash=True, report=say
     )
-    recording = read.recording
-    _check_temperature(recording, max_temperature, force)
-    if duty is not None:
-        recording = replace(recording, duty=recording.duty * 0.0 + duty)
+    heat = too_hot(read.recording, max_temperature)
+    if heat is not None and not force:
+        raise InputProblem(f"{heat}; nothing was written (--force overrides, Sec. 5.4)")
+    if heat is not None:
+        say(heat, "warning")
+    recording = at_duty(read.recording, duty, "--duty")
     for line in remarks(parameters, recording):
         say(line)
-    by_channel = {c.value: on_channel(faults, c) for c in Corner}
-    plans = {}
     with progress() as step:
-        for c, chosen in by_channel.items():
-            if chosen:
-                step("computing", f"the sequence of {c}")
-                plans[c] = mimic(parameters, recording, chosen, amplifier)
-    healthy = follow(recording.duty, Signals.of(recording), amplifier)
-    duties = dict.fromkeys(by_channel, healthy)
-    duties |= {c: p.duty_paper if uncompensated else p.duty for c, p in plans.items()}
-    sequence = pwm.Sequence(recording, duties, plans, uncompensated)
-    if output_format(output, format and format.value) is formats.Format.MAT:
-        pwm.write_mat(sequence, output)
-    else:
-        write_table(_table(read.table, sequence), output, format and format.value)
+        found = sequence(
+            parameters, recording, faults, amplifier, static=uncompensated, progress=step
+        )
+    pwm.write(found, read.table, output, format and format.value)
     if manifest is None and output != "-":
         manifest = f"{output}.manifest.json"
     if manifest is not None:
         document = pwm.manifest(
-            sequence, amplifier=amplifier, parameters_sha256=sha256(data).hexdigest(),
+            found, amplifier=amplifier, parameters_sha256=sha256(data).hexdigest(),
             faults=[str(f) for f in faults],
         )  # fmt: skip
         documents.write(document, manifest)
@@ -157,14 +143,14 @@ def command(
             words=sys.argv[1:], logs=recording.sources,
             details=[("parameters", f"{params}, SHA-256 {sha256(data).hexdigest()}")],
         )  # fmt: skip
-        page = mimic_page(plans, recording, healthy, static=uncompensated, run=run)
+        page = mimic_page(found.plans, recording, found.healthy, static=uncompensated, run=run)
         write_report(page, report)
     if asked:
-        _draw(asked, sequence, parameters)
-    _show(plans)
+        _draw(asked, found, parameters)
+    _show(found.plans)
 
 
-def _draw(asked: list[Wanted], sequence: Sequence, parameters: Parameters) -> None:
+def _draw(asked: list[Wanted], sequence: PwmSequence, parameters: Parameters) -> None:
     """Pictures of each faulty damper; of several, each has its name in the file's."""
     import os
     from dataclasses import replace
@@ -179,35 +165,8 @@ def _draw(asked: list[Wanted], sequence: Sequence, parameters: Parameters) -> No
         draw(named, of_plan(plan, parameters, sequence.recording, static=sequence.static))
 
 
-def _check_temperature(recording: Recording, limit: float, forced: bool) -> None:
-    from erdctl.core.errors import InputProblem
-    from erdctl.report.text import say
-
-    if recording.temperature is None:
-        return
-    hottest = float(recording.temperature.max())
-    if hottest <= limit:
-        return
-    words = f"the damper reached {hottest:.1f} degC in this log, above the limit of {limit:g} degC"
-    if not forced:
-        raise InputProblem(f"{words}; nothing was written (--force overrides, Sec. 5.4)")
-    say(words, "warning")
-
-
-def _table(log: Any, sequence: Sequence) -> Any:
-    """The log's table under the new duty; its measured force was that of the healthy one."""
-    from erdctl.io.tables import append_column
-
-    renamed = ["force_healthy" if name == "force" else name for name in log.column_names]
-    table = log.rename_columns(renamed)
-    new = sequence.columns()
-    table = table.drop_columns([name for name in new if name in renamed])
-    for name, values in new.items():
-        table = append_column(table, name, values)
-    return table
-
-
 def _show(plans: Mapping[str, Plan]) -> None:
+    from erdctl.mimic.sequence import held_back, worth
     from erdctl.report.text import say, table
 
     reaches = [(channel, r) for channel, plan in plans.items() for r in plan.reaches]
@@ -225,36 +184,7 @@ def _show(plans: Mapping[str, Plan]) -> None:
         for channel, r in reaches
     ]  # fmt: skip
     table("Expected force against the ideal faulty force, while each fault acts", header, rows)
-    for channel, plan in plans.items():
-        if plan.correction is not None:
-            for line in _worth(plan.correction):
-                say(f"{channel}: {line}")
-    for channel, plan in plans.items():
-        if plan.limited:
-            say(
-                f"{channel}: {100 * plan.limited:.1f} % of the samples ask for more than the"
-                " highest duty; --duty-max raises it",
-                "warning",
-            )
-
-
-def _worth(c: Correction) -> list[str]:
-    """What a corrected model is worth for the sequence, in words."""
-    out = []
-    figures = f"NRMSE {c.nrmse:.4f}, with the paper's parameters alone {c.plain:.4f}"
-    if c.effects and c.fell_back:
-        out.append(
-            f"no sequence from {', '.join(c.effects)} comes nearer to the faulty force than that of"
-            f" the paper's parameters alone, which is written: {figures}"
-        )
-    elif c.effects:
-        out.append(
-            f"computed with {', '.join(c.effects)}, all faults: {figures}, both replayed through"
-            f" the corrected model: {100 * c.removed:.0f} % of the error removed"
-        )
-    if c.left_out:
-        out.append(
-            f"{', '.join(c.left_out)}: of the force channel, not of the damper, so no part of the"
-            " sequence and its figures; force_ideal and force_expected carry it as a log would"
-        )
-    return out
+    for line in worth(plans):
+        say(line)
+    for line in held_back(plans):
+        say(f"{line}; --duty-max raises it", "warning")

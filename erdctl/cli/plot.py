@@ -9,8 +9,6 @@ import typer
 from erdctl.cli.options import Faults, Logs, Maps
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from erdctl.io.logs import Log
     from erdctl.report.subject import Subject
 
@@ -74,6 +72,7 @@ def command(
     from erdctl.cli.reading import read_logs
     from erdctl.report import pictures
     from erdctl.report.picture import suffix
+    from erdctl.report.subject import part
     from erdctl.report.subjects import PROGRAMME
     from erdctl.report.text import say
 
@@ -90,7 +89,7 @@ def command(
     prepare()
     log = read_logs(logs, maps=maps, need_force=False, want_force=True, others=others, report=say)
     subject = _subject(log, params, before, fault, regions=wants(asked, "regions"))
-    draw(asked, _part(subject, record, window))
+    draw(asked, part(subject, record, window))
 
 
 def _subject(
@@ -139,28 +138,3 @@ def _seconds(span: str | None) -> tuple[float, float] | None:
     if not colon or not low < high:
         raise UsageProblem(f"--span is START:END in seconds, e.g. 2:5.5, not '{span}'")
     return low, high
-
-
-def _part(subject: Subject, records: Sequence[str], window: tuple[float, float] | None) -> Subject:
-    import numpy as np
-
-    from erdctl.core.errors import UsageProblem
-    from erdctl.report.subject import cut
-
-    r = subject.recording
-    if not records and window is None:
-        return subject
-    unknown = [name for name in records if name not in r.names]
-    if unknown:
-        some = ", ".join(r.names[:8]) + (", ..." if len(r.names) > 8 else "")
-        raise UsageProblem(f"no record '{unknown[0]}' in the log; it has {some}")
-    keep = np.ones(len(r), dtype=bool)
-    if records:
-        chosen = np.array([name in records for name in r.names])
-        keep &= np.repeat(chosen, np.diff(r.starts))
-    if window is not None:
-        keep &= (r.t >= window[0]) & (r.t <= window[1])
-    rows = np.flatnonzero(keep)
-    if len(rows) < 2:
-        raise UsageProblem("--span and --record leave fewer than two samples")
-    return cut(subject, rows)

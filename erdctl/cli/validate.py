@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -12,8 +12,6 @@ from erdctl.cli.pictures import Plots
 
 if TYPE_CHECKING:
     from erdctl.score.nrmse import Score, Validation
-
-SCHEMA = "erdctl.validation/1"
 
 
 def command(
@@ -86,8 +84,9 @@ def command(
     found = validate(log.recording, modelled, Normalise(normalise))
     if as_json:
         from erdctl.io import documents
+        from erdctl.io.validation import to_json
 
-        documents.write(_document(found), "-")
+        documents.write(to_json(found), "-")
     else:
         _show(found)
     if report is not None:
@@ -118,20 +117,6 @@ def command(
         over = [f"{d:g}: {s.nrmse:.4f}" for d, s in found.by_duty.items() if s.nrmse > fail_above]
         if over:
             raise CheckFailed(f"NRMSE above {fail_above:g} at PWM level {', '.join(over)}")
-
-
-def _document(found: Validation) -> dict[str, Any]:
-    def score(s: Score) -> dict[str, float]:
-        return {"nrmse": s.nrmse, "rms": s.rms, "samples": s.samples}
-
-    return {
-        "schema": SCHEMA,
-        "normalise": found.normalise.value,
-        **score(found.overall),
-        "nrmse_by_duty": [{"duty": d, **score(s)} for d, s in found.by_duty.items()],
-        "nrmse_by_direction": [{"direction": d, **score(s)} for d, s in found.by_direction.items()],
-        "nrmse_by_record": [{"record": r, **score(s)} for r, s in found.by_record.items()],
-    }
 
 
 def _show(found: Validation) -> None:

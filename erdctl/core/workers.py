@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
 from multiprocessing import get_context, parent_process
 from threading import Thread
 from typing import Any
@@ -25,6 +26,19 @@ def pool(jobs: int, begin: Callable[..., None] | None = None, *given: Any) -> Pr
     return ProcessPoolExecutor(
         jobs, mp_context=get_context("spawn"), initializer=_begin, initargs=(begin, given)
     )
+
+
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """One thread for linear algebra, whose own would fight with ours for the same cores.
+
+    The command line says so before NumPy loads; in a user's program it is loaded already.
+    """
+    import scipy.linalg  # noqa: F401  # a library can be limited only once it is loaded
+    from threadpoolctl import threadpool_limits
+
+    with threadpool_limits(1, user_api="blas"):
+        yield
 
 
 def _begin(begin: Callable[..., None] | None, given: tuple[Any, ...]) -> None:

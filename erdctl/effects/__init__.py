@@ -6,12 +6,13 @@ add effects through the entry-point group `erdctl.effects`: the effect's name, a
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
 from pkgutil import iter_modules
 
-from erdctl.core.errors import EffectFailed, ErdctlError, InputProblem
+from erdctl.core.errors import EffectFailed, ErdctlError, InputProblem, UsageProblem
 from erdctl.model.effect import Effect
 
 GROUP = "erdctl.effects"
@@ -56,10 +57,23 @@ def _loaded(name: str, module: str, attribute: str) -> Effect:
         found: object = getattr(import_module(module), attribute)
     except (ErdctlError, MemoryError):
         raise
-    except Exception as error:
+    except Exception as error:  # an effect may come from anywhere, and fail in any way
         raise EffectFailed(file, f"{type(error).__name__}: {error}") from error
     if not isinstance(found, Effect):
         raise EffectFailed(file, f"{attribute} is {type(found).__name__}, expected an Effect")
     if found.name != name:
         raise EffectFailed(file, f"{attribute} is called '{found.name}', expected '{name}'")
     return found
+
+
+def candidates(only: Iterable[str] = (), exclude: Iterable[str] = ()) -> tuple[Effect, ...]:
+    """The effects that a user wants tested: `only` these, or else all, less `exclude`.
+
+    Raises UsageProblem, with the names there are, for one that the catalogue has not.
+    """
+    try:
+        barred = {get(name).name for name in exclude}
+        chosen = tuple(get(name) for name in only) or catalogue()
+    except InputProblem as problem:
+        raise UsageProblem(str(problem)) from None
+    return tuple(e for e in chosen if e.name not in barred)

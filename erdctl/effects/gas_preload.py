@@ -36,7 +36,7 @@ EFFECT = Effect(
     title="constant static gas force",
     equation="F = F_0",
     source="the ER damper paper, Eqs. 3 and 4",
-    validity="on force data alone it cannot be distinguished from force_offset, a zero error of the channel",
+    validity="on force data alone it is the same as force_offset, a zero error of the channel",
     requires=(Requirement.STROKE,),
     shows=Variable.X,
     quantities=(

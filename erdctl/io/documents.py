@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import msgspec
 
@@ -51,6 +51,11 @@ def decode(data: bytes, kind: type[T], *, name: str, schema: str) -> T:
 def encode(document: object) -> bytes:
     """A document as indented JSON with a final newline."""
     return msgspec.json.format(msgspec.json.encode(document), indent=2) + b"\n"
+
+
+def plain(document: object) -> Any:
+    """A document as whoever reads its JSON gets it: dicts, lists, numbers, texts and None."""
+    return msgspec.json.decode(msgspec.json.encode(document))
 
 
 def write(document: object, path: str) -> None:

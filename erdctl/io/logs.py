@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 
 import numpy as np
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.core.recording import Array, Index, Recording, Source, concatenate
+from erdctl.io import units
 from erdctl.io.arrays import arrow, runs_of_text
 from erdctl.io.checks import Place, check_time, check_values, remark_on_time
 from erdctl.io.columns import to_numbers, to_records
@@ -19,9 +21,10 @@ from erdctl.io.memory import check_fits
 from erdctl.io.plan import Plan, in_contract_names, plan_columns, read_planned
 from erdctl.io.sources import STDIN, TableSource, open_source
 from erdctl.io.stored import si, with_unit
-from erdctl.io.units import RECORD, Conversion, Mapping, parse_maps
+from erdctl.io.units import RECORD, Conversion, parse_maps
 
 Report = Callable[[str], None]
+Held = Mapping[str, bytearray]
 
 FORCES = ("force", "force_model")
 
@@ -64,6 +67,7 @@ def read_logs(
     keep_table: bool = False,
     want_hash: bool = False,
     others: Sequence[str] = (),
+    held: Held = MappingProxyType({}),
     report: Report,
 ) -> Log:
     """Read and validate bench logs (any format of `Format`; "-" is standard input).
@@ -72,6 +76,7 @@ def read_logs(
     need_force : else force is read only if mapped, or with want_force where the log has it
     keep_table : keep all columns, for a single log;  want_hash : SHA-256 of each log
     others : columns of numbers to read where they are there, of a single log
+    held : bytes of logs that are in memory, by what `paths` calls them
     report : takes a line for everything that was assumed or derived
 
     Records keep their names; of several logs they become "stem:record". A log without a column
@@ -93,6 +98,7 @@ def read_logs(
             keep_table=keep_table,
             want_hash=want_hash,
             others=others if len(paths) == 1 else (),
+            held=held,
             report=report,
         )
         for path in paths
@@ -116,16 +122,17 @@ def read_logs(
 
 def _read(
     path: str,
-    mappings: Sequence[Mapping],
+    mappings: Sequence[units.Mapping],
     *,
     need_force: bool,
     want_force: bool,
     keep_table: bool,
     want_hash: bool,
     others: Sequence[str],
+    held: Held,
     report: Report,
 ) -> Log:
-    source = open_source(path)
+    source = open_source(path, held.get(path))
 
     def say(line: str) -> None:
         report(f"{source.name}: {line}")

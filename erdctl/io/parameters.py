@@ -78,9 +78,9 @@ def parse_parameters(data: bytes, name: str) -> Parameters:
             estimates[full] = _estimate(getattr(given, symbol), quantity, full, name)
     chosen = []
     for i, extra in enumerate(document.effects):
-        from erdctl import effects  # only where there are any: most parameter files have none
+        from erdctl.effects import get  # only where there are any: most parameter files have none
 
-        effect = effects.get(extra.effect)
+        effect = get(extra.effect)
         if effect in chosen:
             raise InputProblem(f"effects[{i}]: '{effect.name}' is listed twice", file=name)
         chosen.append(effect)

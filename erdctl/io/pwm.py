@@ -2,51 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from io import BytesIO
 from typing import Any
 
 import numpy as np
+import pyarrow as pa
 
 from erdctl import __version__
 from erdctl.core.errors import UsageProblem
-from erdctl.core.recording import Array, Recording
 from erdctl.io.atomic import output
-from erdctl.mimic import Plan
+from erdctl.io.formats import Format
+from erdctl.io.tables import append_column, output_format, write_table
+from erdctl.mimic.sequence import CHANNELS, PwmSequence
 from erdctl.model.amplifier import Amplifier
 
 SCHEMA = "erdctl.pwm/1"
-CHANNELS = ("fl", "fr", "rl", "rr")
 
 
-@dataclass(frozen=True, eq=False)
-class Sequence:
-    """What goes to the four amplifiers, and the plans of the dampers that mimic a fault.
+def write(sequence: PwmSequence, log: pa.Table, path: str, format: str | None = None) -> None:
+    """Write a sequence: to .mat as Simulink takes it, else as `table`; `log` is the log's table.
 
-    duties : (n,) for each of CHANNELS;  plans : for the channels with a fault, at least one
-    static : the paper's inverse was chosen in place of the compensated sequence
+    Raises UsageProblem for an unknown suffix, and for a MAT file of several records.
     """
-
-    recording: Recording
-    duties: Mapping[str, Array]
-    plans: Mapping[str, Plan]
-    static: bool
-
-    def columns(self) -> dict[str, Array]:
-        """Columns that join the log's motion; `duty` and forces are the first faulty damper's."""
-        channel, plan = next(iter(self.plans.items()))
-        return {
-            "duty": self.duties[channel],
-            **{f"duty_{channel}": self.duties[channel] for channel in CHANNELS},
-            "duty_healthy": self.recording.duty,
-            "out_of_reach": plan.out_of_reach.astype(np.float64),
-            "force_ideal": plan.ideal,
-            "force_expected": plan.expected_paper if self.static else plan.expected,
-        }
+    if output_format(path, format) is Format.MAT:
+        write_mat(sequence, path)
+    else:
+        write_table(table(sequence, log), path, format)
 
 
-def write_mat(sequence: Sequence, path: str) -> None:
+def table(sequence: PwmSequence, log: pa.Table) -> pa.Table:
+    """The log's table under the new duty; its measured force was that of the healthy damper."""
+    renamed = ["force_healthy" if name == "force" else name for name in log.column_names]
+    out = log.rename_columns(renamed)
+    new = sequence.columns()
+    out = out.drop_columns([name for name in new if name in renamed])
+    for name, values in new.items():
+        out = append_column(out, name, values)
+    return out
+
+
+def write_mat(sequence: PwmSequence, path: str) -> None:
     """Write the four duty sequences as MATLAB 5 variables for Simulink.
 
     `pwm` is (5, n): time and fl, fr, rl, rr, as From File reads the first variable of a file;
@@ -68,7 +63,7 @@ def write_mat(sequence: Sequence, path: str) -> None:
 
 
 def manifest(
-    sequence: Sequence, *, amplifier: Amplifier, parameters_sha256: str, faults: list[str]
+    sequence: PwmSequence, *, amplifier: Amplifier, parameters_sha256: str, faults: list[str]
 ) -> dict[str, Any]:
     """What whoever pushes the sequence must know: scale, limits, origin, schedule, reach."""
     return {
@@ -122,7 +117,7 @@ def manifest(
     }
 
 
-def _kind(sequence: Sequence) -> str:
+def _kind(sequence: PwmSequence) -> str:
     if sequence.static:
         return "static inverse (Eqs. 27, 31, 35)"
     if any(p.correction and not p.correction.fell_back for p in sequence.plans.values()):

@@ -62,13 +62,14 @@ class TableSource:
         return os.path.getsize(self.data) if isinstance(self.data, str) else len(self.data)
 
 
-def open_source(path: str) -> TableSource:
+def open_source(path: str, held: Data | None = None) -> TableSource:
     """Look at a file, or take all of standard input for `-`; samples are not read yet.
 
+    held : the bytes of the file where they are in memory; `path` is then only what it is called
     Raises UsageProblem if it cannot be opened, InputProblem if it is no table.
     """
     name = "stdin" if path == STDIN else path
-    data = _data(path)
+    data = _data(path) if held is None else held
     if isinstance(data, str):
         with open(data, "rb") as file:
             head = file.read(64)

@@ -1,8 +1,8 @@
 """The PWM sequence with which a healthy damper acts as a faulty one, Sec. 6, and what it reaches.
 
 The paper's model is inverted by formula (`erdctl.mimic.inverse`), a model with effects by iteration
-(`erdctl.mimic.iterate`). What comes out is replayed through the corrected model together with the sequence
-of the paper's parameters alone. Where that does better for one of the faults, it takes over while
+(`erdctl.mimic.iterate`). What comes out is replayed through the corrected model, and so is the
+sequence of the paper's parameters alone. Where that does better for one of the faults, it takes over while
 that fault acts; where it is better as a whole, it is the plan, and the plan says so. The paper's
 parameters get the same iteration, on their own model: the difference is what the physics is worth,
 not the method.

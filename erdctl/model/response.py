@@ -172,7 +172,7 @@ class Prepared:
         return force
 
     def _outside(self, *, inner: bool) -> Sequence[tuple[str, Array]]:
-        """Terms that act in parallel with the spring; behind one of all forces are those of speed alone."""
+        """Terms in parallel with the spring; behind one of all forces are those of speed alone."""
         inside = {e.key(q.symbol) for e in self.effects if e.of_speed for q in e.amplitudes}
         return [(name, row) for name, row in self.terms() if not (inner and name in inside)]
 

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from erdctl import effects
 from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
+from erdctl.effects import catalogue, get
 from erdctl.io import documents
 from erdctl.io.diagnosis import to_json
 from erdctl.io.logs import read_logs
@@ -76,7 +76,7 @@ def judge(sealed: Sealed) -> Result:
 def examine(log: Path) -> Diagnosis:
     """What `erdctl diagnose LOG` does, given nothing but the file."""
     recording = _read(log)
-    return diagnose(recording, effects.catalogue())
+    return diagnose(recording, catalogue())
 
 
 def scored(
@@ -133,7 +133,7 @@ def _errors(sealed: Sealed, found: Diagnosis, key: Mapping[str, Any]) -> Errors:
     hidden = [e["name"] for e in key["effects"]]
     best = None
     if hidden and all(name in CATALOGUE for name in hidden):
-        truth = [effects.get(name) for name in hidden]
+        truth = [get(name) for name in hidden]
         if acts(truth, signals):
             reached = best_fit(found.problem, truth, damper_values(key), corrected.values)
             best = rms(reached.model, reached.values)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from erdctl.bench.strokes import cycles
+from erdctl.core.errors import UsageProblem
 from erdctl.core.recording import Array, Index, Recording
 from erdctl.score.nrmse import Codes, duty_levels
 
@@ -137,3 +138,29 @@ def cut(subject: Subject, rows: Index) -> Subject:
         acting={name: flags[rows] for name, flags in subject.acting.items()},
         programme=None if p is None else Programme(p.healthy[rows], p.out_of_reach[rows]),
     )
+
+
+def part(
+    subject: Subject, records: Sequence[str] = (), window: tuple[float, float] | None = None
+) -> Subject:
+    """Some records of a subject, or a time window [s] of each; all of it where neither is given.
+
+    Raises UsageProblem for a record that is not there, and if next to nothing is left.
+    """
+    r = subject.recording
+    if not records and window is None:
+        return subject
+    unknown = [name for name in records if name not in r.names]
+    if unknown:
+        some = ", ".join(r.names[:8]) + (", ..." if len(r.names) > 8 else "")
+        raise UsageProblem(f"no record '{unknown[0]}' in the log; it has {some}")
+    keep = np.ones(len(r), dtype=bool)
+    if records:
+        chosen = np.array([name in records for name in r.names])
+        keep &= np.repeat(chosen, np.diff(r.starts))
+    if window is not None:
+        keep &= (r.t >= window[0]) & (r.t <= window[1])
+    rows = np.flatnonzero(keep)
+    if len(rows) < 2:
+        raise UsageProblem("span and records leave fewer than two samples")
+    return cut(subject, rows)

@@ -10,7 +10,6 @@ import pytest
 import trajectories
 from rig import campaign, noisy, recording
 
-from erdctl import effects
 from erdctl.bench import identifiability as coverage
 from erdctl.bench.drive import drives
 from erdctl.bench.excitation import Survey
@@ -19,11 +18,12 @@ from erdctl.bench.inspection import inspect
 from erdctl.bench.waveforms import Triangle
 from erdctl.core.recording import Array, Recording, concatenate
 from erdctl.diagnose.diagnosis import diagnose
+from erdctl.effects import catalogue
 from erdctl.estimate.identify import identify
 from erdctl.model.effect import Requirement, Stage
 
 RATE = 100.0
-CATALOGUE = effects.catalogue()
+CATALOGUE = catalogue()
 FIELD = {e.name for e in CATALOGUE if e.stage is Stage.FIELD}
 
 

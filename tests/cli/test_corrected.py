@@ -13,14 +13,14 @@ import pandas as pd
 import pytest
 from rig import TRUTH, campaign
 
-from erdctl import effects
 from erdctl.cli.app import build
+from erdctl.effects import catalogue, get
 from erdctl.io.parameters import to_document
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Estimate, Parameters
 
-CATALOGUE = effects.catalogue()
+CATALOGUE = catalogue()
 
 
 def corrected(path: Path, *chosen: Effect) -> Path:
@@ -79,7 +79,7 @@ def test_simulate_validate_and_mimic(
 
 
 def test_effects_that_exclude_each_other_are_refused(log: Path, tmp_path: Path) -> None:
-    chosen = (effects.get("signed_yield_lag"), effects.get("mount_compliance"))
+    chosen = (get("signed_yield_lag"), get("mount_compliance"))
     params = corrected(tmp_path / "corrected.json", *chosen)
     for command in (["simulate"], ["validate"], ["mimic", "--fault", "oil=0.5"]):
         line = [sys.executable, "-m", "erdctl", *command, str(params), str(log)]

@@ -13,21 +13,21 @@ import pytest
 from places import FIXTURES
 from rig import campaign, noisy
 
-from erdctl import effects
 from erdctl.core.blocks import thinned
 from erdctl.core.recording import Recording
 from erdctl.core.signals import Signals
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
 from erdctl.diagnose.problem import groups, prepare, uncertain
 from erdctl.diagnose.residual.localisation import locate
+from erdctl.effects import get
 from erdctl.io.diagnosis import to_json
-from erdctl.model.effect import Variable
+from erdctl.model.effect import Effect, Variable
 
 FEW = ("coulomb_friction", "quadratic_damping", "gas_preload", "preyield_viscosity", "time_skew")
 
 
-def few() -> list[effects.Effect]:
-    return [effects.get(name) for name in FEW]
+def few() -> list[Effect]:
+    return [get(name) for name in FEW]
 
 
 def plus(r: Recording, force: np.ndarray) -> Recording:

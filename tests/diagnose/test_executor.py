@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 from rig import campaign, noisy
 
-from erdctl import effects
 from erdctl.core.recording import Recording
 from erdctl.diagnose.diagnosis import diagnose
 from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.problem import prepare
+from erdctl.effects import get
 from erdctl.io import documents
 from erdctl.io.diagnosis import to_json
 
@@ -29,7 +29,7 @@ def rubbing() -> Recording:
 
 def test_the_document_is_the_same_for_any_number_of_jobs() -> None:
     seen: list[tuple[str, str]] = []
-    candidates = [effects.get(name) for name in FEW]
+    candidates = [get(name) for name in FEW]
 
     def document(jobs: int) -> bytes:
         found = diagnose(rubbing(), candidates, jobs=jobs, progress=lambda *told: seen.append(told))
@@ -42,6 +42,6 @@ def test_the_document_is_the_same_for_any_number_of_jobs() -> None:
 
 
 def test_effects_that_cannot_act_together_are_no_trial() -> None:
-    both = tuple(effects.get(name) for name in ("preyield_viscosity", "yield_hysteresis"))
+    both = tuple(get(name) for name in ("preyield_viscosity", "yield_hysteresis"))
     problem = prepare(rubbing())
     assert Executor([problem]).fit(problem, [Task("pairs", both, ({},))]) == [None]

@@ -14,12 +14,13 @@ import pyarrow.parquet as pq
 import pytest
 from rig import TRUTH, campaign, noisy
 
-from erdctl import effects
 from erdctl.core.recording import Recording
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Verdict, diagnose
+from erdctl.effects import get
 from erdctl.io.diagnosis import to_json
 from erdctl.model.composed import Model
+from erdctl.model.effect import Effect
 from erdctl.model.parameters import Estimate, Parameters
 
 FEW = ("coulomb_friction", "quadratic_damping", "time_skew")
@@ -33,12 +34,12 @@ def rubbing(drag: float = 0.0) -> Recording:
     return replace(r, force=r.force + 2.0 * np.sign(r.xdot) + drag * r.xdot * np.abs(r.xdot))
 
 
-def candidates() -> list[effects.Effect]:
-    return [effects.get(name) for name in FEW]
+def candidates() -> list[Effect]:
+    return [get(name) for name in FEW]
 
 
 def with_friction(amount: float) -> Parameters:
-    model = Model((effects.get("coulomb_friction"),))
+    model = Model((get("coulomb_friction"),))
     values = {**TRUTH, "coulomb_friction.F_c": amount}
     return Parameters(
         model=model,

@@ -16,10 +16,10 @@ import pytest
 from rig import noisy
 from scipy.signal import lfilter
 
-from erdctl import effects
 from erdctl.core.recording import Array, Recording, concatenate
 from erdctl.core.signals import Signals
 from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict, diagnose
+from erdctl.effects import catalogue
 from erdctl.score.nrmse import nrmse
 
 K_0, C_0 = 170.4, 68.83  # N/m, N s/m
@@ -103,7 +103,7 @@ def names(finding: Finding) -> set[str]:
 def test_what_the_earlier_paper_left_out(correlation: float) -> None:
     """One test, as under xdist every process with one of several would repeat the diagnosis."""
     log = noisy(clean(CAMPAIGN), seed=19, rms=NOISE, correlation=correlation)
-    found = diagnose(log, effects.catalogue())
+    found = diagnose(log, catalogue())
     both_are_found_and_nothing_else(found)
     their_parameters_are_the_labs(found)
     the_corrected_model_predicts_fresh_records(found)

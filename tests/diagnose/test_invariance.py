@@ -9,9 +9,10 @@ from functools import cache
 import numpy as np
 import pytest
 
-from erdctl import effects, plant
+from erdctl import plant
 from erdctl.core.recording import Recording, concatenate
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
+from erdctl.effects import catalogue
 
 SEED, EFFECT, LEVEL = 28, "quadratic_damping", 3.0  # a short campaign; misfit over noise
 ERRORS = 4.0  # standard errors within which parameters agree
@@ -32,7 +33,7 @@ def original() -> Recording:
 
 @cache
 def reference() -> Diagnosis:
-    return diagnose(original(), effects.catalogue())
+    return diagnose(original(), catalogue())
 
 
 def shuffled(r: Recording) -> Recording:
@@ -55,7 +56,7 @@ def with_a_copy(r: Recording) -> Recording:
 
 @pytest.mark.parametrize("change", [shuffled, half_the_rate, louder, with_a_copy])
 def test_the_finding_is_the_same(change: Callable[[Recording], Recording]) -> None:
-    before, after = reference(), diagnose(change(original()), effects.catalogue())
+    before, after = reference(), diagnose(change(original()), catalogue())
     assert [f.effect.name for f in before.findings] == [EFFECT]
     assert [f.effect.name for f in after.findings] == [EFFECT]
     assert after.verdict is before.verdict

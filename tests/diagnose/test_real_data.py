@@ -14,12 +14,12 @@ import pytest
 from places import SHARED
 from rig import real
 
-from erdctl import effects
 from erdctl.core.blocks import thinned
 from erdctl.core.recording import Recording
 from erdctl.core.signals import Signals
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
 from erdctl.diagnose.hypothesis import Hypothesis
+from erdctl.effects import catalogue
 from erdctl.score.nrmse import Normalise, nrmse
 
 pytestmark = pytest.mark.real_data
@@ -53,7 +53,7 @@ def split(name: str, text: str) -> tuple[Recording, Recording]:
 @cache
 def diagnosis(name: str, text: str) -> Diagnosis:
     """What is found on the records without a text in their names."""
-    return diagnose(thinned(split(name, text)[0], MOST), effects.catalogue(), most=EFFECTS)
+    return diagnose(thinned(split(name, text)[0], MOST), catalogue(), most=EFFECTS)
 
 
 def errors(what: str, hypothesis: Hypothesis, r: Recording) -> tuple[float, float]:

@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 from rig import campaign, noisy
 
-from erdctl import effects, plant
+from erdctl import plant
 from erdctl.core.recording import Recording
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
 from erdctl.diagnose.problem import prepare
 from erdctl.diagnose.record_effects import RecordEffects, Varying, estimate, shrunk
+from erdctl.effects import get
 from erdctl.io import documents
 from erdctl.io.diagnosis import to_json
 
@@ -42,7 +43,7 @@ def concealed(effect: str | None) -> plant.Case:
 
 @cache
 def diagnosed(effect: str | None, free: Varying) -> Diagnosis:
-    return diagnose(recording(concealed(effect)), [effects.get(n) for n in FEW], free=free)
+    return diagnose(recording(concealed(effect)), [get(n) for n in FEW], free=free)
 
 
 def true_gains(case: plant.Case) -> np.ndarray:
@@ -98,7 +99,7 @@ def test_offsets_come_out_and_the_common_one_is_a_finding() -> None:
     shifts = np.array([1.0, -2.0, 0.5, 0.0, 1.5, -1.0, 2.0, -0.5, -1.5])
     assert r.force is not None
     force = r.force + np.repeat(shifts + 5.0, np.diff(r.starts))
-    candidates = [effects.get(n) for n in ("gas_preload", "coulomb_friction")]
+    candidates = [get(n) for n in ("gas_preload", "coulomb_friction")]
     found = diagnose(replace(r, force=force), candidates, free=Varying(offset=True))
     assert [f.effect.name for f in found.findings] == ["gas_preload"]
     assert found.verdict is Verdict.EXPLAINED
@@ -111,7 +112,7 @@ def test_offsets_come_out_and_the_common_one_is_a_finding() -> None:
 
 def test_without_scatter_values_stay_at_the_mean() -> None:
     found = diagnose(
-        noisy(campaign(100.0, 6.0), seed=9), [effects.get("coulomb_friction")],
+        noisy(campaign(100.0, 6.0), seed=9), [get("coulomb_friction")],
         free=Varying(gain=True, offset=True),
     )  # fmt: skip
     assert found.verdict is Verdict.ADEQUATE
@@ -143,6 +144,6 @@ def test_values_are_drawn_by_their_errors() -> None:
 
 def test_the_same_for_any_number_of_jobs() -> None:
     r = recording(concealed(EFFECT))
-    few = [effects.get(n) for n in FEW]
+    few = [get(n) for n in FEW]
     one = documents.encode(to_json(diagnosed(EFFECT, GAINS)))
     assert documents.encode(to_json(diagnose(r, few, free=GAINS, jobs=2))) == one

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from rig import noisy
 
-from erdctl import effects
 from erdctl.core.recording import Array, Recording, concatenate
 from erdctl.core.signals import Signals
 from erdctl.diagnose.diagnosis import Verdict, diagnose
+from erdctl.effects import catalogue
 from erdctl.score.nrmse import nrmse
 
 FINE, EVERY = 20_000, 40  # Hz of the force; one sample in so many is logged
@@ -46,7 +46,7 @@ def test_the_smoothing_is_found_beside_a_damper() -> None:
         [recording(f, a, duty) for f, a in ((0.5, 0.02), (1.2, 0.012), (3.0, 0.006))
          for duty in (0.0, 0.2, 0.5)]
     )  # fmt: skip
-    found = diagnose(noisy(log, seed=7, rms=NOISE), effects.catalogue())
+    found = diagnose(noisy(log, seed=7, rms=NOISE), catalogue())
     for f in found.findings:
         print(f.effect.name, f.equivalent, f.gain, f.before, f.after)
     assert found.verdict is Verdict.EXPLAINED

@@ -8,18 +8,18 @@ import numpy as np
 import pytest
 from rig import campaign, noisy
 
-from erdctl import effects
 from erdctl.diagnose.backward_step import without_each
 from erdctl.diagnose.executor import Executor
 from erdctl.diagnose.forward_step import Exploration, Explored, key_of, with_effect
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem, prepare
 from erdctl.diagnose.screening import Candidate
+from erdctl.effects import get
 from erdctl.estimate.least_squares import SHORTEST, at_bound
 from erdctl.estimate.starts import fresh_start
 from erdctl.model.paper import QUANTITIES
 
-FRICTION = effects.get("coulomb_friction")
+FRICTION = get("coulomb_friction")
 
 
 @pytest.fixture(scope="module")

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from by_hand import signals
 
-from erdctl import effects
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.effects import get
 from erdctl.model.composed import Model
 
 # A damper with equal parameters in both directions, so that a test's own equations stay short.
@@ -35,13 +35,13 @@ def sine(
 
 def act(name: str, *arguments: Any) -> Any:
     """What the function of one effect returns."""
-    slot: Any = effects.get(name).slot
+    slot: Any = get(name).slot
     return slot(*arguments)
 
 
 def unit_forces(name: str, s: Signals, p: Mapping[str, float]) -> Array:
     """The columns of one effect."""
-    return effects.get(name).added(s, p)
+    return get(name).added(s, p)
 
 
 def force(name: str, s: Signals, p: Mapping[str, float], **changed: float) -> Array:
@@ -49,6 +49,6 @@ def force(name: str, s: Signals, p: Mapping[str, float], **changed: float) -> Ar
     values = dict(PLAIN)
     for symbol, value in changed.items():
         values |= {f"compression.{symbol}": value, f"release.{symbol}": value}
-    effect = effects.get(name)
+    effect = get(name)
     model = Model((effect,))
     return model.force(s, values | {effect.key(symbol): value for symbol, value in p.items()})

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from made import PLAIN, act, force, signals, sine
 
-from erdctl import effects
 from erdctl.core.signals import Signals
+from erdctl.effects import get
 from erdctl.model.composed import Model
 from erdctl.model.recurrences import play
 
@@ -106,4 +106,4 @@ def test_force_goes_over_into_that_without_play() -> None:
 def test_a_piston_in_play_keeps_its_direction() -> None:
     s: Signals = act("backlash", signals([1, 1, -1, -1, -1, -1], step=1.0), {"g": 2.2})
     assert s.per_direction(10.0, 20.0) == pytest.approx([10, 10, 10, 10, 17.5, 20])
-    assert effects.get("backlash").equivalents == ()
+    assert get("backlash").equivalents == ()

@@ -18,11 +18,11 @@ from hypothesis import strategies as st
 from places import ROOT
 from rig import TRUTH, campaign
 
-from erdctl import effects
 from erdctl.core.errors import IncompatibleEffects
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.effects import catalogue
 from erdctl.io.parameters import parse_parameters, to_document
 from erdctl.model.composed import Model, off_values
 from erdctl.model.effect import Effect, Stage
@@ -43,7 +43,7 @@ CONTRACT = {
     Stage.SENSOR: "force_drift",
 }
 STAGE_OF = {name: stage for stage, names in CONTRACT.items() for name in names.split()}
-CATALOGUE = effects.catalogue()
+CATALOGUE = catalogue()
 every = pytest.mark.parametrize("effect", CATALOGUE, ids=lambda e: e.name)
 separable = pytest.mark.parametrize(
     "effect", [e for e in CATALOGUE if Model((e,)).separable], ids=lambda e: e.name
@@ -284,7 +284,7 @@ def test_of_speed_is_true() -> None:
 
 
 def test_importing_the_catalogue_is_light() -> None:
-    code = "from erdctl import effects; effects.catalogue(); import sys; print(*sys.modules)"
+    code = "from erdctl.effects import catalogue; catalogue(); import sys; print(*sys.modules)"
     run = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT
     )

@@ -10,14 +10,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rig import TRUTH
 
-from erdctl import effects
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.signals import Signals
+from erdctl.effects import catalogue
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 from erdctl.model.slots import FeedbackSlot, SeriesSlot
 
-COUPLED = [e for e in effects.catalogue() if isinstance(e.slot, SeriesSlot | FeedbackSlot)]
+COUPLED = [e for e in catalogue() if isinstance(e.slot, SeriesSlot | FeedbackSlot)]
 SPRINGS = [e for e in COUPLED if isinstance(e.slot, SeriesSlot)]
 FEEDBACKS = [e for e in COUPLED if isinstance(e.slot, FeedbackSlot)]
 CHOICES = [(e,) for e in COUPLED] + list(product(SPRINGS, FEEDBACKS))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from made import signals, unit_forces
 
-from erdctl import effects
+from erdctl.effects import get
 
 
 def test_check_value() -> None:
@@ -15,4 +15,4 @@ def test_check_value() -> None:
 
 
 def test_says_what_it_cannot_be_told_from() -> None:
-    assert effects.get("gas_preload").equivalents == ("force_offset",)
+    assert get("gas_preload").equivalents == ("force_offset",)

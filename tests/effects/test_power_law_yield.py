@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from made import PLAIN, act, force, signals, sine
 
-from erdctl import effects
+from erdctl.effects import get
 from erdctl.model.composed import Model
 
 
@@ -26,7 +26,7 @@ def test_force_is_the_power_law() -> None:
 def test_behind_a_spring_it_follows_the_piston() -> None:
     """As the compliance goes to 0 the force goes to that with no spring."""
     s = sine(1.0, 0.02, 2.0, 1000.0, duty=0.25)
-    power, mount = effects.get("power_law_yield"), effects.get("mount_compliance")
+    power, mount = get("power_law_yield"), get("mount_compliance")
     values = PLAIN | {"power_law_yield.n": 0.3}
     rigid = Model((power,)).force(s, values)
     off = []

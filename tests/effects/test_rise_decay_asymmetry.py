@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from made import force, signals
 
-from erdctl import effects
+from erdctl.effects import get
 from erdctl.model.composed import Model
 
 
@@ -22,7 +22,7 @@ def test_falls_at_a_reversal_too() -> None:
     """Release has the smaller yield force: after the turn it is left at the slower rate."""
     xdot = np.where(np.arange(201) <= 100, 0.1, -0.1)
     s = signals(xdot, duty=np.full(201, 1.0), step=0.001)
-    model = Model((effects.get("rise_decay_asymmetry"),))
+    model = Model((get("rise_decay_asymmetry"),))
     values = dict.fromkeys(model.quantities, 0.0) | {
         "compression.sigma": 10.0, "release.sigma": 4.0, "compression.beta": 1.0,
         "release.beta": 1.0, "compression.T_d": 0.02, "release.T_d": 0.02,

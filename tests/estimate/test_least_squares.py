@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from rig import campaign
 
-from erdctl import effects
 from erdctl.core.blocks import whole
 from erdctl.core.signals import Signals
+from erdctl.effects import get
 from erdctl.estimate import least_squares as fit
 from erdctl.model.composed import Model
 
@@ -18,7 +18,7 @@ from erdctl.model.composed import Model
 def left(steps: int) -> float:
     """What a search leaves of a void that takes all of the force, over the plain force."""
     r = campaign(100.0, 6.0)
-    model = Model((effects.get("cavitation"),))
+    model = Model((get("cavitation"),))
     start = {n: q.start for n, q in model.quantities.items()}
     for d in ("compression", "release"):
         start |= {f"{d}.k_nom": 150.0, f"{d}.c_vis": 60.0, f"{d}.sigma": 30.0, f"{d}.T_d": 0.04}

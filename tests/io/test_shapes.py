@@ -14,10 +14,10 @@ from prove.results import result
 from rig import campaign, noisy
 from typer.testing import CliRunner
 
-from erdctl import effects
 from erdctl.cli.app import build
 from erdctl.diagnose.diagnosis import diagnose
 from erdctl.diagnose.record_effects import Varying
+from erdctl.effects import get
 from erdctl.io import documents
 from erdctl.io.diagnosis import to_json
 from erdctl.io.parameters import read_parameters
@@ -101,7 +101,7 @@ def test_diagnoses(tmp_path: Path) -> None:
     rubbing = r.force + 2.0 * (r.xdot > 0) - 2.0 * (r.xdot < 0)
     r = type(r)(t=r.t, x=r.x, xdot=r.xdot, duty=r.duty, force=rubbing, starts=r.starts,
                 names=r.names)  # fmt: skip
-    few = [effects.get(name) for name in ("coulomb_friction", "stribeck_friction")]
+    few = [get(name) for name in ("coulomb_friction", "stribeck_friction")]
     plain = to_json(diagnose(r, few, most=1))
     assert plain["findings"]
     check("diagnosis", plain)

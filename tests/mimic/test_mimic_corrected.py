@@ -9,9 +9,9 @@ import pytest
 import trajectories
 from rig import TRUTH, recording
 
-from erdctl import effects
 from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
+from erdctl.effects import catalogue, get
 from erdctl.mimic import Plan, mimic
 from erdctl.model.amplifier import Amplifier
 from erdctl.model.composed import Model
@@ -20,7 +20,7 @@ from erdctl.model.faults import parse_fault
 from erdctl.model.parameters import Estimate, Parameters
 from erdctl.model.slots import ChannelSlot
 
-CATALOGUE = effects.catalogue()
+CATALOGUE = catalogue()
 every = pytest.mark.parametrize("effect", CATALOGUE, ids=lambda e: e.name)
 
 # Strong enough to be felt in a record of 4 s; the catalogue's starts for all others.
@@ -104,7 +104,7 @@ PAIRS = [
 
 @pytest.mark.parametrize("names", PAIRS, ids="+".join)
 def test_pairs(names: tuple[str, str]) -> None:
-    c = plan(*(effects.get(n) for n in names)).correction
+    c = plan(*(get(n) for n in names)).correction
     assert c is not None
     print(f"{'+'.join(names):40} plain {c.plain:.4f} corrected {c.nrmse:.4f} {c.removed:.0%}")
     assert c.removed > 0.15
@@ -115,7 +115,7 @@ def test_several_faults_and_a_real_amplifier() -> None:
     """Steps of the duty, a slow update and a slew limit hold for the iterated sequence too."""
     amplifier = Amplifier(resolution=0.005, slew=20.0, update_rate=100.0)
     found = plan(
-        effects.get("input_delay"), effects.get("signed_yield_lag"),
+        get("input_delay"), get("signed_yield_lag"),
         fault="oil=0.5@1:2 electrical=0.6@2:3 deformation=0.7@3", amplifier=amplifier,
     )  # fmt: skip
     assert found.correction is not None
@@ -143,7 +143,7 @@ def test_the_channel_of_the_force_is_not_made_up_for() -> None:
 
 def test_a_force_that_outlasts_a_reversal_is_in_reach() -> None:
     """Healthy control gives the healthy force, although no steady yield force would."""
-    found = plan(effects.get("signed_yield_lag"), fault="electrical=0.999@1")
+    found = plan(get("signed_yield_lag"), fault="electrical=0.999@1")
     assert found.reaches[0].out_of_reach < 0.01
     assert found.reaches[0].compensated < 0.005
 

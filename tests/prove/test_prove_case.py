@@ -13,10 +13,10 @@ import pyarrow.parquet as pq
 import pytest
 from results import document
 
-from erdctl import effects
 from erdctl.core.errors import ComputationProblem, UsageProblem
 from erdctl.core.recording import Recording
 from erdctl.diagnose.problem import prepare
+from erdctl.effects import get, names
 from erdctl.io.logs import read_logs
 from erdctl.plant import draw, log
 from erdctl.prove import judge as judging
@@ -64,7 +64,7 @@ def test_the_diagnosis_is_given_the_log_alone(
     judging.examine(Path(alone))
     (((recording, candidates), more),) = asked
     assert isinstance(recording, Recording)
-    assert [e.name for e in candidates] == list(effects.names())
+    assert [e.name for e in candidates] == list(names())
     assert more == {}
 
 
@@ -92,7 +92,7 @@ def test_the_true_structure_refitted_reaches_the_noise(sealed: Sealed) -> None:
     key = opened(sealed)
     recording = read_logs([str(sealed.log)], need_force=True, report=print).recording
     problem = prepare(recording)
-    reached = best_fit(problem, [effects.get("coulomb_friction")], damper_values(key), {})
+    reached = best_fit(problem, [get("coulomb_friction")], damper_values(key), {})
     assert np.sqrt(reached.cost) == pytest.approx(key["force_noise"]["rms"], rel=0.02)
     friction = key["effects"][0]["parameters"]["F_c"]["value"]
     assert reached.values["coulomb_friction.F_c"] == pytest.approx(friction, rel=0.05)

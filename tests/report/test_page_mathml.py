@@ -7,11 +7,11 @@ from xml.etree import ElementTree
 
 import pytest
 
-from erdctl import effects
+from erdctl.effects import catalogue
 from erdctl.model.paper import EQUATIONS
 from erdctl.report.page.mathml import GREEK, NAMESPACE, equation, symbol
 
-ALL = {e.name: e.equation for e in effects.catalogue()} | {
+ALL = {e.name: e.equation for e in catalogue()} | {
     f"paper-{i}": text for i, text in enumerate(EQUATIONS)
 }
 

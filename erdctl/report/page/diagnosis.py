@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from erdctl import effects
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import DIRECTIONS, Array, Recording
 from erdctl.core.signals import Signals
 from erdctl.diagnose.problem import prepare
 from erdctl.diagnose.residual.localisation import variables
+from erdctl.effects import get
 from erdctl.model.effect import Variable
 from erdctl.model.paper import EQUATIONS, QUANTITIES
 from erdctl.report.page import data
@@ -139,7 +139,7 @@ def _answers(doc: Json, name: str) -> Json:
 
 
 def _cause(f: Json) -> str:
-    text = f"{plain(f['effect']).capitalize()}: {effects.get(f['effect']).title}"
+    text = f"{plain(f['effect']).capitalize()}: {get(f['effect']).title}"
     if f["equivalent"]:
         text += f"; or {joined([plain(e) for e in f['equivalent']], 'or')}, which would look alike"
     return f"{text}."
@@ -204,7 +204,7 @@ def _misfit_words(doc: Json) -> str:
 
 
 def _finding(f: Json) -> Json:
-    effect = effects.get(f["effect"])
+    effect = get(f["effect"])
     titles = {q.symbol: q.title for q in effect.quantities}
     e = f["evidence"]
     evidence = f"t statistic of the gain over the log: {digits(e['gain_over_scatter'], 2)}."

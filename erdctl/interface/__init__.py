@@ -1,0 +1,1 @@
+"""The Python interface, one file a function; `import erdctl` shows them, see `help(erdctl)`."""

@@ -1,0 +1,45 @@
+"""An identification as parameters that travel: values of the chosen fit, origin, both fits."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from erdctl.core.errors import InputProblem
+from erdctl.core.recording import Recording
+from erdctl.estimate.identify import Identification
+from erdctl.estimate.method import Method
+from erdctl.model.parameters import Parameters, provenance
+
+
+def parameters_of(found: Identification, method: Method, recording: Recording) -> Parameters:
+    """The parameters of one of the two fits, with both as a record of where they come from.
+
+    Raises InputProblem if the paper's procedure cannot give them all from these logs.
+    """
+    estimates = dict(found.joint)
+    if method is Method.TWO_STEP:
+        for name, e in estimates.items():
+            if e.identified and name not in found.two_step:
+                raise InputProblem(
+                    f"the paper's procedure cannot give {name} from these logs (no null-control"
+                    " data?); use --method joint"
+                )
+            if e.identified:
+                estimates[name] = replace(e, value=found.two_step[name], stderr=None)
+    fits = {
+        "joint": {
+            "rms": found.fit.rms,
+            "samples": found.fit.samples,
+            "evaluations": found.fit.evaluations,
+            "converged": found.fit.converged,
+        },
+        "two_step": {"rms": found.two_step_rms, "values": dict(found.two_step)},
+        "method": method.value,
+    }
+    return Parameters(
+        model=found.model,
+        estimates=estimates,
+        provenance=provenance(recording, found.fit.rms),
+        fits=fits,
+        warnings=found.warnings,
+    )

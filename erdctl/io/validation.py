@@ -1,0 +1,25 @@
+"""A validation as JSON, `"schema": "erdctl.validation/1"`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from erdctl.score.nrmse import Score, Validation
+
+SCHEMA = "erdctl.validation/1"
+
+
+def to_json(found: Validation) -> dict[str, Any]:
+    """The document of a validation."""
+
+    def score(s: Score) -> dict[str, float]:
+        return {"nrmse": s.nrmse, "rms": s.rms, "samples": s.samples}
+
+    return {
+        "schema": SCHEMA,
+        "normalise": found.normalise.value,
+        **score(found.overall),
+        "nrmse_by_duty": [{"duty": d, **score(s)} for d, s in found.by_duty.items()],
+        "nrmse_by_direction": [{"direction": d, **score(s)} for d, s in found.by_direction.items()],
+        "nrmse_by_record": [{"record": r, **score(s)} for r, s in found.by_record.items()],
+    }

@@ -1,0 +1,133 @@
+"""What goes to the four amplifiers: the plan of each damper with a fault, healthy control else."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from erdctl.core.errors import UsageProblem
+from erdctl.core.recording import Array, Recording
+from erdctl.core.signals import Signals
+from erdctl.mimic.inverse import follow
+from erdctl.mimic.outcome import Plan
+from erdctl.mimic.plan import mimic
+from erdctl.model.amplifier import Amplifier
+from erdctl.model.faults import Corner, Fault, on_channel
+from erdctl.model.parameters import Parameters
+
+CHANNELS = tuple(c.value for c in Corner)
+
+
+@dataclass(frozen=True, eq=False)
+class PwmSequence:
+    """What goes to the four amplifiers, and the plans of the dampers that mimic a fault.
+
+    healthy : (n,) healthy duty as the amplifiers carry it out;  duties : (n,) for each of CHANNELS
+    plans : for the channels with a fault, at least one
+    static : the paper's inverse was chosen in place of the compensated sequence
+    """
+
+    recording: Recording
+    healthy: Array
+    duties: Mapping[str, Array]
+    plans: Mapping[str, Plan]
+    static: bool
+
+    def columns(self) -> dict[str, Array]:
+        """Columns beside the log's own motion; `duty` and forces are the first faulty damper's."""
+        channel, plan = next(iter(self.plans.items()))
+        return {
+            "duty": self.duties[channel],
+            **{f"duty_{channel}": self.duties[channel] for channel in CHANNELS},
+            "duty_healthy": self.recording.duty,
+            "out_of_reach": plan.out_of_reach.astype(np.float64),
+            "force_ideal": plan.ideal,
+            "force_expected": plan.expected_paper if self.static else plan.expected,
+        }
+
+
+def sequence(
+    parameters: Parameters,
+    recording: Recording,
+    faults: Sequence[Fault],
+    amplifier: Amplifier,
+    *,
+    static: bool = False,
+    progress: Callable[[str, str], None] = lambda stage, what: None,
+) -> PwmSequence:
+    """The sequences of all dampers over a recording's motion; its duty is the healthy control.
+
+    static : send the paper's static inverse, Eqs. 27, 31, 35
+    """
+    by_channel = {c.value: on_channel(faults, c) for c in Corner}
+    plans = {}
+    for channel, chosen in by_channel.items():
+        if chosen:
+            progress("computing", f"the sequence of {channel}")
+            plans[channel] = mimic(parameters, recording, chosen, amplifier)
+    healthy = follow(recording.duty, Signals.of(recording), amplifier)
+    duties = dict.fromkeys(by_channel, healthy)
+    duties |= {c: p.duty_paper if static else p.duty for c, p in plans.items()}
+    return PwmSequence(recording, healthy, duties, plans, static)
+
+
+def at_duty(recording: Recording, duty: float | None, name: str = "the healthy duty") -> Recording:
+    """The recording with one healthy duty in place of its own; as it is for None.
+
+    Raises UsageProblem for what is no fraction; `name` is what the user calls it.
+    """
+    if duty is None:
+        return recording
+    if not 0.0 <= duty <= 1.0:
+        raise UsageProblem(f"{name} is a fraction from 0 to 1, not {duty:g}")
+    return replace(recording, duty=recording.duty * 0.0 + duty)
+
+
+def too_hot(recording: Recording, limit: float) -> str | None:
+    """What to say of a log in which the damper got hotter than `limit` [degC] (Sec. 5.4)."""
+    if recording.temperature is None:
+        return None
+    hottest = float(recording.temperature.max())
+    if hottest <= limit:
+        return None
+    return f"the damper reached {hottest:.1f} degC in this log, above the limit of {limit:g} degC"
+
+
+def worth(plans: Mapping[str, Plan]) -> list[str]:
+    """What the effects of a corrected model are worth for each damper, in words."""
+    out = []
+    for channel, plan in plans.items():
+        c = plan.correction
+        if c is None:
+            continue
+        figures = f"NRMSE {c.nrmse:.4f}, with the paper's parameters alone {c.plain:.4f}"
+        if c.effects and c.fell_back:
+            out.append(
+                f"{channel}: no sequence from {', '.join(c.effects)} comes nearer to the faulty"
+                " force than that of the paper's parameters alone, which is written:"
+                f" {figures}"
+            )
+        elif c.effects:
+            out.append(
+                f"{channel}: computed with {', '.join(c.effects)}, all faults: {figures}, both"
+                f" replayed through the corrected model: {100 * c.removed:.0f} % of the error"
+                " removed"
+            )
+        if c.left_out:
+            out.append(
+                f"{channel}: {', '.join(c.left_out)}: of the force channel, not of the damper, so"
+                " no part of the sequence and its figures; force_ideal and force_expected carry it"
+                " as a log would"
+            )
+    return out
+
+
+def held_back(plans: Mapping[str, Plan]) -> list[str]:
+    """Where the amplifier, not the physics, limits a sequence, in words."""
+    return [
+        f"{channel}: {100 * plan.limited:.1f} % of the samples ask for more than the highest duty"
+        for channel, plan in plans.items()
+        if plan.limited
+    ]
