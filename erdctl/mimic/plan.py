@@ -2,10 +2,10 @@
 
 The paper's model is inverted by formula (`erdctl.mimic.inverse`), a model with effects by iteration
 (`erdctl.mimic.iterate`). What comes out is replayed through the corrected model, and so is the
-sequence of the paper's parameters alone. Where that does better for one of the faults, it takes over while
-that fault acts; where it is better as a whole, it is the plan, and the plan says so. The paper's
-parameters get the same iteration, on their own model: the difference is what the physics is worth,
-not the method.
+sequence of the paper's parameters alone. Where that does better for one of the faults, it takes
+over while that fault acts; where it is better as a whole, it is the plan, and the plan says so. The
+paper's parameters get the same iteration, on their own model: the difference is what the physics is
+worth, not the method.
 
 The fault is mimicked in the damper, not in the recording. What the force channel makes of a force
 (skew, drift) reaches neither a vehicle nor a rig: a sequence that made up for it would put the

@@ -14,16 +14,15 @@ def cross_predicted(
 ) -> Array:
     """(n,) target as predicted from inputs (n, m) by regressions that have not seen its group."""
     from sklearn.ensemble import HistGradientBoostingRegressor
-    from sklearn.model_selection import cross_val_predict
+    from sklearn.model_selection import GroupKFold, cross_val_predict
     from threadpoolctl import threadpool_limits
 
-    count = int(group.max()) + 1
-    fold = (rng.permutation(count) % min(thresholds.FOLDS, count))[group]
     used = np.flatnonzero(weight > 0)
-    learn = used[:: max(1, len(used) // thresholds.REGRESSION_SAMPLES)]
-    splits = [
-        (learn[fold[learn] != k], np.flatnonzero(fold == k)) for k in range(int(fold.max()) + 1)
-    ]
+    learn = np.zeros(len(target), dtype=np.bool_)
+    learn[used[:: max(1, len(used) // thresholds.REGRESSION_SAMPLES)]] = True
+    count = min(thresholds.FOLDS, len(np.unique(group)))
+    folds = GroupKFold(count, shuffle=True, random_state=int(rng.integers(2**31)))
+    splits = [(train[learn[train]], test) for train, test in folds.split(inputs, groups=group)]
     machine = HistGradientBoostingRegressor(
         max_iter=thresholds.TREES, learning_rate=thresholds.RATE,
         max_leaf_nodes=thresholds.LEAVES, min_samples_leaf=thresholds.LEAF,
