@@ -63,10 +63,10 @@ class Diagnosis:
 
     baseline : scores of the given parameters as they are, or else of the paper's model refitted
     refitted : scores of that model fitted to this recording
-    corrected, carried : scores of the best model without and with the scatter of the records, which
+    corrected, carried : scores of the best model without and with the record effects, which
         are the same where none is carried
-    unseen : scores of the model to answer for and of the best, each sample by a fit without its
-        group, beyond the scatter of the records
+    cross_validated : scores of the model to answer for and of the best, each sample by a fit
+        without its group, beyond the record effects
     """
 
     verdict: Verdict
@@ -103,7 +103,7 @@ def diagnose(
 
     given : parameters of the model to answer for, in place of the paper's; what they already
         contain is not found again
-    free : what of the force may scatter from record to record, which is carried and not named
+    free : record effects, which are estimated and not named
     jobs : processes that try hypotheses; the results are the same for any number
     """
     problem = prepare(recording, free)

@@ -54,7 +54,7 @@ class RecordEffects:
 
     @classmethod
     def none(cls, records: int) -> RecordEffects:
-        """No scatter."""
+        """Gain 1 and offset 0 in every record."""
         unknown = np.full(records, np.inf)
         return cls(np.ones(records), np.zeros(records), unknown, unknown)
 
@@ -64,7 +64,7 @@ class RecordEffects:
         return np.repeat(self.gain, lengths), np.repeat(self.offset, lengths)
 
     def shared(self, block: Block) -> Block:
-        """What the shared model is fitted to: the force without the scatter, noise as it was."""
+        """What the shared model is fitted to: the force less record effects, noise as it was."""
         gain, offset = self.along(block.signals.starts)
         return Block(block.signals, (block.force - offset) / gain, block.weight * gain**2)
 
@@ -80,9 +80,9 @@ class RecordEffects:
 
 
 def estimate(free: Varying, block: Block, modelled: Array, last: RecordEffects) -> RecordEffects:
-    """The scatter between a measured force and a modelled one (n,) [N]; errors are of noise alone.
+    """Record effects between a measured and a modelled force (n,) [N]; errors are of noise alone.
 
-    last : the scatter before, for the colour of the noise
+    last : those before, for the colour of the noise
     """
     weight, starts = block.weight, block.signals.starts
     gain, offset = last.along(starts)
@@ -165,7 +165,7 @@ def errors(
     names: tuple[str, ...],
     found: RecordEffects,
 ) -> tuple[Array, RecordEffects]:
-    """(p, p) covariance of shared parameters, and errors of the scatter, each given the others.
+    """(p, p) covariance of shared parameters; errors of record effects, each given the others.
 
     names : the shared parameters that were estimated.  Both under coloured noise; the means over
     the records are fixed, as `estimate` fixes them.

@@ -84,6 +84,12 @@ ROUNDING = 2e-4
 # Origin: p = 0.05, two-sided.
 T_TIE = 2.0
 
+# --- processes --------------------------------------------------------------------------------
+
+# Samples times effects from which the second that a process needs to start is worth it.
+# Origin: budget.
+WORTH_PROCESSES = 60_000
+
 # --- forward selection --------------------------------------------------------------------------
 
 # Samples of the thinned log among whose hypotheses is searched; the result is fitted to all.
