@@ -150,7 +150,10 @@ def _chosen(
         return (first,)
     others = [e for e in pool if first.goes_with(e)]
     if not others:
-        raise ValueError(f"nothing to pair {first.name} with: the others fill the same place")
+        raise ValueError(
+            f"nothing to pair {first.name} with: the others fill the same place, or act by the "
+            "motion that it changes"
+        )
     return first, others[int(random.integers(len(others)))]
 
 

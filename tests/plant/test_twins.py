@@ -5,9 +5,11 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from importlib import import_module, invalidate_caches
 from pathlib import Path
 from pkgutil import iter_modules
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -127,8 +129,26 @@ def test_a_twin_is_one_file(added: str) -> None:
     assert case.truth[0].catalogued
     assert case.level == pytest.approx(3.0, rel=0.12)
     assert case.truth[0].parameters["rate"][1] == "Hz"
-    stranger = draw_plan(5, effects=[added], known=effects.names())
+    stranger = draw_plan(5, effects=[added], known=["backlash"])
     assert stranger.kind == "unknown"
+
+
+def test_another_package_adds_a_twin(monkeypatch: pytest.MonkeyPatch) -> None:
+    other = replace(twins.get("field_ripple"), name="rust")
+    entry = SimpleNamespace(name="rust", load=lambda: other)
+    monkeypatch.setattr(twins, "entry_points", lambda **asked: [entry])
+    forget()
+    try:
+        assert twins.names()[-1] == "rust"
+        assert twins.get("rust") is other
+        entry.name, entry.load = "moss", lambda: other
+        with pytest.raises(TypeError, match="does not declare itself under that name"):
+            twins.get("moss")
+    finally:
+        monkeypatch.undo()
+        forget()
+    with pytest.raises(KeyError):
+        twins.get("rust")
 
 
 def test_physics_of_its_own_is_what_the_file_says(added: str) -> None:
@@ -161,9 +181,8 @@ def test_rigid_twins_are_not_paired_with_soft_ones(added: str) -> None:
 
 
 def test_what_is_unknown_is_said_by_the_caller() -> None:
-    inside = effects.names()
-    outside = {n for n in twins.names() if n not in inside}
-    assert outside
+    outside = {"field_ripple", "stick_slip", "backlash", "bore_wear"}
+    inside = [n for n in twins.names() if n not in outside]
     drawn = {draw_plan(s, kind="unknown", known=inside).effects[0].name for s in range(200)}
     assert drawn == outside
     more = [*inside, "field_ripple", "stick_slip"]
