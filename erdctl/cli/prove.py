@@ -22,7 +22,11 @@ def command(
     seed: Annotated[int, typer.Option(min=0, help="Of the first case; the next has the next.")] = 0,
     only: Annotated[
         list[str],
-        typer.Option("--effects", metavar="NAME,...", help="Hide one of these."),
+        typer.Option(
+            "--effects",
+            metavar="NAME,...",
+            help="Hide one of these: effects of the catalogue, or others that the plant knows.",
+        ),
     ] = [],
     level: Annotated[
         float | None,
@@ -30,7 +34,10 @@ def command(
     ] = None,
     kind: Annotated[
         str | None,
-        typer.Option(metavar="single|pair|null|unknown", help="What is hidden."),
+        typer.Option(
+            metavar="single|pair|null|unknown",
+            help="What is hidden; unknown: what `erdctl effects` does not list.",
+        ),
     ] = None,
     concealment: Annotated[
         str | None,

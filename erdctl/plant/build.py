@@ -9,13 +9,13 @@ from functools import partial
 import numpy as np
 
 from erdctl.plant.base import PLAIN, Weights, draw_base
-from erdctl.plant.hidden import Scales, Twin
 from erdctl.plant.noise import ForceNoise
 from erdctl.plant.plan import CasePlan
 from erdctl.plant.plant import Plant
 from erdctl.plant.refit import joined
 from erdctl.plant.simulate import Ride, forces
 from erdctl.plant.strength import Outcome, Setting, crowding, outcome, scales_of, sought
+from erdctl.plant.twin import Scales, Twin
 
 Random = np.random.Generator
 

@@ -8,7 +8,7 @@ level needs more of the effect. At last the effect is made stronger than wanted.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +17,6 @@ from erdctl.plant.base import Weights
 from erdctl.plant.build import Built, Variation, build
 from erdctl.plant.campaign import Campaign, draw_other
 from erdctl.plant.case import Case, Truth
-from erdctl.plant.hidden import CATALOGUE, EQUIVALENT, UNITS, Twin
 from erdctl.plant.noise import FRACTIONS
 from erdctl.plant.plan import CasePlan, draw_plan, stream
 from erdctl.plant.plant import Plant
@@ -25,6 +24,7 @@ from erdctl.plant.refit import joined, predicted
 from erdctl.plant.regions import regions
 from erdctl.plant.simulate import forces, rides
 from erdctl.plant.strength import MOST_NEAR
+from erdctl.plant.twin import Twin
 
 TRIES = 6
 PATIENCE = 3  # tries before levels are raised, or given up
@@ -40,6 +40,7 @@ ABSORBED = 0.15  # part of the raw misfit that the refit leaves at most
 def draw(
     seed: int,
     *,
+    known: Collection[str] | None = None,
     effects: Sequence[str] | None = None,
     level: float | None = None,
     kind: str | None = None,
@@ -50,16 +51,17 @@ def draw(
 ) -> Case:
     """A concealed case.
 
-    effects : names to choose from; all of the catalogue, or all outside it for "unknown"
+    known : names that a diagnosis can give, its catalogue; None for all that the plant can hide
+    effects : names to choose from; all that are known, or all that are not for "unknown"
     level : misfit that the refitted paper model leaves, over the rms of the force noise
-    kind : "single", "pair", "null" (nothing hidden) or "unknown" (outside the catalogue)
+    kind : "single", "pair", "null" (nothing hidden) or "unknown" (not known)
     concealment : "absorbed" looks for a damper whose plain fit looks good and fails elsewhere (it
         may find none, and the case says what it is), "not_logged" for a hidden temperature or onset
     motion : "exact", or "measured" for xdot from a noisy, quantised x
     colour : of the force noise, "white", "ar1" or "pink";  scatter : of the gain between records
     """
     plan = draw_plan(
-        seed, effects=effects, level=level, kind=kind, concealment=concealment,
+        seed, known=known, effects=effects, level=level, kind=kind, concealment=concealment,
         motion=motion, colour=colour, scatter=scatter,
     )  # fmt: skip
     over = rides(plan.campaign)
@@ -177,20 +179,26 @@ def _truth(plan: CasePlan, built: Built, k: int) -> Truth:
         within = float(np.sqrt(np.mean(added**2))) / built.noise.rms
     return Truth(
         name=effect.name,
-        catalogued=effect.name in CATALOGUE,
-        parameters={p.split(".")[1]: _value(built.whole.plant, p) for p in effect.shows},
+        catalogued=plan.known[k],
+        parameters={
+            path.split(".")[1]: (_value(built.whole.plant, effect.name, path), unit)
+            for path, unit in effect.shows.items()
+        },
         strength=alone.strength,
         wanted=plan.levels[k],
         alone=alone.level,
         raw=alone.raw,
         within=within,
-        equivalent=EQUIVALENT.get(effect.name, ()),
+        equivalent=effect.equivalents,
     )
 
 
-def _value(plant: Plant, path: str) -> tuple[float, str]:
+def _value(plant: Plant, name: str, path: str) -> float:
+    """Value of a field that a twin shows, in the plant or among what the twin's own file brings."""
     part, field = path.split(".")
-    return float(getattr(getattr(plant, part), field)), UNITS[field]
+    if part == "own":
+        return next(dict(o.values)[field] for o in plant.own if o.hooks.name == name)
+    return float(getattr(getattr(plant, part), field))
 
 
 def _flags(plan: CasePlan, built: Built) -> tuple[str, ...]:

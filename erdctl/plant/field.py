@@ -45,6 +45,17 @@ def commanded(
 
 
 @njit(cache=True)
+def commands(
+    duty: Array, count: int, substeps: int, lead_in: int, h: float, dead_time: float
+) -> Array:
+    """(count,) `commanded` of the step that ends at each fine node; the first has no length."""
+    out = np.empty(count)
+    for k in range(count):
+        out[k] = commanded(duty, max(k - 1, 0), substeps, lead_in, h, dead_time)
+    return out
+
+
+@njit(cache=True)
 def slewed(voltage: float, command: float, h: float, slew: float) -> float:
     """Voltage one step later, at no more than 1/slew of full scale per second."""
     if slew == 0.0:

@@ -31,6 +31,7 @@ class Instant(NamedTuple):
     yielding, goal_c, goal_r : yield state before the step, and its targets [N]
     bend : friction of the bent seal before the step [N];  void : not yet taken up [m]
     on_gas, on_viscous, on_yield : factors of faults, heat and the like
+    told, sign : whether there is a given value in place of sign(xdot), and that value
     """
 
     h: float
@@ -48,6 +49,8 @@ class Instant(NamedTuple):
     on_gas: float
     on_viscous: float
     on_yield: float
+    told: bool
+    sign: float
 
 
 @njit(cache=True)
@@ -70,7 +73,7 @@ def fluid(x: float, v: float, way: float, i: Instant, up: Side, down: Side, p: P
         left = bubbles / (bubbles + i.void)
     state = yield_state(v, way, i, up, down, p)
     if p.signed == 0.0:
-        state *= direction(x, v, way, p)
+        state *= i.sign if i.told else direction(x, v, way, p)
     loss = viscous(x, v, up if now > 0.0 else down, p)
     return left * (i.on_viscous * loss + i.on_yield * state)
 

@@ -1,6 +1,7 @@
 """The one ODE plant: from the rod's motion and the duty to the damper's force, in fine steps.
 
 Chain: rod -> play -> mount -> piston -> gas, seals, stops and the fluid column beside each other.
+Laws of a twin's own file come as arrays, worked out beforehand (`Given`).
 At a record's start the states of the paper and the slow ones restart (Eq. 12 at the steady value of
 the first sample, no heat, no wear); play, springs and seals are as the motion before it left them.
 
@@ -11,6 +12,7 @@ field, law, inside or outside, delete __pycache__.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -25,10 +27,22 @@ from erdctl.plant.plant import Outside, Physics, Side
 Array = npt.NDArray[np.float64]
 
 
+class Given(NamedTuple):
+    """What twins' own files say of each fine node, (m,) or (0,) where they say nothing.
+
+    command : duty that the supply is told;  on_viscous, on_yield : factors;  sign : for sign(xdot)
+    """
+
+    command: Array
+    on_viscous: Array
+    on_yield: Array
+    sign: Array
+
+
 @njit(cache=True)
 def march(
     x: Array, v: Array, a: Array, duty: Array, substeps: int, lead_in: int, h: float,
-    up: Side, down: Side, p: Physics, o: Outside,
+    up: Side, down: Side, p: Physics, o: Outside, g: Given,
 ) -> Array:  # fmt: skip
     """(m,) force at the fine nodes [N].
 
@@ -55,7 +69,8 @@ def march(
     vp, vf, way_f = v[0], v[0], way
     column = 0.0  # deflection of the fluid column [m]
     void, hot = 0.0, 0.0
-    voltage = duty[0]
+    voltage = g.command[0] if len(g.command) > 0 else duty[0]
+    told, sign = len(g.sign) > 0, 0.0
     last = -1.0
     goal_c = goal_r = yielding = 0.0
     for k in range(m):
@@ -63,7 +78,10 @@ def march(
         step = h if k > 0 else 0.0
         before = k - 1 if k > 0 else 0
         t = (k - lead_in) * h
-        command = commanded(duty, before, substeps, lead_in, h, p.dead_time)
+        if len(g.command) > 0:
+            command = g.command[k]
+        else:
+            command = commanded(duty, before, substeps, lead_in, h, p.dead_time)
         next_voltage = slewed(voltage, command, step, p.slew)
         mean = command if p.slew == 0.0 else 0.5 * (voltage + next_voltage)
         voltage = next_voltage
@@ -91,6 +109,12 @@ def march(
             whole * (p.electrical if after else 1.0)
             * math.exp(-p.weaken * hot) * out.yield_factor(states, t, o)
         )  # fmt: skip
+        if len(g.on_viscous) > 0:
+            on_viscous *= g.on_viscous[k]
+        if len(g.on_yield) > 0:
+            on_yield *= g.on_yield[k]
+        if told:
+            sign = g.sign[k]
         # The rod takes the piston along at either end of the play; in between the piston rests.
         z0 = z
         z = min(max(z, x[k] - 0.5 * p.gap), x[k] + 0.5 * p.gap)
@@ -100,7 +124,7 @@ def march(
         if p.mount > 0.0 and k > 0:
             i = Instant(
                 h, xp, vp, way, z, 0.0, fade, yielding, goal_c, goal_r, bend, void, oil, on_viscous,
-                on_yield,
+                on_yield, told, sign,
             )  # fmt: skip
             vp1, now = balanced(MOUNT, i, up, down, p)
             if step > 0.0:
@@ -120,13 +144,13 @@ def march(
                 last = -1.0
             i = Instant(
                 step, xp, vp, way, 0.0, 0.0, fade, yielding, goal_c, goal_r, bend, void, oil,
-                on_viscous, on_yield,
+                on_viscous, on_yield, told, sign,
             )  # fmt: skip
             held = beside(xp1, vp1, now, i, up, down, p)
             if p.fluid_spring > 0.0 and k > 0:
                 c = Instant(
                     h, xp, vf, way_f, column + (xp1 - xp), xp1, fade, yielding, goal_c, goal_r,
-                    bend, void, oil, on_viscous, on_yield,
+                    bend, void, oil, on_viscous, on_yield, told, sign,
                 )  # fmt: skip
                 vf, now_f = balanced(COLUMN, c, up, down, p)
                 if step > 0.0:

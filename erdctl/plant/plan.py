@@ -6,13 +6,12 @@ the same whatever is hidden, and nothing that fails later can change them.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from erdctl.plant.campaign import Campaign, draw_campaign
-from erdctl.plant.hidden import CATALOGUE, OUTSIDE, Twin
 from erdctl.plant.noise import (
     COLOURS,
     ForceNoise,
@@ -21,6 +20,8 @@ from erdctl.plant.noise import (
     draw_gains,
     draw_motion_noise,
 )
+from erdctl.plant.twin import Twin
+from erdctl.plant.twins import every
 
 Random = np.random.Generator
 
@@ -45,11 +46,12 @@ STREAMS = (
 
 @dataclass(frozen=True)
 class CasePlan:
-    """effects : to hide;  levels : wanted for each."""
+    """effects : to hide;  levels : wanted for each;  known : which of them can be named."""
 
     seed: int
     kind: str
     effects: tuple[Twin, ...]
+    known: tuple[bool, ...]
     levels: tuple[float, ...]
     campaign: Campaign
     force_noise: ForceNoise
@@ -65,6 +67,7 @@ def stream(seed: int, name: str, *more: int) -> Random:
 def draw_plan(
     seed: int,
     *,
+    known: Collection[str] | None = None,
     effects: Sequence[str] | None = None,
     level: float | None = None,
     kind: str | None = None,
@@ -80,10 +83,17 @@ def draw_plan(
     _known("colour", colour, COLOURS)
     random = stream(seed, "plan")
     chosen = str(random.choice(KINDS, p=KIND_SHARES))
+    twins = every()
+    inside = {n: t for n, t in twins.items() if known is None or n in known}
+    outside = {n: t for n, t in twins.items() if n not in inside}
     if kind is None and effects is not None:
-        chosen = "unknown" if all(e in OUTSIDE for e in effects) else "single"
+        chosen = "unknown" if all(e in outside for e in effects) else "single"
+    elif chosen == "unknown" and not outside:
+        chosen = "single"
     chosen = kind or chosen
-    hidden = _chosen(random, chosen, effects, unlogged=concealment == "not_logged")
+    _hideable(chosen, effects or (), inside, outside)
+    source = outside if chosen == "unknown" else inside
+    hidden = _chosen(random, chosen, effects, source, unlogged=concealment == "not_logged")
     levels = tuple(
         _level(random, chosen, concealment) if level is None else float(level) for _ in hidden
     )
@@ -91,7 +101,7 @@ def draw_plan(
     gains = stream(seed, "gains")
     spread = float(gains.uniform(0.02, 0.06)) if scatter else 0.0
     return CasePlan(
-        seed, chosen, hidden, levels, campaign,
+        seed, chosen, hidden, tuple(e.name in inside for e in hidden), levels, campaign,
         draw_force_noise(stream(seed, "force noise"), colour),
         draw_motion_noise(stream(seed, "motion noise"), campaign, motion),
         draw_gains(gains, len(campaign.records), spread),
@@ -103,24 +113,47 @@ def _known(name: str, value: str | None, values: Sequence[str]) -> None:
         raise ValueError(f"{name} is {value!r}, expected one of {', '.join(values)}")
 
 
+Twins = Mapping[str, Twin]
+
+
+def _hideable(kind: str, names: Sequence[str], inside: Twins, outside: Twins) -> None:
+    """Raise ValueError, which says why, if a kind of case cannot hide what is asked for."""
+    if kind == "null":
+        return
+    if kind == "unknown" and not outside:
+        raise ValueError("nothing is unknown: the catalogue has all that the plant can hide")
+    source, other = (outside, inside) if kind == "unknown" else (inside, outside)
+    known, unknown = "the catalogue has it", "it is not in the catalogue, so its kind is unknown"
+    for name in names:
+        if name in other:
+            raise ValueError(
+                f"no such effect to hide: {name} in a case of kind {kind}, as "
+                f"{known if kind == 'unknown' else unknown}; there are {list(source)}"
+            )
+        if name not in source:
+            raise ValueError(
+                f"no such effect to hide: {name}, the plant has no twin of that name; "
+                f"there are {list(source)}"
+            )
+
+
 def _chosen(
-    random: Random, kind: str, names: Sequence[str] | None, *, unlogged: bool
+    random: Random, kind: str, names: Sequence[str] | None, source: Twins, *, unlogged: bool
 ) -> tuple[Twin, ...]:
     if kind == "null":
         return ()
-    source = OUTSIDE if kind == "unknown" else CATALOGUE
-    unknown = [n for n in names or () if n not in source]
-    if unknown:
-        raise ValueError(f"no such effect to hide: {', '.join(unknown)}; there are {list(source)}")
     pool = [source[n] for n in names or source if source[n].hidden or not unlogged]
     if not pool:
         raise ValueError("none of these effects hides a temperature or a fault's onset")
     first = pool[int(random.integers(len(pool)))]
     if kind != "pair":
         return (first,)
-    others = [e for e in pool if e.family != first.family]
+    others = [e for e in pool if first.goes_with(e)]
     if not others:
-        raise ValueError(f"nothing to pair {first.name} with: the others fill the same place")
+        raise ValueError(
+            f"nothing to pair {first.name} with: the others fill the same place, or act by the "
+            "motion that it changes"
+        )
     return first, others[int(random.integers(len(others)))]
 
 

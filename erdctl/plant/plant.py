@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from erdctl.plant.hooks import Hooks
+
 FOREVER = 1e300  # a time or a stroke that is never reached [s], [m]
 
 
@@ -115,6 +117,13 @@ class ForceChannel(NamedTuple):
     step: float = 0.0  # quantisation [N]
 
 
+class Own(NamedTuple):
+    """Physics from a twin's own file, and its parameters: symbol and value."""
+
+    hooks: Hooks
+    values: tuple[tuple[str, float], ...]
+
+
 class Plant(NamedTuple):
     """A damper, what the paper leaves out of it, and its force channel."""
 
@@ -123,6 +132,7 @@ class Plant(NamedTuple):
     physics: Physics = Physics()
     outside: Outside = Outside()
     channel: ForceChannel = ForceChannel()
+    own: tuple[Own, ...] = ()
 
     def plain(self) -> Plant:
         """The same damper as the paper has it."""
@@ -139,6 +149,11 @@ class Plant(NamedTuple):
     def with_channel(self, **values: float) -> Plant:
         """The same behind another force channel."""
         return self._replace(channel=self.channel._replace(**values))
+
+    def with_own(self, hooks: Hooks, **values: float) -> Plant:
+        """The same with physics from a twin's own file."""
+        kept = tuple(o for o in self.own if o.hooks.name != hooks.name)
+        return self._replace(own=(*kept, Own(hooks, tuple(values.items()))))
 
 
 def canonical(values: Any) -> Any:

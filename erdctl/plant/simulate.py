@@ -11,7 +11,10 @@ import numpy.typing as npt
 
 from erdctl.plant.campaign import Campaign, CampaignRecord
 from erdctl.plant.channel import recorded
+from erdctl.plant.field import commands
+from erdctl.plant.hooks import FineGrid, behind_play
 from erdctl.plant.march import march
+from erdctl.plant.own import NOTHING, Applied
 from erdctl.plant.plant import Outside, Plant, canonical
 
 Array = npt.NDArray[np.float64]
@@ -62,17 +65,33 @@ def rides(campaign: Campaign, *, refine: int = 1) -> tuple[Ride, ...]:
 
 def force(plant: Plant, over: Ride) -> Array:
     """(n,) force at the samples of one record [N], free of noise."""
-    plant = canonical(plant)
-    if plant.physics.mount > 0.0 and plant.physics.fluid_spring > 0.0:
+    p = canonical(plant.physics)
+    if p.mount > 0.0 and p.fluid_spring > 0.0:
         raise ValueError("mount and fluid column both yield: at a rod they are one spring")
-    if plant.physics.mount > 0.0 and plant.outside != Outside():
+    if p.mount > 0.0 and plant.outside != Outside():
         raise ValueError("physics from outside the table is not modelled behind a soft mount")
+    if (p.mount > 0.0 or p.fluid_spring > 0.0) and any(o.hooks.rigid for o in plant.own):
+        raise ValueError("physics of a twin's own file is not modelled behind a spring")
+    own = Applied(plant.own, fine_grid(over, p.gap, p.dead_time)) if plant.own else None
     fine = march(
         over.x, over.v, over.a, over.duty, over.substeps, over.lead_in, over.h,
-        plant.compression, plant.release, plant.physics, plant.outside,
+        canonical(plant.compression), canonical(plant.release), p, canonical(plant.outside),
+        own.given() if own else NOTHING,
     )  # fmt: skip
+    if own:
+        fine = own.recorded(own.force(fine))
     n = over.record.samples
-    return recorded(fine, over.h, over.lead_in, over.substeps, n, plant.channel)
+    return recorded(fine, over.h, over.lead_in, over.substeps, n, canonical(plant.channel))
+
+
+def fine_grid(over: Ride, gap: float, dead_time: float) -> FineGrid:
+    """What a twin's own functions see of a record."""
+    t = np.asarray((np.arange(len(over.x)) - over.lead_in) * over.h, dtype=float)
+    U = commands(over.duty, len(t), over.substeps, over.lead_in, over.h, dead_time)
+    return FineGrid(
+        t, *behind_play(over.x, over.v, over.a, gap), U, over.h,
+        over.lead_in, over.lead_in + (over.record.samples - 1) * over.substeps + 1, over.substeps,
+    )  # fmt: skip
 
 
 def forces(plant: Plant, over: Sequence[Ride]) -> Array:

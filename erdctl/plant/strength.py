@@ -14,11 +14,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from erdctl.plant.hidden import Scales, Twin
 from erdctl.plant.plant import Plant
 from erdctl.plant.refit import Joined, Refit, refit, shape_of
 from erdctl.plant.regions import near_reversals
 from erdctl.plant.simulate import Ride, forces
+from erdctl.plant.twin import Scales, Twin
 
 Array = npt.NDArray[np.float64]
 

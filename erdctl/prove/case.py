@@ -13,6 +13,7 @@ import msgspec
 
 from erdctl.core.errors import ComputationProblem, UsageProblem
 from erdctl.io import documents
+from erdctl.prove.catalogued import nameable
 
 FOLDERS = ("logs", "fresh", "keys", "diagnoses")
 
@@ -54,9 +55,10 @@ def check(wish: Wish, seeds: Iterable[int]) -> None:
         raise UsageProblem(f"--level is {wish.level:g}, expected misfit over noise above 0, e.g. 3")
     if wish.kind == "null" and (wish.effects or wish.level is not None):
         raise UsageProblem("--kind null hides nothing: leave --effects and --level out")
+    options = _options(wish)
     try:
         for seed in seeds:
-            draw_plan(seed, **_options(wish))
+            draw_plan(seed, **options)
     except ValueError as problem:
         raise UsageProblem(str(problem)) from None
 
@@ -64,6 +66,7 @@ def check(wish: Wish, seeds: Iterable[int]) -> None:
 def seal(wish: Wish, seed: int, number: int, folder: Path) -> Sealed:
     """Draw a case and write its log, its fresh records and its key.
 
+    What is unknown is decided here, by the catalogue, and the key says so.
     The log's name and the order of its rows say nothing of what is hidden: names count up, and the
     columns are those of the contract.
     """
@@ -98,4 +101,4 @@ def opened(sealed: Sealed) -> dict[str, Any]:
 
 
 def _options(wish: Wish) -> dict[str, Any]:
-    return asdict(wish)
+    return {"known": nameable(), **asdict(wish)}

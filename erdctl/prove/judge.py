@@ -12,14 +12,14 @@ import numpy as np
 from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
-from erdctl.effects import catalogue, get
+from erdctl.effects import catalogue
 from erdctl.io import documents
 from erdctl.io.diagnosis import to_json
 from erdctl.io.logs import read_logs
 from erdctl.model.composed import Model
-from erdctl.plant import CATALOGUE
 from erdctl.prove.best import acts, best_fit, damper_values
 from erdctl.prove.case import Sealed, opened
+from erdctl.prove.catalogued import right_names, structure
 from erdctl.prove.score import Errors, Found, HiddenEffect, Interval, located, naming
 
 
@@ -84,7 +84,8 @@ def scored(
 ) -> Result:
     """A diagnosis' document against the key."""
     hidden = tuple(
-        HiddenEffect(e["name"], float(e["alone"]), tuple(e["equivalent"])) for e in key["effects"]
+        HiddenEffect(e["name"], float(e["alone"]), right_names(e["name"], tuple(e["equivalent"])))
+        for e in key["effects"]
     )
     known = all(e["catalogued"] for e in key["effects"])
     findings = tuple(Found(f["effect"], tuple(f["equivalent"])) for f in document["findings"])
@@ -130,10 +131,9 @@ def _errors(sealed: Sealed, found: Diagnosis, key: Mapping[str, Any]) -> Errors:
         return float(np.sqrt(np.mean(missed**2)))
 
     base, corrected = found.selection.base, found.selection.best
-    hidden = [e["name"] for e in key["effects"]]
     best = None
-    if hidden and all(name in CATALOGUE for name in hidden):
-        truth = [get(name) for name in hidden]
+    if key["effects"] and all(e["catalogued"] for e in key["effects"]):
+        truth = [structure(e["name"]) for e in key["effects"]]
         if acts(truth, signals):
             reached = best_fit(found.problem, truth, damper_values(key), corrected.values)
             best = rms(reached.model, reached.values)

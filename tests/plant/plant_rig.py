@@ -7,12 +7,13 @@ from functools import cache
 import numpy as np
 import numpy.typing as npt
 
-from erdctl.plant import CATALOGUE, OUTSIDE, Campaign, Duty, Motion, Plant, Record, Side
+from erdctl.effects import names
+from erdctl.plant import Campaign, CampaignRecord, DutyProgramme, Plant, Side, Trajectory, twins
 from erdctl.plant.campaign import Rating
-from erdctl.plant.hidden import Hidden, Scales
 from erdctl.plant.refit import Joined, joined
 from erdctl.plant.simulate import Ride, forces, rides
 from erdctl.plant.strength import scales_of
+from erdctl.plant.twin import Scales, Twin
 
 Array = npt.NDArray[np.float64]
 
@@ -21,33 +22,37 @@ DAMPER = Plant(
     Side(k_nom=170.4, c_vis=68.8, T_d=0.030, sigma=17.0, beta=0.8),
 )
 RATE = 250.0
-EVERY = [*CATALOGUE, *OUTSIDE]
+EVERY = twins.names()
+KNOWN = names()
+UNKNOWN = tuple(name for name in EVERY if name not in KNOWN)
 
 
-def effect(name: str) -> Hidden:
-    """By its name, from inside or outside the table."""
-    return CATALOGUE.get(name) or OUTSIDE[name]
+def effect(name: str) -> Twin:
+    """By its name."""
+    return twins.get(name)
 
 
-def sine(f: float, a: float, phase: float = 0.3, **more: float) -> Motion:
-    return Motion("tones", (a,), (f,), (phase,), **more)
+def sine(f: float, a: float, phase: float = 0.3, **more: float) -> Trajectory:
+    return Trajectory("tones", (a,), (f,), (phase,), **more)
 
 
-def constant(level: float) -> Duty:
-    return Duty((level,), (0,))
+def constant(level: float) -> DutyProgramme:
+    return DutyProgramme((level,), (0,))
 
 
-def record(motion: Motion, duty: Duty, *, seconds: float = 4.0, name: str = "r") -> Record:
-    return Record(name, RATE, round(seconds * RATE), motion, duty)
+def record(
+    motion: Trajectory, duty: DutyProgramme, *, seconds: float = 4.0, name: str = "r"
+) -> CampaignRecord:
+    return CampaignRecord(name, RATE, round(seconds * RATE), motion, duty)
 
 
 @cache
 def campaign() -> Campaign:
     """Four records: no control, constant, steps, random motion under steps."""
-    random = Motion(
+    random = Trajectory(
         "tones", (0.006, 0.004, 0.002, 0.001), (0.4, 0.9, 1.7, 2.9), (0.1, 2.0, 4.0, 1.0), 0.002
     )
-    steps = Duty((0.1, 0.4, 0.0, 0.25, 0.5, 0.15), (0, 130, 260, 420, 600, 830))
+    steps = DutyProgramme((0.1, 0.4, 0.0, 0.25, 0.5, 0.15), (0, 130, 260, 420, 600, 830))
     records = (
         record(sine(1.0, 0.012), constant(0.0)),
         record(sine(0.7, 0.015, 1.1), constant(0.35)),

@@ -9,10 +9,10 @@ import oracle
 import pytest
 from plant_rig import DAMPER, RATE, constant, record, sine
 
-from erdctl.plant import Duty, Motion, Plant, Side, simulate
+from erdctl.plant import DutyProgramme, Plant, Side, Trajectory, simulate
 from erdctl.plant.simulate import ride
 
-STEPS = Duty((0.1, 0.4, 0.0, 0.25), (0, 130, 260, 420))
+STEPS = DutyProgramme((0.1, 0.4, 0.0, 0.25), (0, 130, 260, 420))
 
 
 def as_oracle(side: Side) -> oracle.Branch:
@@ -21,7 +21,7 @@ def as_oracle(side: Side) -> oracle.Branch:
 
 @pytest.mark.parametrize("motion", [sine(1.3, 0.01), sine(0.4, 0.02, 2.0, offset=0.003)])
 @pytest.mark.parametrize("duty", [constant(0.0), constant(0.3), STEPS])
-def test_it_equals_a_general_solver(motion: Motion, duty: Duty) -> None:
+def test_it_equals_a_general_solver(motion: Trajectory, duty: DutyProgramme) -> None:
     r = record(motion, duty, seconds=2.2)
     t, x, v = ride(r).sampled()
     damper = oracle.Damper(as_oracle(DAMPER.compression), as_oracle(DAMPER.release))
@@ -36,7 +36,7 @@ def test_it_equals_a_general_solver(motion: Motion, duty: Duty) -> None:
 def test_a_duty_step_by_hand() -> None:
     """xdot > 0 for a second: F_ER = sigma v^beta (1 - exp(-t/T_d)) from the step on."""
     slow = sine(0.2, 0.01, -math.pi / 2 + 0.3)
-    r = record(slow, Duty((0.0, 0.5), (0, 50)), seconds=1.0)
+    r = record(slow, DutyProgramme((0.0, 0.5), (0, 50)), seconds=1.0)
     t, x, v = ride(r).sampled()
     assert (v > 0).all()
     up = DAMPER.compression

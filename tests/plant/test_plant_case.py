@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 
 import numpy as np
 import pyarrow as pa
 import pytest
+from plant_rig import EVERY, KNOWN, UNKNOWN, effect
 
-from erdctl.plant import CATALOGUE, OUTSIDE, Case, draw, fresh, key, log
-from erdctl.plant.plan import draw_plan
+from erdctl.plant import Case, fresh, key, log
+from erdctl.plant.draw import draw as draw_of
+from erdctl.plant.plan import draw_plan as draw_plan_of
 from erdctl.plant.simulate import forces, rides
+
+draw = partial(draw_of, known=KNOWN)
+draw_plan = partial(draw_plan_of, known=KNOWN)
 
 SINGLES = ("mount_compliance", "thermal_fade", "coulomb_friction", "input_delay")
 
@@ -101,8 +107,8 @@ def test_kinds(cases: dict[str, Case]) -> None:
     assert cases["null"].level < 0.01
     assert cases["null"].regions == ()
     first, second = cases["pair"].truth
-    assert CATALOGUE[first.name].family != CATALOGUE[second.name].family
-    assert cases["unknown"].truth[0].name in OUTSIDE
+    assert effect(first.name).family != effect(second.name).family
+    assert cases["unknown"].truth[0].name in UNKNOWN
     assert not cases["unknown"].truth[0].catalogued
     assert cases["thermal_fade"].concealment == "not_logged"
     assert cases["mount_compliance"].truth[0].equivalent == ("fluid_compressibility",)
@@ -147,5 +153,5 @@ def test_levels_lie_in_the_bands() -> None:
 
 def test_every_effect_is_drawn() -> None:
     plans = [draw_plan(s) for s in range(600)]
-    assert {e.name for p in plans for e in p.effects} == {*CATALOGUE, *OUTSIDE}
+    assert {e.name for p in plans for e in p.effects} == set(EVERY)
     assert {p.kind for p in plans} == {"single", "pair", "null", "unknown"}

@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from plant_rig import EVERY, KNOWN
 
-from erdctl.plant import CATALOGUE, OUTSIDE, draw, log
+from erdctl.plant import draw, log
 from erdctl.plant.plan import CasePlan, draw_plan
 
 PLANS = 1500
@@ -16,7 +17,7 @@ PLANS = 1500
 
 @pytest.fixture(scope="module")
 def plans() -> list[CasePlan]:
-    return [draw_plan(seed) for seed in range(PLANS)]
+    return [draw_plan(seed, known=KNOWN) for seed in range(PLANS)]
 
 
 def shape(plan: CasePlan) -> list[float]:
@@ -80,18 +81,20 @@ def test_the_colour_of_the_noise_tells_nothing(plans: list[CasePlan]) -> None:
 
 def test_campaign_and_noise_are_the_same_whatever_is_hidden() -> None:
     for seed in range(5):
-        bare = draw_plan(seed, kind="null")
-        for name in (*CATALOGUE, *OUTSIDE):
-            plan = draw_plan(seed, effects=[name])
-            hidden = replace(plan, kind=bare.kind, effects=bare.effects, levels=bare.levels)
+        bare = draw_plan(seed, known=KNOWN, kind="null")
+        for name in EVERY:
+            plan = draw_plan(seed, known=KNOWN, effects=[name])
+            hidden = replace(
+                plan, kind=bare.kind, effects=bare.effects, known=bare.known, levels=bare.levels
+            )
             assert hidden == bare
 
 
 def test_the_log_keeps_the_plan() -> None:
     """Nothing that fails later changes the campaign or the colour: same rows but for the force."""
-    bare = log(draw(90, kind="null"))
+    bare = log(draw(90, known=KNOWN, kind="null"))
     for wish in ({"effects": ["backlash"], "level": 0.5}, {"kind": "unknown"}):
-        other = log(draw(90, **wish))
+        other = log(draw(90, known=KNOWN, **wish))
         for column in ("t", "x", "xdot", "duty", "record"):
             assert other[column].equals(bare[column])
         assert not other["force"].equals(bare["force"])

@@ -5,21 +5,21 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from erdctl.plant import Motion
+from erdctl.plant import Trajectory
 from erdctl.plant.campaign import draw_campaign, draw_other
 from erdctl.plant.simulate import rides
 
 MOTIONS = [
-    Motion("tones", (0.01, 0.003), (0.7, 2.1), (0.2, 1.0), 0.002),
-    Motion("tones", (0.01,), (0.7,), (0.2,), ramp=0.3),
-    Motion("sweep", (0.01,), (0.3, 2.5), (0.5,), span=5.0),
-    Motion("sweep", (0.01,), (2.5, 0.3), (0.5,), -0.001, 5.0, 0.2),
-    Motion("triangle", (0.01,), (1.1,), (2.0,)),
+    Trajectory("tones", (0.01, 0.003), (0.7, 2.1), (0.2, 1.0), 0.002),
+    Trajectory("tones", (0.01,), (0.7,), (0.2,), ramp=0.3),
+    Trajectory("sweep", (0.01,), (0.3, 2.5), (0.5,), span=5.0),
+    Trajectory("sweep", (0.01,), (2.5, 0.3), (0.5,), -0.001, 5.0, 0.2),
+    Trajectory("triangle", (0.01,), (1.1,), (2.0,)),
 ]
 
 
 @pytest.mark.parametrize("motion", MOTIONS, ids=lambda m: f"{m.kind}-{m.ramp}")
-def test_velocity_and_acceleration_are_derivatives(motion: Motion) -> None:
+def test_velocity_and_acceleration_are_derivatives(motion: Trajectory) -> None:
     h = 1e-5
     x, v, a = motion.at(0.4, h, 20_000)
     np.testing.assert_allclose(np.gradient(x, h)[2:-2], v[2:-2], atol=1e-5 * np.abs(v).max())
@@ -27,7 +27,7 @@ def test_velocity_and_acceleration_are_derivatives(motion: Motion) -> None:
 
 
 @pytest.mark.parametrize("motion", MOTIONS, ids=lambda m: f"{m.kind}-{m.ramp}")
-def test_any_piece_is_cut_from_one_motion(motion: Motion) -> None:
+def test_any_piece_is_cut_from_one_motion(motion: Trajectory) -> None:
     whole = motion.at(-0.5, 1e-3, 3000)
     part = motion.at(1.0, 1e-3, 300)
     for long, short in zip(whole, part, strict=True):

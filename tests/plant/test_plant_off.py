@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from plant_rig import DAMPER, EVERY, effect, hidden, over, plain, rms
 
-from erdctl.plant import Channel, Outside, Physics, Plant
+from erdctl.plant import ForceChannel, Outside, Physics, Plant
 from erdctl.plant.simulate import forces
 
 # Where the yield force jumps at a reversal, a vanishing effect still moves the jump by a sample:
@@ -20,7 +20,7 @@ SLOW = {
 
 
 def test_defaults_are_off_bit_for_bit() -> None:
-    spelt = Plant(*DAMPER[:2], Physics(), Outside(), Channel())
+    spelt = Plant(*DAMPER[:2], Physics(), Outside(), ForceChannel())
     assert spelt == DAMPER
     assert np.array_equal(forces(spelt, over()), plain())
     assert hidden("backlash", 0.1).plain() == DAMPER

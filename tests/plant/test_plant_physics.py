@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from plant_rig import DAMPER, RATE, constant, over, plain, record, rms, samples, sine
 
-from erdctl.plant import Duty, Plant, Side, simulate
+from erdctl.plant import DutyProgramme, Plant, Side, simulate
 from erdctl.plant.simulate import forces, ride
 
 F, A = 1.25, 0.01  # Hz, m
@@ -111,8 +111,8 @@ def test_a_late_channel_is_the_force_of_before() -> None:
 def test_dead_time_shifts_the_field_and_not_the_flow() -> None:
     k = 20
     up_only = sine(0.1, 0.02, -0.8)
-    steps = Duty((0.1, 0.5, 0.2), (0, 100, 300))
-    late = Duty((0.1, 0.5, 0.2), (0, 100 + k, 300 + k))
+    steps = DutyProgramme((0.1, 0.5, 0.2), (0, 100, 300))
+    late = DutyProgramme((0.1, 0.5, 0.2), (0, 100 + k, 300 + k))
     r = record(up_only, steps, seconds=2.0)
     a = simulate(DAMPER.with_physics(dead_time=k / RATE), r)
     np.testing.assert_allclose(a, simulate(DAMPER, record(up_only, late, seconds=2.0)), atol=1e-9)
@@ -121,7 +121,7 @@ def test_dead_time_shifts_the_field_and_not_the_flow() -> None:
 def test_a_slow_supply_ramps_the_field() -> None:
     """Without lag the yield force of beta = 1 follows the ramp of the voltage."""
     fast = Plant(*[Side(0.0, 0.0, 1e-9, 20.0, 1.0)] * 2).with_physics(slew=1.0)
-    r = record(sine(0.1, 0.02, -0.8), Duty((0.0, 0.5), (0, 100)), seconds=2.0)
+    r = record(sine(0.1, 0.02, -0.8), DutyProgramme((0.0, 0.5), (0, 100)), seconds=2.0)
     force = simulate(fast, r)
     t = np.arange(len(force)) / RATE
     np.testing.assert_allclose(force, 20 * np.clip(t - 100 / RATE, 0.0, 0.5), atol=0.01)
@@ -129,7 +129,7 @@ def test_a_slow_supply_ramps_the_field() -> None:
 
 def test_rising_and_falling_field() -> None:
     plant = BINGHAM.with_physics(rise=3.0, decay=0.5)
-    r = record(sine(0.1, 0.02, -0.8), Duty((0.0, 1.0, 0.0), (0, 50, 250)), seconds=2.0)
+    r = record(sine(0.1, 0.02, -0.8), DutyProgramme((0.0, 1.0, 0.0), (0, 50, 250)), seconds=2.0)
     force = simulate(plant, r)
     assert force[50 + 15] == pytest.approx(20 * (1 - math.exp(-0.06 / 0.06)), rel=1e-6)
     assert force[250 + 5] == pytest.approx(force[250] * math.exp(-0.02 / 0.01), rel=1e-6)

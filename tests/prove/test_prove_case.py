@@ -52,7 +52,9 @@ def test_the_log_holds_the_contract_and_nothing_else(sealed: Sealed) -> None:
     assert table.column_names == ["t", "x", "xdot", "duty", "force", "record"]
     assert table.schema.metadata is None
     assert sealed.log.name == "case-001.parquet"
-    assert table.equals(log(draw(SEED, effects=["coulomb_friction"], level=3.0, motion="exact")))
+    assert table.equals(
+        log(draw(SEED, known=names(), effects=["coulomb_friction"], level=3.0, motion="exact"))
+    )
 
 
 def test_the_diagnosis_is_given_the_log_alone(

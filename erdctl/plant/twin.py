@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -34,30 +34,42 @@ class Scales:
     tick: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Twin:
     """An effect: how a strength s becomes physics.
 
-    family : effects of one family fill the same place, and are not paired
+    name : as the file's;  family : effects of one family fill the same place, and are not paired
     part : of the force ("gas", "viscous", "yielding" or "") without which it cannot be seen
     low, start, high : strengths between which the wanted level is sought; low is all but nothing
     build : plant, s, drawn shape, scales -> plant
-    shows : fields of the plant that state its parameters, as paths
+    shows : fields of the plant that state its parameters, and their SI units: "physics.gap",
+        "channel.skew", or "own.n" for a parameter that the twin's own file brings
     shape : name -> lowest and highest of a uniform draw
     hidden : never logged, as a temperature
+    soft : what lies behind it no longer moves as the rod does
+    rigid : acts by the rod's motion, and is not paired with what is soft
+    equivalents : names that no force channel at the rod tells from it
     """
 
     name: str
     family: str
-    part: str
     low: float
     start: float
     high: float
     build: Callable[[Plant, float, Shape, Scales], Plant]
-    shows: tuple[str, ...]
-    shape: Mapping[str, tuple[float, float]]
+    shows: Mapping[str, str]
+    part: str = ""
+    shape: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     hidden: bool = False
+    soft: bool = False
+    rigid: bool = False
+    equivalents: tuple[str, ...] = ()
 
     def drawn(self, random: Random) -> dict[str, float]:
         """A shape."""
         return {k: float(random.uniform(a, b)) for k, (a, b) in self.shape.items()}
+
+    def goes_with(self, other: Twin) -> bool:
+        """Whether one damper can have both."""
+        stiff = not ((self.soft and other.rigid) or (self.rigid and other.soft))
+        return stiff and self.family != other.family

@@ -1,0 +1,26 @@
+"""Deformation (Eq. 23).
+
+Yield and viscous force times 1 - s.
+"""
+
+from __future__ import annotations
+
+from erdctl.plant.plant import Plant
+from erdctl.plant.twin import Scales, Shape, Twin
+
+
+def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
+    return plant.with_physics(deformation=1.0 - s, onset=q["onset"] * by.shortest)
+
+
+TWIN = Twin(
+    name="deformation_fault",
+    family="slow loss",
+    low=1e-3,
+    start=0.2,
+    high=0.98,
+    build=_build,
+    shows={"physics.deformation": "1", "physics.onset": "s"},
+    shape={"onset": (0.2, 0.75)},
+    hidden=True,
+)

@@ -1,0 +1,26 @@
+"""Static gas force.
+
+s times the damper's force, mostly outward as a gas pushes.
+"""
+
+from __future__ import annotations
+
+from erdctl.plant.plant import Plant
+from erdctl.plant.twin import Scales, Shape, Twin
+
+
+def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
+    return plant.with_physics(preload=s * by.force * (1.0 if q["inward"] < 0.7 else -1.0))
+
+
+TWIN = Twin(
+    name="gas_preload",
+    family="static",
+    low=1e-5,
+    start=0.1,
+    high=5.0,
+    build=_build,
+    shows={"physics.preload": "N"},
+    shape={"inward": (0.0, 1.0)},
+    equivalents=("force_offset",),
+)
