@@ -1,5 +1,7 @@
 """Every command that README, tutorial and help texts show is run, and prints what they say.
 
+So is the Python beside the tutorial's commands, in order and in one namespace.
+
 Shortened: `diagnose` searches few effects unless it is the tutorial's (see doc_snippets); `prove`
 is run for one case and its other examples are parsed, since a case takes ten seconds and
 tests/prove runs the command; the README's proof of 120 cases is parsed.
@@ -11,6 +13,7 @@ import re
 import shlex
 import shutil
 from pathlib import Path
+from typing import Any
 
 import pytest
 import typer
@@ -23,6 +26,7 @@ from doc_snippets import (
     inline,
     missing_lines,
     run,
+    run_python,
     shortened,
     workplace,
 )
@@ -112,6 +116,24 @@ def test_the_tutorial(tmp_path: Path) -> None:
         variables += "".join(re.findall(r"^\w+=.*\n", block.code, flags=re.MULTILINE))
         if block.output is not None:
             assert missing_lines(block.output, output) == [], f"line {block.line}:\n{output}"
+
+
+def test_the_tutorial_in_python(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(workplace(tmp_path))
+    found = blocks(TUTORIAL, "python")
+    assert len(found) >= len(blocks(TUTORIAL)) - 1
+    names: dict[str, Any] = {}
+    for block in found:
+        output = run_python(block.code, names)
+        if block.output is not None:
+            assert missing_lines(block.output, output) == [], f"line {block.line}:\n{output}"
+
+
+def test_python_runs_as_at_a_prompt() -> None:
+    names: dict[str, Any] = {}
+    assert run_python("a = 2\nprint('x')\na + 1", names) == "x\n3\n"
+    assert run_python("print(a)", names) == "2\n"
+    assert run_python("b = [a]", names) == ""
 
 
 def test_numbers_are_compared_to_their_last_digits() -> None:
