@@ -75,7 +75,9 @@ def bandwidth(width: int, step: float) -> float:
 
     with k from 1 to (width - 1) / 2.  width : odd number of samples;  step : [s]
     Check: for a long window u = theta k_max solves 3 (sin u - u cos u) / u^3 = 1/sqrt(2), which
-    is u = 1.8148: 28.9 Hz for 20 ms.
+    is u = 1.8148: 1.8148 / (2 pi 10 ms) = 28.9 Hz for 20 ms.
+    >>> round(bandwidth(2001, 1e-5), 1)
+    28.9
     """
     k = np.arange(1, width // 2 + 1)
     theta = np.linspace(0.0, math.pi, 2049)[1:] * min(1.0, 1.0 / k[-1] * 2.0)

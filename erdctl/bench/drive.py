@@ -42,6 +42,10 @@ class Duty:
 
         Check: 0.1|0.3 with hold 0.5 gives 0.3 at 0.5 s, 0.1 at 1 s; 0..0.4 in 10 s gives 0.1 at
         2.5 s.
+        >>> Duty((0.1, 0.3))(np.array([0.5, 1.0]), hold=0.5, duration=10.0).tolist()
+        [0.3, 0.1]
+        >>> Duty((0.0, 0.4), ramp=True)(np.array([2.5]), hold=0.5, duration=10.0).tolist()
+        [0.1]
         """
         levels = np.array(self.levels)
         if self.ramp:
@@ -106,6 +110,9 @@ def parse_drive(spec: str) -> Drive:
 
     Raises UsageProblem that names the key or value and what is allowed.
     Check: "sine:freq=2,duty=0.2" is Sine(freq=2, amp=0.01), duty 0.2 for 10 s at 1000 Hz.
+    >>> d = parse_drive("sine:freq=2,duty=0.2")
+    >>> d.motion, d.duty.levels, d.duration, d.fs
+    (Sine(freq=2.0, amp=0.01), (0.2,), 10.0, 1000.0)
     """
     name, _, body = (part.strip() for part in spec.partition(":"))
     if name not in KINDS:

@@ -57,7 +57,12 @@ def peak_force(recording: Recording, force: Array) -> PeakForces:
 
     force : (n,) [N];  the mean over the samples within 3 % of the stroke's highest speed, which
     noise does not raise, as it does a maximum
-    Check: F = 100 xdot on a sine of 0.1 m/s gives +-(9.9 +- 0.1) N at +-0.1 m/s.
+    Check: F = 100 xdot on a sine of 0.1 m/s gives +-9.9 N at +-0.1 m/s: the phases at which
+    cos > 0.97 reach 0.2456 each way, and the mean of cos over them is sin(0.2456) / 0.2456 = 0.990.
+    >>> xdot = 0.1 * np.cos(2.0 * np.pi * np.arange(0.0, 1.5, 1e-3))
+    >>> found = peak_force(recording(xdot, step=1e-3), 100.0 * xdot)
+    >>> found.velocity.round(3).tolist(), found.force.round(1).tolist()
+    ([-0.1, 0.1], [-9.9, 9.9])
     """
     found = strokes(recording)
     since = Signals.of(recording).since_duty_step
@@ -96,8 +101,12 @@ def averaged(recording: Recording, force: Array, bins: int = SPEEDS) -> Averaged
 
     Over the samples whose duty has settled; of a level that never does, over all.
 
-    force : (n,) [N].  Check: F = 100 xdot gives 100 times the middle of each bin, to within noise
-    of where in a bin the samples lie.
+    force : (n,) [N]
+    Check: F = 100 xdot gives 100 times the middle of each bin where samples fill it evenly: +-2.5
+    and +-7.5 N in four bins up to +-0.1 m/s.
+    >>> xdot = np.linspace(-0.1, 0.1, 4001)
+    >>> averaged(recording(xdot), 100.0 * xdot, bins=4).force.round(2).tolist()
+    [[-7.5, -2.5, 2.5, 7.5]]
     """
     codes, levels = duty_levels(recording.duty)
     use = Signals.of(recording).since_duty_step > SETTLE
@@ -155,7 +164,13 @@ def slow_test(
 
     force : (n,) [N];  speed : [m/s] up to which samples count; c_vis times it stays in the drag
     Raises InputProblem if no deflection was passed slowly both ways.
-    Check: F = 200 x + 3 sign(xdot) at 1 mm/s gives gas 200 x and drag 3 N.
+    Check: F = 200 x + 3 sign(xdot) at 1 mm/s gives gas 200 x and drag 3 N; over -10 to 10 mm in two
+    bins +-1 N of gas.
+    >>> from erdctl.bench.drive import drives
+    >>> r = drives(["triangle:speed=0.001,amp=0.01,duration=40"])
+    >>> found = slow_test(r, 200.0 * r.x + 3.0 * np.sign(r.xdot), bins=2)
+    >>> found.gas.round(2).tolist(), found.drag.round(2).tolist()
+    ([-1.0, 1.0], [3.0, 3.0])
     """
     v = recording.xdot
     still = null_control(Signals.of(recording))

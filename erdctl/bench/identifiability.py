@@ -1,12 +1,12 @@
 """Which parameters and effects a log can show, before anything is fitted.
 
 `identify`, `diagnose` and `inspect` all ask here, so that they cannot disagree. A demand that is
-met means "can be tested", one that is not "cannot be told from this log", never "absent".
+met means "can be tested", one that is not "cannot be identified from this log", never "absent".
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import pi
 from typing import Generic, TypeVar
@@ -90,7 +90,7 @@ class Demand(Generic[S]):
     confounded: bool = False
 
     def check(self, subject: S, bench: Bench) -> Check:
-        """The demand held against a log."""
+        """The demand, checked on a log."""
         found = self.found(subject)
         met = found >= self.least or self.spared(subject)
         return Check(self.what, self.unit, self.least, found, met, self.drive(bench))
@@ -153,7 +153,7 @@ _STROKE = Demand[Excitation](
 )  # fmt: skip
 _SPEEDS = Demand[Excitation](
     "spread of the speed over its mean", "1", 0.01, lambda e: e.speeds, lambda b: b.sine(),
-    "the speed is constant, so viscous and yield force cannot be told apart",
+    "the speed is constant, so viscous and yield force cannot be separated",
     spared=lambda e: e.null >= ENOUGH or e.field < ENOUGH,
 )  # fmt: skip
 
@@ -245,3 +245,16 @@ def unmet(recording: Recording) -> dict[str, Lack]:
 def untestable(survey: Survey, candidates: Sequence[Effect]) -> dict[str, str]:
     """Effects that a log cannot show, each with what is missing."""
     return {c.name: c.lack.reason for c in effects(survey, candidates) if c.lack is not None}
+
+
+def held_values(needs: Mapping[str, Lack]) -> dict[str, float]:
+    """Values for parameters that the data cannot identify, chosen so that the rest can be fitted.
+
+    With one level of duty any beta will do, since sigma takes up the difference; without a field
+    there is no yield force; without control steps there is no lag to see.
+    """
+    return {
+        name: 1.0 if name.endswith(".beta") else 0.0
+        for name, need in needs.items()
+        if not need.confounded
+    }

@@ -169,6 +169,10 @@ def force_noise(recording: Recording) -> NoiseFloor:
     the jumps at reversals. Exact for white noise; noise slower than a few samples is seen in part,
     and the rounding of the force, step / sqrt(12), is the least that there is.
     Check: white noise of 0.3 N rms on any slow force gives 0.3 N within the scatter of a median.
+    >>> noise = np.random.default_rng(1).normal(0.0, 0.3, 20_000)
+    >>> slow = 10.0 * np.sin(np.arange(20_000) * 1e-3)
+    >>> round(force_noise(recording(np.zeros(20_000), force=slow + noise)).rms, 1)
+    0.3
     """
     force = recording.force
     if force is None:

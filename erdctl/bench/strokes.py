@@ -54,7 +54,10 @@ def strokes(recording: Recording) -> Strokes:
     A stroke lasts while the speed keeps its sign beyond REACHED of the record's highest, so that
     the noise of a differentiated velocity at a reversal makes no strokes of its own.
 
-    Check: x = sin(2 pi t) over 0..3 s, sampled at 100 Hz, has five: from each reversal to the next.
+    Check: x = sin(2 pi t) over 0..3 s, sampled at 100 Hz, has 5: from each reversal to the next.
+    >>> t = np.arange(300) / 100
+    >>> len(strokes(recording(np.cos(2.0 * np.pi * t), t=t)))
+    5
     """
     starts = recording.starts
     speed = np.abs(recording.xdot)
@@ -115,6 +118,8 @@ def varied(features: Array, most: int, apart: float = 0.1) -> Index:
 
     apart : the part of a feature's largest magnitude by which two rows must differ at least
     Check: 1, 1.01, 3, 2 with most = 3 gives rows 2, 0, 3.
+    >>> varied(np.array([[1.0], [1.01], [3.0], [2.0]]), 3).tolist()
+    [2, 0, 3]
     """
     if not len(features):
         return np.empty(0, dtype=np.intp)
@@ -131,7 +136,11 @@ def varied(features: Array, most: int, apart: float = 0.1) -> Index:
 def stretches(flags: npt.NDArray[np.bool_], starts: Index) -> tuple[Index, Index]:
     """First sample (k,) and one behind the last (k,) of each stretch in which a flag (n,) is set.
 
-    A stretch ends with its record.  Check: 0 1 1 0 1 gives 1, 4 and 3, 5.
+    A stretch ends with its record.
+    Check: 0 1 1 0 1 gives 1, 4 and 3, 5.
+    >>> first, end = stretches(np.array([0, 1, 1, 0, 1], dtype=bool), np.array([0, 5]))
+    >>> first.tolist(), end.tolist()
+    ([1, 4], [3, 5])
     """
     bounds = np.diff(flags.astype(np.int8), prepend=0, append=0)
     first, end = np.flatnonzero(bounds == 1), np.flatnonzero(bounds == -1)

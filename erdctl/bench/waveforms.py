@@ -39,7 +39,13 @@ def key(default: Any, unit: str, low: float, high: float, title: str) -> Any:
 
 @dataclass(frozen=True, kw_only=True)
 class Sine:
-    """x = amp sin(2 pi freq t).  Check: 1 Hz, 10 mm begins with 2 pi 0.01 = 0.0628 m/s."""
+    """x = amp sin(2 pi freq t).
+
+    Check: 1 Hz, 10 mm begins with 2 pi 0.01 = 0.0628 m/s.
+    >>> x, xdot = Sine(freq=1.0, amp=0.01)(np.zeros(1), 10.0)
+    >>> x.tolist(), xdot.round(4).tolist()
+    ([0.0], [0.0628])
+    """
 
     freq: float = key(1.0, "Hz", 1e-4, 1e4, "frequency")
     amp: float = key(0.01, "m", 0.0, 1.0, "amplitude")
@@ -59,7 +65,11 @@ class Sweep:
 
     linear:  f = f0 + (f1 - f0) t / T,  phi = 2 pi (f0 t + (f1 - f0) t^2 / (2 T))
     log:     f = f0 r^(t/T),  r = f1 / f0,  phi = 2 pi f0 T (r^(t/T) - 1) / ln r
-    Check: linear, 1 to 3 Hz in T = 2 s: f = 2 Hz and phi = 2 pi 1.5 at t = 1 s.
+    Check: linear, 1 to 3 Hz in T = 2 s: f = 2 Hz and phi = 2 pi 1.5 at t = 1 s, so that with
+    amp = 1 m x = sin(3 pi) = 0 and xdot = 4 pi cos(3 pi) = -12.5664 m/s.
+    >>> x, xdot = Sweep(f0=1.0, f1=3.0, amp=1.0)(np.ones(1), 2.0)
+    >>> x.round(9).tolist(), xdot.round(4).tolist()
+    ([0.0], [-12.5664])
     """
 
     f0: float = key(0.1, "Hz", 1e-4, 1e4, "first frequency")
@@ -92,6 +102,9 @@ class Triangle:
     """Constant speed between -amp and amp, from x = 0 in compression; period 4 amp / speed.
 
     Check: 0.1 m/s, 10 mm: x = 10 mm at 0.1 s, 0 at 0.2 s, -10 mm at 0.3 s.
+    >>> x, xdot = Triangle(speed=0.1, amp=0.01)(np.array([0.1, 0.2, 0.3]), 10.0)
+    >>> (x.round(9) + 0.0).tolist()  # for -0.0 is 0.0, too
+    [0.01, 0.0, -0.01]
     """
 
     speed: float = key(0.05, "m/s", 1e-6, 10.0, "speed")
@@ -113,6 +126,9 @@ class Bumps:
         x = amp sin^2(pi u / width),  u = t mod every < width, else 0
 
     Check: 10 mm, 0.5 s: x = 10 mm at 0.25 s; fastest pi 0.01 / 0.5 = 0.0628 m/s at 0.125 s.
+    >>> x, xdot = Bumps(amp=0.01, width=0.5)(np.array([0.125, 0.25]), 10.0)
+    >>> x.round(4).tolist(), xdot.round(4).tolist()
+    ([0.005, 0.01], [0.0628, 0.0])
     """
 
     amp: float = key(0.01, "m", 0.0, 1.0, "height")
@@ -154,7 +170,11 @@ class Noise:
         x = rms sqrt(2 / N) sum_k sin(2 pi f_k t + p_k),  N = 64, f_k = f_max (k + u_k) / N
 
     u_k, p_k uniform from `seed`; |x| <= rms sqrt(2 N) = 11.3 rms; xdot about 2 pi f_max rms /
-    sqrt(3) rms.  Check: rms 1 mm, 10 Hz gives about 36 mm/s rms.
+    sqrt(3) rms.
+    Check: rms 1 mm, 10 Hz gives about 2 pi 10 / sqrt(3) = 36 mm/s rms.
+    >>> x, xdot = Noise(rms=1e-3, f_max=10.0)(np.arange(0.0, 100.0, 0.01), 100.0)
+    >>> round(float(xdot.std()), 3)
+    0.036
     """
 
     rms: float = key(0.002, "m", 0.0, 1.0, "effective value of x over a long time")

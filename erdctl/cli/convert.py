@@ -21,12 +21,19 @@ def command(
 ) -> None:
     """Convert a log between CSV, Parquet, Arrow, MAT, MDF4 and TDMS.
 
-    Columns of the contract (t, x, xdot, duty, force, temperature) are written in SI under these
-    names; all others keep values, names and units. Units are kept in the header of CSV (`p [bar]`;
-    contract columns are SI and have plain names), in field metadata of Parquet and Arrow, as the
-    channel's unit in MDF4 and TDMS, and in the struct `units` of MAT. Channels on different time
-    bases are brought onto one, and it is said how. A name `record` makes records: a struct array
+    Columns of a bench log (t, x, xdot, duty, force, temperature) are written in SI under these
+    names; all others keep values, names and units. A column `record` makes records: a struct array
     in MAT, groups in MDF4 and TDMS. MAT, MDF4 and TDMS are read and written whole, in memory.
+
+    Units: one that the file states is converted to SI; one given with --map overrides it; one of
+    the wrong kind is refused; without any, SI is assumed. Whole numbers without unit and scaling
+    are refused, since they may be counts of a converter. Units are stored in the header of CSV
+    (`p [bar]`; columns of a bench log are SI and have plain names), in field metadata of Parquet
+    and Arrow, as the channel's unit in MDF4 and TDMS, and in the struct `units` of MAT.
+
+    Time bases: channels with several rates are resampled to the times of force (without it, of x),
+    motion and force linearly, the duty held; a gap that would be bridged is refused. The command
+    says what it did. Libraries: MAT v5 to v7 needs none, the others pip install 'erdctl[formats]'.
 
     \b
     Examples:

@@ -23,8 +23,8 @@ def command(
         str | None,
         typer.Option(
             metavar="PARAMS",
-            help="Diagnose the model of this parameter file, and say how good its"
-            " values are on these logs; - is stdin.",
+            help="Diagnose the model of this parameter file in place of the paper's, and"
+            " report its error on these logs; - is stdin.",
         ),
     ] = None,
     output: Out = "-",
@@ -39,24 +39,25 @@ def command(
         bool,
         typer.Option(
             "--record-gains",
-            help="One free gain of the force per record, mean 1: scatter of"
-            " amplitudes that is carried, reported and not named.",
+            help="Estimate record effects: one gain of the force per record, mean 1,"
+            " reported apart and not as a finding.",
         ),
     ] = False,
     record_offsets: Annotated[
         bool,
         typer.Option(
             "--record-offsets",
-            help="The same for the zero of the force [N], mean 0; a common offset stays a finding.",
+            help="The same for a zero offset of the force per record [N], mean 0."
+            " An offset that all records share stays a finding.",
         ),
     ] = False,
-    max_effects: Annotated[int, typer.Option(min=1, max=6, help="Name at most so many.")] = 5,
-    seed: Annotated[int, typer.Option(help="Of the regression that looks at what remains.")] = 0,
+    max_effects: Annotated[int, typer.Option(min=1, max=6, help="Most effects in one model.")] = 5,
+    seed: Annotated[int, typer.Option(help="Of the regression of the lack-of-fit test.")] = 0,
     jobs: Annotated[
         int | None,
         typer.Option(
             min=1,
-            help="Processes that try hypotheses; all cores, or 1 for a small log. The result"
+            help="Processes that fit hypotheses; default: all cores, 1 for a small log. The result"
             " is the same for any number.",
         ),
     ] = None,
@@ -67,11 +68,20 @@ def command(
     maps: Maps = [],
     plot: Plots = [],
 ) -> None:
-    """Locate a mismatch, name the physics left out, and show the fit improve.
+    """Locate a misfit, name the effects that the model lacks, and write the corrected model.
 
-    Tests every effect of the catalogue, alone and together, and keeps only what improves data that
-    the fit has not seen. The verdict is adequate, explained or unexplained; what the data cannot
-    tell apart is said, with the drive that would.
+    Fits the paper's model alone and with each effect of the catalogue. Forward selection adds
+    further effects; companion effects are also tested jointly. An effect is kept only if the error
+    on data left out of the fit falls by more than its scatter (cross-validation). Samples whose
+    direction of motion is lost in the noise of xdot have weight zero.
+
+    A lack-of-fit test of the residual then decides the verdict. adequate: the model given is
+    enough. explained: with the effects found, the residual is noise. unexplained: a misfit is left
+    that no effect of the catalogue explains; the diagnosis says where it is and what it resembles.
+    Look-alikes, which these data cannot tell apart, are listed with a drive on which they differ.
+
+    The JSON holds the corrected parameter file under corrected.params (schema: erdctl schema
+    diagnosis). What a log cannot show is listed as not testable, never as absent.
 
     \b
     Examples:
@@ -86,12 +96,13 @@ def command(
     from erdctl.cli.pictures import draw, wanted
     from erdctl.cli.reading import read_logs
     from erdctl.core.errors import CheckFailed
+    from erdctl.diagnose.corrected import parameters
     from erdctl.diagnose.diagnosis import Verdict, diagnose
     from erdctl.diagnose.jobs import worthwhile
     from erdctl.diagnose.record_effects import Varying
     from erdctl.effects import candidates
     from erdctl.io import documents
-    from erdctl.io.diagnosis import parameters, to_json
+    from erdctl.io.diagnosis import to_json
     from erdctl.report.text import progress, say
 
     check_report(report)
@@ -144,7 +155,7 @@ def _report(found: Diagnosis, document: dict[str, Any], path: str, seed: int) ->
     import sys
 
     from erdctl.cli.pages import write_report
-    from erdctl.io.diagnosis import baseline, parameters
+    from erdctl.diagnose.corrected import baseline, parameters
     from erdctl.model.simulate import simulate
     from erdctl.report.page.diagnosis import diagnosis_page
     from erdctl.report.page.render import Run
@@ -159,7 +170,8 @@ def _report(found: Diagnosis, document: dict[str, Any], path: str, seed: int) ->
 
 
 def _show(found: Diagnosis) -> None:
-    from erdctl.io.diagnosis import finding_text, parameters, record_values, remaining_text
+    from erdctl.diagnose.corrected import parameters
+    from erdctl.diagnose.wording import finding_text, record_values, remaining_text
     from erdctl.report.text import number, say, table
 
     def with_error(value: float, error: float | None) -> str:
@@ -183,7 +195,7 @@ def _show(found: Diagnosis) -> None:
     if values:
         header = [k for k in ("gain", "offset") if k in values[0]]
         table(
-            "Carried per record, apart from the shared parameters",
+            "Record effects, apart from the shared parameters",
             ["", *(f"{k} [{values[0][k]['unit']}]" for k in header)],
             [
                 [v["name"], *(with_error(v[k]["value"], v[k]["stderr"]) for k in header)]

@@ -20,15 +20,16 @@ def command(
     output: Out = "-",
     maps: Maps = [],
     method: Annotated[
-        Method, typer.Option(help="Fit all parameters together, or as the paper does (Sec. 4).")
+        Method, typer.Option(help="Fit all parameters jointly, or as the paper does (Sec. 4).")
     ] = Method.JOINT,
     robust: Annotated[bool, typer.Option("--robust", help="Weigh outliers down (Huber).")] = False,
     plot: Plots = [],
 ) -> None:
     """Identify the paper's ER damper model from bench logs.
 
-    Fits by the paper's procedure and then all parameters together, with standard errors that hold
-    for correlated residuals. A parameter that the logs cannot identify is reported as such.
+    Fits by the paper's procedure and then all parameters jointly, with standard errors that allow
+    for correlated residuals. A parameter that the logs cannot identify has the value null and a
+    reason: T_d without duty steps, sigma and beta with one duty level. `inspect` shows it before.
 
     \b
     Examples:

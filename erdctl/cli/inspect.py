@@ -25,10 +25,13 @@ def command(
 ) -> None:
     """Say what is in a log, and what it can and cannot show, before anything is fitted.
 
-    Channels and their units, sampling rates, gaps, duty levels, stroke, speed and force reached, a
-    guess at the force noise; then every parameter of the paper's model and every effect of the
-    catalogue that the log cannot identify, with what was found, what is needed, and a drive that
-    would show it. identify and diagnose decide by the same rules.
+    Prints channels and their units, sampling rates, gaps, duty levels, stroke, speed and force
+    reached, and an estimate of the force noise. Then it lists every parameter of the paper's model
+    and every effect of the catalogue that the log cannot identify: what was found, what is needed,
+    and a drive that would show it. identify and diagnose decide by the same rules.
+
+    A LOG has the columns t [s], x [m], xdot [m/s], duty (0 to 1) and force [N], x and xdot positive
+    in compression; record and temperature [degC] are optional. --map takes other names and units.
 
     \b
     Examples:

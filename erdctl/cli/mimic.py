@@ -29,7 +29,7 @@ def command(
     output: Out = "-",
     manifest: Annotated[
         str | None,
-        typer.Option(metavar="FILE", help="Manifest (JSON); by default beside the output."),
+        typer.Option(metavar="FILE", help="Manifest (JSON); by default OUTPUT.manifest.json."),
     ] = None,
     duty: Annotated[
         float | None, typer.Option(metavar="V", help="Healthy duty, in place of the log's.")
@@ -49,7 +49,7 @@ def command(
     carrier: Annotated[float, typer.Option(metavar="HZ", help="PWM carrier.")] = 25_000.0,
     full_scale: Annotated[float, typer.Option(metavar="V", help="Voltage at duty 1.")] = 5_000.0,
     max_temperature: Annotated[
-        float, typer.Option(metavar="C", help="Refuse a log that gets hotter (Sec. 5.4).")
+        float, typer.Option(metavar="C", help="Refuse a log with a higher temperature (Sec. 5.4).")
     ] = 60.0,
     force: Annotated[
         bool, typer.Option("--force", help="Write even if the log got too hot.")
@@ -60,7 +60,7 @@ def command(
     report: Report = None,
     maps: Maps = [],
     format: Annotated[
-        OutputFormat | None, typer.Option(help="Format on stdout (CSV unless said).")
+        OutputFormat | None, typer.Option(help="Format on stdout; default CSV.")
     ] = None,
     plot: Plots = [],
 ) -> None:
@@ -68,9 +68,10 @@ def command(
 
     Writes the log's motion with `duty` replaced, the four channels duty_fl to duty_rr, and the
     force to expect, in any format of `convert` by suffix; MAT is laid out for Simulink. The default
-    compensates the lag T_d and never leaves the amplifier's limits. Parameters with effects (from
-    diagnose) are inverted by iteration; it says how much nearer that comes than the paper's
-    parameters alone.
+    compensates the lag T_d and never leaves the amplifier's limits. Where no duty can produce the
+    faulty force, the duty is zero and the missing force is reported as out of reach. Parameters
+    with effects (from diagnose) are inverted by iteration, and the gain over the paper's parameters
+    alone is reported. Effects of the force channel (a time skew, a drift) are not compensated.
 
     \b
     Examples:

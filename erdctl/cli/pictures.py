@@ -54,7 +54,7 @@ def wants(asked: Sequence[Wanted], what: str) -> bool:
 
 
 def prepare() -> None:
-    """Begin to import what draws, beside the reading of the log: that waits for the disk."""
+    """Begin to import what draws while the log is read, which waits for the disk."""
     from importlib import import_module
     from threading import Thread
 

@@ -44,14 +44,14 @@ def command(
     \b
     Kinds:
       loops         force against deflection and velocity, coloured by PWM level
-      static        the static model beside the dynamic one (--params)
+      static        the static and the dynamic model (--params)
       time          force over time, measured and model, and their difference
       motion        deflection, velocity and duty over time
       duty          a mimic sequence, with the stretches out of reach
       faults        healthy and with each --fault (--params)
       mimic         force against velocity per mimicked fault (erdctl mimic --plot)
       yield-force   yield force against duty, and the law (--params)
-      misfit        where the model misses: velocity, duty, located variable
+      misfit        misfit over velocity and duty, and over the variable that locates it
       before-after  loops of two models over the same samples (--before, --params)
       peak-force    force at the peak velocity of each stroke
       average       averaged force-velocity curve per PWM level

@@ -26,7 +26,7 @@ def command(
     ] = [],
     level: Annotated[
         float | None,
-        typer.Option(metavar="X", help="Misfit of the refitted paper model, over the noise."),
+        typer.Option(metavar="X", help="Misfit of the refitted paper model, rms, over the noise."),
     ] = None,
     kind: Annotated[
         str | None,
@@ -60,12 +60,15 @@ def command(
     ] = None,
     report: Report = None,
 ) -> None:
-    """Hide physics in an independent plant, diagnose its log, then open the key and score.
+    """Hide effects in an independent plant, diagnose its log, then open the key and score.
 
     A separate simulator, which shares no code with the models, draws a damper, a campaign, noise
-    and what to hide. The SHA-256 of the sealed key is printed before `diagnose` sees the log, and
-    nothing but the log. A seed gives the same case every time; what the key says of a single case
-    is kept with --keep.
+    and what to hide. The SHA-256 of the sealed key is printed before `diagnose` reads the log; it
+    reads nothing else. A seed gives the same case every time; --keep keeps logs and keys.
+
+    Scored are: the first name; the verdict; the region (intersection over union of at least 0.3
+    with a true one); spurious findings; and the attainable reduction, which is the error removed on
+    fresh, noise-free records, over what the true structure, fitted to the same log, removes.
 
     \b
     Examples:

@@ -27,7 +27,7 @@ def command(
     fault: Faults = [],
     maps: Maps = [],
     format: Annotated[
-        OutputFormat | None, typer.Option(help="Format on stdout (CSV unless said).")
+        OutputFormat | None, typer.Option(help="Format on stdout; default CSV.")
     ] = None,
     plot: Plots = [],
 ) -> None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import IntEnum
+from typing import Any
 
 
 class ExitCode(IntEnum):
@@ -64,3 +66,41 @@ class ComputationProblem(ErdctlError):
     """The computation could not be completed (no convergence, full disk, out of memory)."""
 
     exit_code = ExitCode.NOT_COMPLETED
+
+
+class IncompatibleEffects(ErdctlError):
+    """Effects that no model can hold together: one slot for two, or a law behind a spring."""
+
+    exit_code = ExitCode.BAD_INPUT
+
+
+class EffectFailed(ErdctlError):
+    """A function of an effect raised an error or returned what its slot cannot take.
+
+    Never a reason to go on without the effect: that would look as if it were absent.
+    """
+
+    exit_code = ExitCode.NOT_COMPLETED
+
+    def __init__(self, function: Callable[..., Any] | str, reason: str) -> None:
+        super().__init__(
+            f"{function if isinstance(function, str) else place_of(function)}: {reason}"
+        )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """As a worker process sends it: the message is whole."""
+        return _failed, (str(self),)
+
+
+def _failed(message: str) -> EffectFailed:
+    place, _, reason = message.partition(": ")
+    return EffectFailed(place, reason)
+
+
+def place_of(function: Callable[..., Any]) -> str:
+    """File, line and name of a function."""
+    code = getattr(function, "__code__", None)
+    name = getattr(function, "__name__", type(function).__name__)
+    if code is None:
+        return f"{name} of {getattr(function, '__module__', 'an unknown module')}"
+    return f"{code.co_filename}, line {code.co_firstlineno}, {name}"

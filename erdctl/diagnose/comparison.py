@@ -1,28 +1,31 @@
-"""One hypothesis against another, on what the fit of neither has seen."""
+"""One hypothesis against another, and several ranked, by cross-validated residuals.
+
+All of it is on the samples to which both hypotheses give weight: where a force channel makes
+samples doubtful for one of them, that one would be spared the worst.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import cmp_to_key
 
 import numpy as np
 
+from erdctl.core.recording import Array
+from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
-
-T_STRETCHES = 3.5  # how many times its scatter a gain must be, over stretches of a second
-T_GROUPS = 1.5  # the same, over groups left out
-LEAST = 0.004  # relative gain in unseen mean square below which nothing is worth a name
-FINEST = 2e-4  # of the range of the force: less may be the rounding of a simulation
 
 
 @dataclass(frozen=True)
 class Comparison:
     """How much better one hypothesis is than another on what neither has seen.
 
-    gain : relative reduction of the unseen mean square
-    clear, steady : see `Problem.clearly`, on errors of fits that have left the group out
+    gain : relative reduction of the cross-validated mean square
+    t_stretches, t_groups : see `Problem.t_statistics`
     size : root of the reduction over the range of the force
-    before, after : the mean squares themselves, of the same samples [N^2]
+    before, after : the mean squares themselves [N^2]
     """
 
     gain: float
@@ -34,20 +37,60 @@ class Comparison:
 
     @property
     def significant(self) -> bool:
-        """Whether the gain is more than scatter, and worth a name."""
-        worth = self.gain > LEAST and self.size > FINEST
-        return worth and self.t_stretches > T_STRETCHES and self.t_groups > T_GROUPS
+        """Whether the gain is beyond chance, and worth a name."""
+        worth = self.gain > thresholds.LEAST_GAIN and self.size > thresholds.ROUNDING
+        t = self.t_stretches > thresholds.T_STRETCHES and self.t_groups > thresholds.T_GROUPS
+        return worth and t
+
+    @property
+    def tied(self) -> bool:
+        """Whether the two cannot be told apart."""
+        return self.t_stretches < thresholds.T_TIE or self.gain < thresholds.LEAST_GAIN
 
 
 def compare(problem: Problem, worse: Hypothesis, better: Hypothesis) -> Comparison:
     """The gain of one hypothesis over another."""
-    # Where a channel makes samples doubtful for one of them, both go without.
-    weight = np.minimum(worse.problem.block.weight, better.problem.block.weight)
+    weight = _common_weight(worse, better)
     common = replace(problem, block=problem.block._replace(weight=weight))
     t_stretches, t_groups = common.t_statistics(worse.cross_validated, better.cross_validated)
-    before, after = (
-        float(np.average(t.cross_validated**2, weights=weight)) for t in (worse, better)
-    )
+    before, after = _mean_square(worse, weight), _mean_square(better, weight)
     gain = (before - after) / before if before > 0.0 else 0.0
     size = float(np.sqrt(max(before - after, 0.0))) / float(np.ptp(problem.block.force))
     return Comparison(gain, t_stretches, t_groups, size, before, after)
+
+
+def is_better(one: Hypothesis, other: Hypothesis) -> bool:
+    """Whether one hypothesis has the smaller cross-validated mean square of the two."""
+    return _order(one, other) < 0
+
+
+def best_of(hypotheses: Iterable[Hypothesis]) -> Hypothesis:
+    """The one with the smallest cross-validated mean square, held against each other in turn."""
+    first, *others = hypotheses
+    for other in others:
+        first = other if is_better(other, first) else first
+    return first
+
+
+def ranked(hypotheses: Iterable[Hypothesis]) -> list[Hypothesis]:
+    """The best first; of equal ones that with fewer parameters to search for."""
+    few = sorted(hypotheses, key=lambda h: len(h.model.shape))
+    return sorted(few, key=cmp_to_key(_order))
+
+
+def _order(one: Hypothesis, other: Hypothesis) -> int:
+    weight = _common_weight(one, other)
+    a, b = _mean_square(one, weight), _mean_square(other, weight)
+    return (a > b) - (a < b)
+
+
+def _common_weight(*hypotheses: Hypothesis) -> Array:
+    """(n,) weight of samples for all of some hypotheses."""
+    weights: Sequence[Array] = [h.problem.block.weight for h in hypotheses]
+    return np.asarray(np.minimum.reduce(weights))
+
+
+def _mean_square(hypothesis: Hypothesis, weight: Array) -> float:
+    if not weight.any():
+        return float(np.inf)  # the two have no sample in common: neither is the better
+    return float(np.average(hypothesis.cross_validated**2, weights=weight))

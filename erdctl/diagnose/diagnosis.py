@@ -13,24 +13,21 @@ from erdctl.bench.identifiability import untestable
 from erdctl.core.blocks import thinned
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array, Recording
-from erdctl.diagnose.comparison import FINEST, Comparison, compare
+from erdctl.diagnose import thresholds
+from erdctl.diagnose.comparison import Comparison, compare, ranked
 from erdctl.diagnose.discriminating_drive import DiscriminatingDrive, discriminating_drive
 from erdctl.diagnose.executor import Progress, executor
 from erdctl.diagnose.hypothesis import Hypothesis
-from erdctl.diagnose.problem import SHORTEST, Problem, prepare, with_given
+from erdctl.diagnose.problem import Problem, prepare, with_given
 from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying, errors
 from erdctl.diagnose.residual.localisation import Region, locate
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
+from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
 from erdctl.diagnose.search import Selection, refit, search
 from erdctl.estimate.covariance import Fit, assess
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
 from erdctl.score.nrmse import Normalise, Validation, validate
-
-SEARCH = 12_000  # samples for the search among hypotheses; what it finds is fitted to all
-PARTS = 5  # of a log that must be there to be left out in turn
-REST = 0.05  # of what the paper's model misses, in mean square, that counts where noise is louder
-LEFT = 0.3  # misfit over noise up to which what remains counts as noise
 
 
 class Verdict(StrEnum):
@@ -66,10 +63,10 @@ class Diagnosis:
 
     baseline : scores of the given parameters as they are, or else of the paper's model refitted
     refitted : scores of that model fitted to this recording
-    corrected, carried : scores of the best model without and with the scatter of the records, which
+    corrected, carried : scores of the best model without and with the record effects, which
         are the same where none is carried
-    unseen : scores of the model to answer for and of the best, each sample by a fit without its
-        group, beyond the scatter of the records
+    cross_validated : scores of the model to answer for and of the best, each sample by a fit
+        without its group, beyond the record effects
     """
 
     verdict: Verdict
@@ -87,6 +84,7 @@ class Diagnosis:
     cross_validated: tuple[Validation, Validation]
     record_effects: RecordEffects | None
     lack_of_fit: LackOfFit
+    resemblance: Resemblance | None
     untestable: dict[str, str]
 
 
@@ -105,12 +103,12 @@ def diagnose(
 
     given : parameters of the model to answer for, in place of the paper's; what they already
         contain is not found again
-    free : what of the force may scatter from record to record, which is carried and not named
+    free : record effects, which are estimated and not named
     jobs : processes that try hypotheses; the results are the same for any number
     """
     problem = prepare(recording, free)
     _enough(problem)
-    thin = prepare(thinned(recording, SEARCH), free)
+    thin = prepare(thinned(recording, thresholds.SEARCH_SAMPLES), free)
     survey = Survey(recording, problem.block.signals)
     if given is not None:
         lacking = untestable(survey, given.model.effects)
@@ -145,14 +143,18 @@ def diagnose(
         fit=fit,
         record_effects=record_effects,
         findings=findings,
-        mismatch=tuple(mismatch[:3]),
+        mismatch=tuple(mismatch[: thresholds.REGIONS]),
         given=given,
         baseline=refitted if given is None else _as_given(problem, given),
         refitted=refitted,
         corrected=_validate(problem, best),
         carried=_carried(problem, best),
-        cross_validated=(_unseen(best.problem, selection.base), _unseen(best.problem, best)),
+        cross_validated=(
+            _cross_validated(best.problem, selection.base),
+            _cross_validated(best.problem, best),
+        ),
         lack_of_fit=lack_of_fit,
+        resemblance=resemblance(best.problem, lack_of_fit.predicted) if left else None,
         untestable=missing,
     )
 
@@ -161,8 +163,9 @@ def _matters(problem: Problem, selection: Selection, lack_of_fit: LackOfFit) -> 
     """Whether a rest is more than noise, rounding, and the last per cent of what was explained."""
     misfit, noise = lack_of_fit.misfit_rms, lack_of_fit.noise_rms
     missed = max(selection.base.score - noise**2, 0.0)
-    least = max(LEFT * noise, FINEST * float(np.ptp(problem.block.force)))
-    return misfit > least and (misfit > noise or misfit**2 > REST * missed)
+    rounding = thresholds.ROUNDING * float(np.ptp(problem.block.force))
+    least = max(thresholds.MISFIT_OVER_NOISE * noise, rounding)
+    return misfit > least and (misfit > noise or misfit**2 > thresholds.MISFIT_PART * missed)
 
 
 def _enough(problem: Problem) -> None:
@@ -172,11 +175,12 @@ def _enough(problem: Problem) -> None:
         raise InputProblem("the force never changes: there is nothing to diagnose")
     if not (moving & (weight > 0)).any():
         raise InputProblem("the damper never moves: there is nothing to diagnose")
-    count = int(np.count_nonzero(problem.weight_of))
-    if count < PARTS:
+    count, least = int(np.count_nonzero(problem.weight_of)), thresholds.LEAST_GROUPS
+    if count < least:
         raise InputProblem(
-            f"too short to diagnose: {PARTS} parts of {SHORTEST:g} s or more are left out in turn,"
-            f" and this log has {count}; record at least {2 * PARTS * SHORTEST:g} s"
+            f"too short to diagnose: {least} parts of {thresholds.STRETCH:g} s or more are left"
+            f" out in turn, and this log has {count}; record at least"
+            f" {2 * least * thresholds.STRETCH:g} s"
         )
 
 
@@ -185,9 +189,9 @@ def _findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
     scale = float(np.ptp(problem.block.force))
     found = []
     with_all = best.model.force(problem.block.signals, best.values)
-    ranking = sorted(selection.singles, key=lambda t: t.score)
     chosen = {e.name for e in best.effects}
-    runner = next((t.effects[-1].name for t in ranking if t.effects[-1].name not in chosen), None)
+    order = (h.effects[-1].name for h in ranked(selection.singles))
+    runner = next((name for name in order if name not in chosen), None)
     for effect in selection.named:
         without = selection.without[effect.name]
         # Where it acts; what acts everywhere is seen where the other parameters fail to absorb it.
@@ -214,10 +218,10 @@ def _findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
 
 def _errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEffects | None]:
     model = hypothesis.model
-    at_bound = [n for n, q in model.quantities.items() if not q.low < hypothesis.values[n] < q.high]
     block, record_effects = hypothesis.problem.block, hypothesis.record_effects
     shared = block if record_effects is None else record_effects.shared(block)
-    fit = assess(model, [shared], hypothesis.values, fixed={*problem.held, *at_bound}, threads=1)
+    fixed = set(model.quantities).difference(hypothesis.free)
+    fit = assess(model, [shared], hypothesis.values, fixed=fixed, threads=1)
     if record_effects is None:
         return fit, None
     covariance, record_effects = errors(
@@ -243,7 +247,7 @@ def _carried(problem: Problem, hypothesis: Hypothesis) -> Validation:
     return validate(problem.recording, modelled, Normalise.RANGE)
 
 
-def _unseen(problem: Problem, hypothesis: Hypothesis) -> Validation:
+def _cross_validated(problem: Problem, hypothesis: Hypothesis) -> Validation:
     """Scores on what the fit left out, of the samples that a problem gives weight."""
     r, rows = problem.recording, np.flatnonzero(problem.block.weight)
     ends = np.searchsorted(rows, r.starts)

@@ -10,12 +10,9 @@ import numpy as np
 
 from erdctl.bench.drive import drives
 from erdctl.core.signals import Signals
+from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
-
-SECONDS = 4.0
-RATE = 500.0
-FREQUENCIES = (0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 
 
 @dataclass(frozen=True)
@@ -33,7 +30,7 @@ class DiscriminatingDrive:
 def discriminating_drive(
     problem: Problem, best: Hypothesis, look_alikes: Sequence[tuple[str, Hypothesis]]
 ) -> DiscriminatingDrive | None:
-    """The drive within the recorded stroke and speed that tells a hypothesis from its first look-alike."""
+    """The drive within the recorded stroke and speed that tells a hypothesis from a look-alike."""
     if not look_alikes:
         return None
     name, look_alike = look_alikes[0]
@@ -41,7 +38,7 @@ def discriminating_drive(
     for spec in _specs(problem):
         signals = Signals.of(drives([spec]))
         a, b = (t.model.force(signals, t.values) for t in (best, look_alike))
-        settled = signals.t > 0.25 * SECONDS
+        settled = signals.t > thresholds.DRIVE_SETTLES * thresholds.DRIVE_SECONDS
         found.append((float(np.sqrt(np.mean((a - b)[settled] ** 2))), spec))
     difference, spec = max(found)
     return DiscriminatingDrive(spec, difference, name)
@@ -55,12 +52,12 @@ def _specs(problem: Problem) -> list[str]:
         ["0"] if top == 0 else ["0", f"{top / 2:.2g}", f"{top:.2g}", f"{top / 2:.2g}|{top:.2g}"]
     )
     out = []
-    for frequency in FREQUENCIES:
+    for frequency in thresholds.DRIVE_FREQUENCIES:
         amplitude = min(stroke, speed / (2 * pi * frequency))
-        for part in (1.0, 0.2):
+        for part in thresholds.DRIVE_STROKES:
             for duty in duties:
                 out.append(
                     f"sine:freq={frequency:g},amp={part * amplitude:.3g},duty={duty},"
-                    f"duration={SECONDS:g},fs={RATE:g}"
+                    f"duration={thresholds.DRIVE_SECONDS:g},fs={thresholds.DRIVE_RATE:g}"
                 )
     return out

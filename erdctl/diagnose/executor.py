@@ -1,7 +1,8 @@
-"""Hypotheses, run here or in worker processes: the same results either way, in the order asked for."""
+"""Hypotheses fitted here or in worker processes: the same results either way, in order."""
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -9,9 +10,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from erdctl.core.errors import ComputationProblem
+from erdctl.core.errors import ComputationProblem, EffectFailed, IncompatibleEffects
 from erdctl.core.recording import Array
 from erdctl.core.workers import pool
+from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis, rank_starts
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.record_effects import RecordEffects
@@ -23,17 +25,18 @@ Progress = Callable[[str, str], None]
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """One hypothesis to try.
+    """One hypothesis to fit.
 
-    stage : for whoever watches;  effects, starts : see `fit_hypothesis`;  steps : of the search, at most
-    best : how many starts are left after a glance at all of them, if not all are
-    scatter : of the records to begin with, see `fit_hypothesis`
+    stage : for whoever watches;  effects, starts : see `fit_hypothesis`
+    steps : of the search, at most
+    best : how many starts are left after a look at all of them, if not all are
+    record_effects : to begin with
     """
 
     stage: str
     effects: tuple[Effect, ...]
     starts: tuple[Mapping[str, float], ...]
-    steps: int = 25
+    steps: int = thresholds.STEPS
     best: int | None = None
     record_effects: RecordEffects | None = None
 
@@ -58,7 +61,7 @@ class Answer(NamedTuple):
 
 
 class Executor:
-    """Tries hypotheses on some problems; see `executor`."""
+    """Fits hypotheses to some problems; see `executor`."""
 
     def __init__(
         self,
@@ -68,31 +71,55 @@ class Executor:
     ) -> None:
         self.problems, self.jobs, self.progress = tuple(problems), jobs, progress
         self._pool: ProcessPoolExecutor | None = None
+        self._sendable: set[str] = set()
 
-    def run(self, problem: Problem, tasks: Sequence[Task]) -> list[Hypothesis | None]:
-        """A hypothesis for each task; None for effects that cannot act together."""
+    def fit(self, problem: Problem, tasks: Sequence[Task]) -> list[Hypothesis | None]:
+        """A hypothesis for each task; None for effects that no model can hold together."""
         if self.jobs == 1 or len(tasks) < 2:
             return [self._here(problem, task) for task in tasks]
+        for task in tasks:
+            self._check_sendable(task)
         if self._pool is None:
             # What a parameter would need is for people, and holds functions without a name.
-            sent = [replace(s, needs={}) for s in self.problems]
+            sent = [replace(p, needs={}) for p in self.problems]
             self._pool = pool(self.jobs, _prepare, *sent)
-        number = next(i for i, s in enumerate(self.problems) if s is problem)
+        number = next(i for i, p in enumerate(self.problems) if p is problem)
         futures = [self._pool.submit(_answer, number, task) for task in tasks]
         of = dict(zip(futures, tasks, strict=True))
         self.progress(tasks[0].stage, tasks[0].name)
         try:
             for done in as_completed(futures):
                 self.progress(of[done].stage, of[done].name)
-            return [_hypothesis_of(problem, t, f) for t, f in zip(tasks, futures, strict=True)]
+            return [_hypothesis(problem, t, f) for t, f in zip(tasks, futures, strict=True)]
         except BrokenProcessPool:
             raise ComputationProblem(
                 "a worker process was killed, perhaps for want of memory; try --jobs 1"
             ) from None
 
+    def fit_compatible(self, problem: Problem, tasks: Sequence[Task]) -> list[Hypothesis]:
+        """The same for effects that have been together in one model before."""
+        found = [h for h in self.fit(problem, tasks) if h is not None]
+        assert len(found) == len(tasks), "effects of a hypothesis can act together"
+        return found
+
     def _here(self, problem: Problem, task: Task) -> Hypothesis | None:
         self.progress(task.stage, task.name)
-        return evaluate(problem, task)
+        return fitted(problem, task)
+
+    def _check_sendable(self, task: Task) -> None:
+        """Raise EffectFailed for an effect whose functions a worker process could not find."""
+        for effect in task.effects:
+            if effect.name in self._sendable:
+                continue
+            try:
+                pickle.dumps(effect)
+            except (pickle.PicklingError, AttributeError, TypeError) as error:
+                raise EffectFailed(
+                    f"effect {effect.name}",
+                    f"cannot be sent to a worker process ({error}); define its functions at the"
+                    " top level of its file, or use --jobs 1",
+                ) from error
+            self._sendable.add(effect.name)
 
     def leave(self) -> None:
         """End the workers."""
@@ -102,7 +129,7 @@ class Executor:
 
 @contextmanager
 def executor(problems: Sequence[Problem], jobs: int, progress: Progress) -> Iterator[Executor]:
-    """An executor of so many workers, which begin when there is work for two of them.
+    """An executor with so many workers, which begin when there is work for two of them.
 
     jobs : 1 for none, all is then done in this process
     """
@@ -117,20 +144,22 @@ def executor(problems: Sequence[Problem], jobs: int, progress: Progress) -> Iter
         found.leave()
 
 
-def evaluate(problem: Problem, task: Task) -> Hypothesis | None:
-    """The hypothesis of a task."""
+def fitted(problem: Problem, task: Task) -> Hypothesis | None:
+    """The hypothesis of a task; None for effects that no model can hold together.
+
+    Whatever else goes wrong in an effect ends the diagnosis: an effect that is left out because it
+    is broken would look as if it were absent.
+    """
     try:
         starts: Sequence[Mapping[str, float]] = task.starts
         if task.best is not None:
             starts = rank_starts(problem, task.effects, starts, task.record_effects)[: task.best]
         return fit_hypothesis(problem, task.effects, starts, task.steps, task.record_effects)
-    except ValueError:
-        return None  # effects that cannot act together
+    except IncompatibleEffects:
+        return None
 
 
-def _hypothesis_of(
-    problem: Problem, task: Task, future: Future[Answer | None]
-) -> Hypothesis | None:
+def _hypothesis(problem: Problem, task: Task, future: Future[Answer | None]) -> Hypothesis | None:
     answer = future.result()
     if answer is None:
         return None
@@ -155,9 +184,8 @@ def _prepare(*problems: Problem) -> None:
 
 def _answer(number: int, task: Task) -> Answer | None:
     problem = _problems[number]
-    hypothesis = evaluate(problem, task)
-    if hypothesis is None:
+    h = fitted(problem, task)
+    if h is None:
         return None
-    weight = None if hypothesis.problem is problem else hypothesis.problem.block.weight
-    t = hypothesis
-    return Answer(t.values, t.residual, t.cross_validated, t.evaluations, weight, t.record_effects)
+    weight = None if h.problem is problem else h.problem.block.weight
+    return Answer(h.values, h.residual, h.cross_validated, h.evaluations, weight, h.record_effects)

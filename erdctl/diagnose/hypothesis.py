@@ -1,25 +1,20 @@
-"""One hypothesis: the paper's model with some effects, judged on what its fit has not seen."""
+"""One hypothesis: the paper's model with some effects, fitted, and cross-validated."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from erdctl.core.recording import DIRECTIONS, Array
+from erdctl.core.recording import Array
+from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem, mask_doubtful
 from erdctl.diagnose.record_effects import RecordEffects, estimate
 from erdctl.estimate.covariance import jacobian
-from erdctl.estimate.least_squares import fit
+from erdctl.estimate.least_squares import Fitted, at_bound, fit
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
-
-# A group is left out but for this part of the weight of all data. What only one group shows (a lag,
-# if it alone has duty steps) is otherwise unknown without it, and the step goes to infinity.
-KEPT = 0.05
-ROUNDS = 12  # of alternating least squares between the model and the scatter of the records
-GLANCE = 4  # steps of a search that only ranks its start
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,8 +22,8 @@ class Hypothesis:
     """A fitted model.
 
     problem : what it was fitted to, but for samples of which its channel makes nothing certain
-    residual : (n,) [N];  unseen : (n,) the same, by a fit that leaves out the sample's group
-    scatter : of the records, where the problem leaves it free; residuals are then beyond that
+    residual : (n,) [N];  cross_validated : (n,) the same, by a fit without the sample's group
+    record_effects : where the problem leaves them free; residuals are then beyond them
     """
 
     problem: Problem
@@ -45,8 +40,17 @@ class Hypothesis:
         return self.model.effects
 
     @property
+    def free(self) -> list[str]:
+        """The parameters that the data determine: neither held nor at a bound."""
+        held, model = self.problem.held, self.model
+        return [
+            name for name, q in model.quantities.items()
+            if name not in held and not at_bound(q, self.values[name])
+        ]  # fmt: skip
+
+    @property
     def score(self) -> float:
-        """Mean square over what was not seen [N^2]."""
+        """Cross-validated mean square [N^2], on the hypothesis's own samples."""
         return float(np.average(self.cross_validated**2, weights=self.problem.block.weight))
 
 
@@ -54,37 +58,41 @@ def fit_hypothesis(
     problem: Problem,
     effects: Sequence[Effect],
     starts: Sequence[Mapping[str, float]],
-    max_evaluations: int = 40,
+    max_evaluations: int = thresholds.STEPS_BASE,
     record_effects: RecordEffects | None = None,
 ) -> Hypothesis:
-    """Fit from every start and judge the best by leaving groups out.
+    """Fit from every start, and cross-validate the best.
 
-    scatter : of the records to begin with
+    record_effects : to begin with
+    Raises IncompatibleEffects if no model can hold these effects together.
     """
     model = Model(tuple(effects))
     if problem.free and record_effects is None:
         record_effects = RecordEffects.none(len(problem.recording.names))
-    found = [_fitted(problem, model, start, max_evaluations, record_effects) for start in starts]
-    values, residual, _ = min(found, key=lambda f: _cost(problem, f[1]))
-    evaluations = sum(count for _, _, count in found)
-    part = mask_doubtful(problem, model, values)
+    all_ = [_fitted(problem, model, start, max_evaluations, record_effects) for start in starts]
+    found = min(all_, key=lambda f: f.cost)
+    evaluations = sum(f.evaluations for f in all_)
+    part = mask_doubtful(problem, model, found.values)
     if part is not problem:
-        values, residual, count = _fitted(part, model, values, max_evaluations, record_effects)
-        part = mask_doubtful(problem, model, values)
-        evaluations += count
-    for _ in range(ROUNDS if record_effects is not None else 0):
-        assert record_effects is not None
-        modelled = model.force(part.block.signals, values)
-        last, record_effects = (
-            record_effects,
-            estimate(problem.free, part.block, modelled, record_effects),
-        )
-        values, residual, count = _fitted(part, model, values, max_evaluations, record_effects)
-        evaluations += count
-        if record_effects.settled(last):
-            break
-    cross_validated = cross_validated_residual(part, model, values, residual, record_effects)
-    return Hypothesis(part, model, values, residual, cross_validated, evaluations, record_effects)
+        found = _fitted(part, model, found.values, max_evaluations, record_effects)
+        part = mask_doubtful(problem, model, found.values)
+        evaluations += found.evaluations
+    if record_effects is not None:
+        for _ in range(thresholds.RECORD_ROUNDS):
+            modelled = model.force(part.block.signals, found.values)
+            last, record_effects = (
+                record_effects,
+                estimate(problem.free, part.block, modelled, record_effects),
+            )
+            found = _fitted(part, model, found.values, max_evaluations, record_effects)
+            evaluations += found.evaluations
+            if record_effects.settled(last):
+                break
+    none = np.empty(0)
+    fitted = Hypothesis(
+        part, model, found.values, found.residual, none, evaluations, record_effects
+    )
+    return replace(fitted, cross_validated=_cross_validated(fitted))
 
 
 def rank_starts(
@@ -94,10 +102,9 @@ def rank_starts(
     record_effects: RecordEffects | None = None,
 ) -> list[dict[str, float]]:
     """Starts after a short search from each, the most promising first."""
-    model = Model(tuple(effects))
-    found = [_fitted(problem, model, point, GLANCE, record_effects) for point in points]
-    found.sort(key=lambda f: _cost(problem, f[1]))
-    return [values for values, _, _ in found]
+    model, steps = Model(tuple(effects)), thresholds.STEPS_RANKING
+    found = [_fitted(problem, model, point, steps, record_effects) for point in points]
+    return [f.values for f in sorted(found, key=lambda f: f.cost)]
 
 
 def _fitted(
@@ -106,31 +113,22 @@ def _fitted(
     start: Mapping[str, float],
     max_evaluations: int,
     record_effects: RecordEffects | None = None,
-) -> tuple[dict[str, float], Array, int]:
-    given = {**start, **problem.held}  # perhaps of a larger model
+) -> Fitted:
+    """A search from one start, which may be that of a larger model; beyond the record effects."""
+    given = {**start, **problem.held}
     full = {n: given.get(n, q.start) for n, q in model.quantities.items()}
-    block = problem.block if record_effects is None else record_effects.shared(problem.block)
-    values, count, _ = fit(
-        model, block, start=full, fixed=problem.held, max_evaluations=max_evaluations
-    )
-    residual = block.force - model.force(block.signals, values)
-    if record_effects is not None:
-        residual = residual * record_effects.along(block.signals.starts)[0]
-    return values, residual, count
-
-
-def _cost(problem: Problem, residual: Array) -> float:
+    if record_effects is None:
+        return fit(
+            model, problem.block, start=full, fixed=problem.held, max_evaluations=max_evaluations
+        )
+    block = record_effects.shared(problem.block)
+    found = fit(model, block, start=full, fixed=problem.held, max_evaluations=max_evaluations)
+    residual = found.residual * record_effects.along(block.signals.starts)[0]
     cost = float(np.dot(problem.block.weight, residual * residual))
-    return cost if np.isfinite(cost) else np.inf
+    return replace(found, residual=residual, cost=cost if np.isfinite(cost) else np.inf)
 
 
-def cross_validated_residual(
-    problem: Problem,
-    model: Model,
-    values: Mapping[str, float],
-    residual: Array,
-    record_effects: RecordEffects | None = None,
-) -> Array:
+def _cross_validated(fitted: Hypothesis) -> Array:
     """(n,) error on each group by a fit without it [N].
 
         d = (N - N_g)^-1 J_g' W r_g,   theta without g = theta - d,   r_g without = r_g + J_g d
@@ -138,21 +136,15 @@ def cross_validated_residual(
     N = J' W J: exact for a linear model, the first Gauss-Newton step for others, so that leaving
     every group out costs one Jacobian. A parameter at a bound is kept there.
     """
-    free = []
-    for name, q in model.quantities.items():
-        if name in problem.held:
-            continue
-        v = values[name]
-        if q.low < v < q.high:
-            free.append(name)
-    J = jacobian(model, problem.block.signals, values, free)
-    if record_effects is not None:
-        J = J * record_effects.along(problem.block.signals.starts)[0]
+    problem, residual = fitted.problem, fitted.residual
+    J = jacobian(fitted.model, problem.block.signals, fitted.values, fitted.free)
+    if fitted.record_effects is not None:
+        J = J * fitted.record_effects.along(problem.block.signals.starts)[0]
     scale = np.sqrt(np.einsum("ij,ij,j->i", J, J, problem.block.weight))
     scale[scale == 0.0] = 1.0
     J = J / scale[:, None]
     weighted = J * problem.block.weight
-    whole = (1.0 + KEPT) * (weighted @ J.T)
+    whole = (1.0 + thresholds.CV_RIDGE) * (weighted @ J.T)
     out = np.empty_like(residual)
     order = np.argsort(problem.group, kind="stable")
     bounds = np.searchsorted(problem.group[order], np.arange(problem.count + 1))
@@ -161,11 +153,6 @@ def cross_validated_residual(
         part, r = J[:, rows], residual[rows]
         weight = problem.block.weight[rows]
         own = (part * weight) @ part.T
-        step = np.linalg.lstsq(whole - own, (part * weight) @ r, rcond=1e-10)[0]
+        step = np.linalg.lstsq(whole - own, (part * weight) @ r, rcond=thresholds.CV_SINGULAR)[0]
         out[rows] = r + step @ part
     return out
-
-
-def fresh_start(T_d: float, beta: float) -> dict[str, float]:
-    """Shape parameters of the paper's model to begin with, whatever a fit has found before."""
-    return {f"{d}.T_d": T_d for d in DIRECTIONS} | {f"{d}.beta": beta for d in DIRECTIONS}

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Sized
 
 from erdctl.core.workers import cores
-
-WORTHWHILE = 60_000  # samples times effects from which the second that a process needs is worth it
+from erdctl.diagnose import thresholds
 
 
 def worthwhile(recording: Sized, candidates: Sized) -> int:
     """As many processes as cores, where the work is worth starting them; else 1."""
-    return cores() if len(recording) * len(candidates) > WORTHWHILE else 1
+    return cores() if len(recording) * len(candidates) > thresholds.WORTH_PROCESSES else 1

@@ -10,19 +10,15 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from erdctl.bench.identifiability import Lack, unmet
+from erdctl.bench.identifiability import Lack, held_values, unmet
 from erdctl.core.blocks import Block, whole
 from erdctl.core.recording import Array, Index, Recording
 from erdctl.core.signals import Signals
+from erdctl.diagnose import thresholds
 from erdctl.diagnose.record_effects import NONE_VARY, Varying
 from erdctl.model.composed import Model
-from erdctl.model.effect import Slot, Values
 from erdctl.model.parameters import Parameters
-
-GROUPS = 24  # stretches left out in turn, if the log has fewer records than that
-SHORTEST = 0.8  # s; of what is judged by itself: longer than noise remembers
-SEEN = 0.5  # part of a sample that may come from doubtful ones
-UNCERTAIN = 3.0  # standard deviations of xdot's noise within which its sign is not known
+from erdctl.model.slots import ChannelSlot, Values
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +27,7 @@ class Problem:
 
     block : signals, force, weights (0 where a record settles or the direction is uncertain)
     group : (n,) which left-out part a sample belongs to
-    stretch : (n,) which piece of that, of about SHORTEST, by which hypotheses are compared
+    stretch : (n,) which piece of that, of about STRETCH, by which hypotheses are compared
     held : paper parameters that the log cannot identify, and their values
     free : what of the force may differ from record to record
     """
@@ -66,11 +62,11 @@ class Problem:
         return sums / np.maximum(weight, 1e-300), weight
 
     def t_statistics(self, worse: Array, better: Array) -> tuple[float, float]:
-        """How clearly one residual (n,) [N] is smaller than another.
+        """Two t statistics of one residual (n,) [N] against a smaller one.
 
-        The logarithm of the ratio of their squares, its mean over its standard error: over
-        stretches, and over groups. What acts in few places is clear by many stretches there, and
-        steady only if they lie in several groups.
+        Of the logarithm of the ratio of their mean squares: over stretches, and over groups. What
+        acts in few places has a large one over the many stretches there, and a large one over
+        groups only if these lie in several of them.
         """
         (before, weight), (after, _) = (self.per_stretch(r**2) for r in (worse, better))
         use = (before > 0) & (after > 0) & (weight > 0)
@@ -98,12 +94,12 @@ def t_statistic(values: Array) -> float:
 
 
 def mask_doubtful(problem: Problem, model: Model, values: Values) -> Problem:
-    """The problem without the samples that a force channel fills from doubtful ones.
+    """The problem without the samples that a force channel fills from ones of uncertain direction.
 
     A channel that is late shows the turn of a record late, too: with its uncertain direction, and
     drawn out over the samples between which the force jumps. One that averages dilutes both.
     """
-    channel = model.of(Slot.CHANNEL)
+    channel = model.of(ChannelSlot)
     if not channel:
         return problem
     s = problem.block.signals
@@ -113,20 +109,16 @@ def mask_doubtful(problem: Problem, model: Model, values: Values) -> Problem:
     turned = s.turns[0]
     unsure[turned] = unsure[turned + 1] = True
     doubt = unsure.astype(np.float64)
-    for effect in channel:
-        doubt = effect.act(doubt, s, effect.local(values))
-    weight = np.where(doubt > SEEN, 0.0, problem.block.weight)
+    for effect, slot in channel:
+        doubt = slot(doubt, s, effect.local(values))
+    weight = np.where(doubt > thresholds.DOUBTFUL_PART, 0.0, problem.block.weight)
     return replace(problem, block=problem.block._replace(weight=weight))
 
 
 def prepare(recording: Recording, free: Varying = NONE_VARY) -> Problem:
     """The problem of a recording with a measured force."""
     needs = unmet(recording)
-    held = {
-        name: 1.0 if name.endswith(".beta") else 0.0
-        for name, need in needs.items()
-        if not need.confounded
-    }
+    held = held_values(needs)
     block = whole(recording)
     block.weight[uncertain(block.signals)] = 0.0
     group = groups(recording)
@@ -156,10 +148,10 @@ def groups(recording: Recording) -> Index:
     lengths = np.array([recording.t[s][-1] - recording.t[s][0] for s in slices])
     total = max(float(lengths.sum()), 1e-9)
     out = np.empty(len(recording), dtype=np.intp)
-    first = 0
+    first, most = 0, thresholds.CV_GROUPS
     for part, length in zip(slices, lengths.tolist(), strict=True):
-        share = round(GROUPS * length / total) if len(slices) < GROUPS else 1
-        pieces = max(1, min(share, int(length / SHORTEST)))
+        share = round(most * length / total) if len(slices) < most else 1
+        pieces = max(1, min(share, int(length / thresholds.STRETCH)))
         n = part.stop - part.start
         out[part] = first + np.arange(n) * pieces // n
         first += pieces
@@ -167,13 +159,13 @@ def groups(recording: Recording) -> Index:
 
 
 def stretches(recording: Recording, group: Index) -> Index:
-    """(n,) stretches of about SHORTEST seconds, each within one group."""
+    """(n,) stretches of about 0.8 s, each within one group."""
     out = np.empty(len(recording), dtype=np.intp)
     first = 0
     ends = np.flatnonzero(np.diff(group)) + 1
     for a, b in pairwise([0, *ends.tolist(), len(recording)]):
         span = float(recording.t[b - 1] - recording.t[a])
-        pieces = max(1, int(span / SHORTEST))
+        pieces = max(1, int(span / thresholds.STRETCH))
         out[a:b] = first + np.arange(b - a) * pieces // (b - a)
         first += pieces
     return out
@@ -189,9 +181,9 @@ def uncertain(signals: Signals) -> npt.NDArray[np.bool_]:
     out = np.zeros(len(signals), dtype=np.bool_)
     for a, b in zip(signals.starts[:-1].tolist(), signals.starts[1:].tolist(), strict=True):
         xdot = signals.xdot[a:b]
-        if b - a < 32:
+        if b - a < thresholds.LEAST_SPECTRUM:
             continue
-        out[a:b] = np.abs(xdot) < UNCERTAIN * velocity_noise(xdot)
+        out[a:b] = np.abs(xdot) < thresholds.DIRECTION_SIGMAS * velocity_noise(xdot)
     return out
 
 
@@ -206,7 +198,8 @@ def velocity_noise(xdot: Array) -> float:
     total = np.cumsum(power)
     if total[-1] == 0.0:
         return 0.0
-    edge = 3 * int(np.searchsorted(total, 0.99 * total[-1])) + 8
+    motion = int(np.searchsorted(total, thresholds.MOTION_ENERGY * total[-1]))
+    edge = thresholds.NOISE_BEYOND * motion + thresholds.NOISE_BINS
     if edge >= len(power):
         return 0.0
     beyond = float(total[-1] - total[edge])

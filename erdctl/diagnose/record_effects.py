@@ -1,11 +1,11 @@
-"""Gain and zero of the force that scatter from record to record: carried along, never named.
+"""Record effects: gain and zero of the force that vary from record to record, carried, not named.
 
     F = g_r m + o_r + noise,   mean g_r = 1,   mean o_r = 0
 
 m : force of the model with shared parameters [N];  g_r, o_r : of record r [1], [N]
 Alternating least squares: the model is fitted to (F - o_r) / g_r, then gains and offsets to F. What
 the records share stays with the model: a common gain with its amplitudes, a common offset with its
-constant forces. Each value is drawn to the mean by what its error is against the scatter of all
+constant forces. Each value is shrunk to the mean by what its error is against the variance of all
 (empirical Bayes), and a record that does not determine it keeps the mean.
 """
 
@@ -18,14 +18,12 @@ import numpy.typing as npt
 
 from erdctl.core.blocks import Block
 from erdctl.core.recording import Array, Index
+from erdctl.diagnose import thresholds
 from erdctl.estimate.autoregressive import ColouredNoise
 from erdctl.estimate.covariance import jacobian
-from erdctl.estimate.least_squares import SINGULAR
+from erdctl.estimate.normal_equations import SINGULAR, Normal
 from erdctl.model.composed import Model
-from erdctl.model.effect import Values
-
-LEAST_GAIN = 0.2  # below that a record would be noise that is blown up
-SETTLED = 0.1  # of its error by which a value may still move
+from erdctl.model.slots import Values
 
 
 @dataclass(frozen=True)
@@ -56,7 +54,7 @@ class RecordEffects:
 
     @classmethod
     def none(cls, records: int) -> RecordEffects:
-        """No scatter."""
+        """Gain 1 and offset 0 in every record."""
         unknown = np.full(records, np.inf)
         return cls(np.ones(records), np.zeros(records), unknown, unknown)
 
@@ -66,7 +64,7 @@ class RecordEffects:
         return np.repeat(self.gain, lengths), np.repeat(self.offset, lengths)
 
     def shared(self, block: Block) -> Block:
-        """What the shared model is fitted to: the force without the scatter, noise as it was."""
+        """What the shared model is fitted to: the force less record effects, noise as it was."""
         gain, offset = self.along(block.signals.starts)
         return Block(block.signals, (block.force - offset) / gain, block.weight * gain**2)
 
@@ -76,13 +74,15 @@ class RecordEffects:
             (self.gain - before.gain, self.gain_error),
             (self.offset - before.offset, self.offset_error),
         )
-        return all(bool((np.abs(move) <= SETTLED * error).all()) for move, error in pairs)
+        return all(
+            bool((np.abs(move) <= thresholds.RECORD_SETTLED * error).all()) for move, error in pairs
+        )
 
 
 def estimate(free: Varying, block: Block, modelled: Array, last: RecordEffects) -> RecordEffects:
-    """The scatter between a measured force and a modelled one (n,) [N]; errors are of noise alone.
+    """Record effects between a measured and a modelled force (n,) [N]; errors are of noise alone.
 
-    last : the scatter before, for the colour of the noise
+    last : those before, for the colour of the noise
     """
     weight, starts = block.weight, block.signals.starts
     gain, offset = last.along(starts)
@@ -101,7 +101,7 @@ def estimate(free: Varying, block: Block, modelled: Array, last: RecordEffects) 
     out = RecordEffects.none(len(starts) - 1)
     new_gain, new_offset, errors = out.gain, out.offset, [out.gain_error, out.offset_error]
     if free.gain:
-        new_gain = np.maximum(1.0 + shrunk(value[0], error[0]), LEAST_GAIN)
+        new_gain = np.maximum(1.0 + shrunk(value[0], error[0]), thresholds.LEAST_RECORD_GAIN)
         errors[0] = error[0]
     if free.offset:
         left = block.force - np.repeat(new_gain, np.diff(starts)) * modelled
@@ -126,13 +126,15 @@ def _solved(normal: Array, right: Array, meat: Array) -> tuple[Array, Array]:
 
 
 def shrunk(value: Array, error: Array) -> Array:
-    """(r,) deviations from the mean, drawn to 0 by their errors (r,); they add up to 0.
+    """(r,) deviations from the mean, shrunk to 0 by their errors (r,); they add up to 0.
 
         d = tau^2 / (tau^2 + e^2) (v - mu),   sum (v - mu)^2 / (tau^2 + e^2) = r - 1
 
-    tau : scatter beyond the errors (Paule and Mandel 1982), 0 if there is none
+    tau : standard deviation beyond the errors (Paule and Mandel 1982), 0 if there is none
     mu : mean, weighted as the sum is
     Check: v = 1, 3, e = 1, 1: sum = 2 / (tau^2 + 1) = 1, tau = 1, d = -0.5, 0.5.
+    >>> shrunk(np.array([1.0, 3.0]), np.ones(2)).round(4).tolist()
+    [-0.5, 0.5]
     """
     known = np.isfinite(error)
     out = np.zeros_like(value)
@@ -145,13 +147,13 @@ def shrunk(value: Array, error: Array) -> Array:
         mean = float(np.average(v, weights=weight))
         return float(np.dot(weight, (v - mean) ** 2)), mean
 
-    low, high = 0.0, float(np.sum((v - v.mean()) ** 2))
-    if high == 0.0 or spread(0.0)[0] <= len(v) - 1:
+    most = float(np.sum((v - v.mean()) ** 2))
+    if most == 0.0 or spread(0.0)[0] <= len(v) - 1:
         return out
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if spread(middle)[0] > len(v) - 1 else (low, middle)
-    out[known] = high / (high + square) * (v - spread(high)[1])
+    from scipy.optimize import brentq
+
+    tau2 = float(brentq(lambda tau2: spread(tau2)[0] - (len(v) - 1), 0.0, most))
+    out[known] = tau2 / (tau2 + square) * (v - spread(tau2)[1])
     return out
 
 
@@ -163,7 +165,7 @@ def errors(
     names: tuple[str, ...],
     found: RecordEffects,
 ) -> tuple[Array, RecordEffects]:
-    """(p, p) covariance of shared parameters, and errors of the scatter, each given the others.
+    """(p, p) covariance of shared parameters; errors of record effects, each given the others.
 
     names : the shared parameters that were estimated.  Both under coloured noise; the means over
     the records are fixed, as `estimate` fixes them.
@@ -203,7 +205,7 @@ def errors(
         [e for e, is_free in zip(kept, (free.gain, free.offset), strict=True) if is_free]
     )
     into = _contrasts(p, len(own), np.isfinite(fixed).reshape(len(own), records))
-    inverse = _pseudo(into.T @ normal @ into)
+    inverse = Normal.of(into.T @ normal @ into).pseudo_inverse()
     covariance = into @ inverse @ (into.T @ meat @ into) @ inverse @ into.T
     error = np.sqrt(np.maximum(np.diag(covariance)[p:], 0.0))
     error = np.where(np.isfinite(fixed), error, np.inf).reshape(len(own), records)
@@ -227,11 +229,3 @@ def _contrasts(shared: int, kinds: int, known: npt.NDArray[np.bool_]) -> Array:
         basis[at] = np.linalg.svd(centred)[0][:, : basis.shape[1]]
         columns.append(basis)
     return np.concatenate(columns, axis=1)
-
-
-def _pseudo(normal: Array) -> Array:
-    scale = np.sqrt(np.diag(normal))
-    scale[scale == 0.0] = 1.0
-    w, v = np.linalg.eigh(normal / np.outer(scale, scale))
-    keep = w > SINGULAR * w[-1]
-    return np.asarray((v[:, keep] / w[keep]) @ v[:, keep].T / np.outer(scale, scale))

@@ -2,7 +2,7 @@
 
 At each of a grid of starts the effect changes the force by some D. What D explains of the residual
 beyond what the parameters of the present model can (their Jacobian is projected out) needs one
-evaluation of the model instead of a search. Full hypotheses begin at the best starts found here.
+evaluation of the model instead of a search. Hypotheses are fitted from the best starts found here.
 """
 
 from __future__ import annotations
@@ -12,24 +12,16 @@ from itertools import product
 
 import numpy as np
 
+from erdctl.core.errors import IncompatibleEffects
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
+from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
 from erdctl.estimate.covariance import jacobian
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
-
-PARTS = (0.003, 0.01, 0.03, 0.1, 0.3)  # of what the recording spans, for lengths and the like
-TIMES = (
-    0.1,
-    0.3,
-    1.0,
-    3.0,
-    10.0,
-)  # of a parameter's own start, where nothing in a log sets a scale
-DELAYS = 6  # of those of a time, from a sample to half of the longest record
-MOST = 30  # starts for one effect
+from erdctl.model.slots import TermSlot
 
 
 @dataclass(frozen=True)
@@ -48,104 +40,115 @@ class Screen:
         self.problem, self.parent = problem, parent
         self.root = np.sqrt(parent.problem.block.weight)
         signals = problem.block.signals
-        free = [
-            n for n, q in parent.model.quantities.items()
-            if n not in problem.held and q.low < parent.values[n] < q.high
-        ]  # fmt: skip
-        record_effects = parent.record_effects
         self.lever = self.root  # of a force of the model on a weighted residual
-        if record_effects is not None:
-            self.lever = self.root * record_effects.along(signals.starts)[0]
-        J = jacobian(parent.model, signals, parent.values, free) * self.lever
-        scale = np.sqrt(np.einsum("ij,ij->i", J, J))
-        J /= np.where(scale > 0, scale, 1.0)[:, None]
-        w, v = np.linalg.eigh(J @ J.T)
-        keep = w > 1e-8 * w[-1]
-        self.basis = (v[:, keep] / np.sqrt(w[keep])).T @ J
+        if parent.record_effects is not None:
+            self.lever = self.root * parent.record_effects.along(signals.starts)[0]
+        J = jacobian(parent.model, signals, parent.values, parent.free) * self.lever
+        self.basis = _orthonormal(J)
         self.residual = self._beyond(parent.residual[None] * self.root)[0]
         self.square = float(self.residual @ self.residual)
         self.force = parent.model.force(signals, parent.values)
 
-    def assess(self, effect: Effect, best: int = 2) -> Candidate | None:
+    def candidate(self, effect: Effect) -> Candidate | None:
         """What one effect promises; None if it cannot act beside the parent's."""
         found = []
-        for guess in starts(effect, self.problem):
+        for guess in starts(effect, self.parent.problem, self.parent.residual):
             try:
                 gain = self._gain(effect, guess)
-            except ValueError:
+            except IncompatibleEffects:
                 return None
             found.append((gain, {effect.key(s): v for s, v in guess.items()}))
         found.sort(key=lambda f: -f[0])
-        return Candidate(effect, found[0][0], tuple(guess for _, guess in found[:best]))
+        best = found[: thresholds.SEARCHED_STARTS]
+        return Candidate(effect, found[0][0], tuple(guess for _, guess in best))
 
     def _gain(self, effect: Effect, guess: dict[str, float]) -> float:
+        """Part of the residual's square that an effect takes, in the amounts that suit best.
+
+        A nonlinear effect can only be more or less what its start says: its amount is not negative.
+        """
+        from scipy.optimize import lsq_linear
+
         signals = self.problem.block.signals
-        rows, signs = [], []
-        if effect.apply is not None:
+        rows = list(effect.added(signals, guess))
+        low = [-np.inf if q.low < 0 else 0.0 for q in effect.amplitudes]
+        if not isinstance(effect.slot, TermSlot):
             model = Model((*self.parent.effects, effect))
             values = {**self.parent.values, **effect.off}
             values |= {effect.key(s): v for s, v in guess.items()}
             values |= {effect.key(q.symbol): 0.0 for q in effect.amplitudes}
             rows.append(model.force(signals, values) - self.force)
-            signs.append(True)
-        if effect.columns is not None:
-            rows += list(effect.columns(signals, guess))
-            signs += [q.low >= 0 for q in effect.amplitudes]
+            low.append(0.0)
         X = self._beyond(np.array(rows) * self.lever)
-        one_sided = np.array(signs)
-        use = np.einsum("ij,ij->i", X, X) > 0.0
-        while use.any():
-            amounts = np.linalg.lstsq(X[use] @ X[use].T, X[use] @ self.residual, rcond=1e-9)[0]
-            wrong = np.flatnonzero(use)[(amounts < 0) & one_sided[use]]
-            if wrong.size == 0:
-                return float(amounts @ (X[use] @ self.residual)) / max(self.square, 1e-300)
-            use[wrong] = False
-        return 0.0
+        scale = np.sqrt(np.einsum("ij,ij->i", X, X))
+        use = scale > 0.0
+        if not use.any():
+            return 0.0
+        scaled = X[use] / scale[use, None]
+        found = lsq_linear(scaled.T, self.residual, bounds=(np.array(low)[use], np.inf))
+        return 1.0 - 2.0 * float(found.cost) / max(self.square, 1e-300)
 
     def _beyond(self, rows: Array) -> Array:
         return np.asarray(rows - (rows @ self.basis.T) @ self.basis)
 
 
-def starts(effect: Effect, problem: Problem) -> list[dict[str, float]]:
-    """A grid of starts for the shape parameters of an effect, by symbol."""
-    if effect.guesses is not None:
-        return [dict(g) for g in effect.guesses(problem.block.signals)]
-    shape = [q for q in effect.quantities if not q.linear]
-    axes = [_axis(q, problem) for q in shape]
-    while np.prod([len(a) for a in axes]) > MOST:
+def _orthonormal(rows: Array) -> Array:
+    """(m, n) orthonormal basis of some rows (k, n), m <= k, from the largest on."""
+    from scipy.linalg import qr
+
+    scale = np.sqrt(np.einsum("ij,ij->i", rows, rows))
+    scaled = rows / np.where(scale > 0, scale, 1.0)[:, None]
+    q, r, _ = qr(scaled.T, mode="economic", pivoting=True)
+    size = np.abs(np.diag(r))
+    return np.ascontiguousarray(q[:, size > thresholds.BASIS * size[:1]].T)
+
+
+def starts(effect: Effect, problem: Problem, residual: Array) -> list[dict[str, float]]:
+    """Starts for the shape parameters of an effect, by symbol: its own, or those of a grid.
+
+    residual : (n,) of the model without the effect [N]
+    """
+    rest = np.where(problem.block.weight > 0.0, residual, 0.0)
+    own = effect.starts(problem.block.signals, rest)
+    if own is not None:
+        return own
+    axes = [_axis(q, problem) for q in effect.shape]
+    while np.prod([len(a) for a in axes]) > thresholds.MOST_STARTS:
         longest = max(range(len(axes)), key=lambda i: len(axes[i]))
         axes[longest] = axes[longest][::2]
-    return [
-        dict(zip((q.symbol for q in shape), point, strict=True)) for point in product(*axes)
-    ] or [{}]
+    symbols = [q.symbol for q in effect.shape]
+    return [dict(zip(symbols, point, strict=True)) for point in product(*axes)]
 
 
 def _axis(q: Quantity, problem: Problem) -> list[float]:
-    r = problem.recording
+    """Starts of one parameter: its unit says which scale of the recording it goes with."""
+    r, s = problem.recording, problem.block.signals
     assert r.force is not None
-    s = problem.block.signals
     longest = float((s.t[s.starts[1:] - 1] - s.t[s.starts[:-1]]).max())
     stroke, force = float(np.ptp(r.x)) / 2, float(np.ptp(r.force))
     speed = float(np.abs(r.xdot).max())
     work = float(np.abs(r.force * r.xdot * r.step).sum()) / len(r.names)
+    negative = thresholds.INVERSE_NEGATIVE
     match q.unit:
         case "m":
-            values = [p * stroke for p in PARTS]
+            values = [p * stroke for p in thresholds.PARTS]
         case "m/s":
-            values = [p * speed for p in PARTS]
+            values = [p * speed for p in thresholds.PARTS]
         case "m/N":
-            values = [p * stroke / force for p in PARTS]
+            values = [p * stroke / force for p in thresholds.PARTS]
         case "1/m":
-            values = [p / stroke for p in (0.1, 0.5)] + ([-0.3 / stroke] if q.low < 0 else [])
+            values = [p / stroke for p in thresholds.INVERSE_PARTS]
+            values += [negative / stroke] if q.low < 0 else []
         case "1/m^2":
-            values = [0.0, 0.5 / stroke**2] + ([-0.3 / stroke**2] if q.low < 0 else [])
+            values = [0.0, thresholds.INVERSE_SQUARE / stroke**2]
+            values += [negative / stroke**2] if q.low < 0 else []
         case "s" if q.start < longest:
-            values = np.geomspace(s.typical_step, longest / 2, DELAYS).tolist()
+            values = np.geomspace(s.typical_step, longest / 2, thresholds.DELAYS).tolist()
         case "1/J":
-            values = [p / work for p in (0.03, 0.3)]
+            values = [p / work for p in thresholds.ENERGY_PARTS]
         case _ if q.low < 0 < q.high:
-            values = [0.3 * q.start, q.start, -q.start]
+            values = [p * q.start for p in thresholds.SIGNED_MULTIPLES]
         case _:
-            values = [p * q.start for p in TIMES]
+            values = [p * q.start for p in thresholds.MULTIPLES]
     inside = sorted({min(max(v, q.low), q.high) for v in values})
     return inside or [q.start]

@@ -12,7 +12,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from pkgutil import iter_modules
 
-from erdctl.core.errors import InputProblem, UsageProblem
+from erdctl.core.errors import EffectFailed, ErdctlError, InputProblem, UsageProblem
 from erdctl.model.effect import Effect
 
 GROUP = "erdctl.effects"
@@ -32,25 +32,38 @@ def names() -> tuple[str, ...]:
 def get(name: str) -> Effect:
     """The effect of that name; only its own file is imported.
 
-    Raises InputProblem, with the names there are, if the catalogue has none of that name.
+    Raises InputProblem, with the names there are, if the catalogue has none of that name, and
+    EffectFailed if its file cannot be used.
     """
     if name.isidentifier() and find_spec(f"{__name__}.{name}") is not None:
-        found = import_module(f"{__name__}.{name}").EFFECT
-    else:
-        from importlib.metadata import entry_points
+        return _loaded(name, f"{__name__}.{name}", "EFFECT")
+    from importlib.metadata import entry_points
 
-        matches = entry_points(group=GROUP, name=name)
-        if not matches:
-            raise InputProblem(f"unknown effect '{name}'; known are {', '.join(names())}")
-        found = next(iter(matches)).load()
-    if not isinstance(found, Effect) or found.name != name:
-        raise InputProblem(f"effect '{name}' does not declare itself under that name")
-    return found
+    for entry in entry_points(group=GROUP, name=name):
+        return _loaded(name, entry.module, entry.attr)
+    raise InputProblem(f"unknown effect '{name}'; known are {', '.join(names())}")
 
 
 def catalogue() -> tuple[Effect, ...]:
     """Every effect."""
     return tuple(get(name) for name in names())
+
+
+def _loaded(name: str, module: str, attribute: str) -> Effect:
+    """The effect that a module declares; says the file, whatever is wrong with it."""
+    spec = find_spec(module)
+    file = (spec.origin if spec is not None else None) or module
+    try:
+        found: object = getattr(import_module(module), attribute)
+    except (ErdctlError, MemoryError):
+        raise
+    except Exception as error:  # an effect may come from anywhere, and fail in any way
+        raise EffectFailed(file, f"{type(error).__name__}: {error}") from error
+    if not isinstance(found, Effect):
+        raise EffectFailed(file, f"{attribute} is {type(found).__name__}, expected an Effect")
+    if found.name != name:
+        raise EffectFailed(file, f"{attribute} is called '{found.name}', expected '{name}'")
+    return found
 
 
 def candidates(only: Iterable[str] = (), exclude: Iterable[str] = ()) -> tuple[Effect, ...]:

@@ -12,6 +12,12 @@ With a compliance in series the joint is its: after a reversal the spring unload
 crossed without force, then it loads again (`erdctl.model.series_compliance`).
 The play is followed along the integral of xdot: noise in x does not open the joint.
 Check: x = 0, 1, 2, 1, 0 mm from the lower flank, g = 2 mm gives x_p - x_p0 = 0, 1, 2, 2, 2 mm.
+>>> t = np.linspace(0.0, 4.0, 4001)
+>>> s = signals(np.where(t < 2.0, 1e-3, -1e-3), x=2e-3 - 1e-3 * abs(t - 2.0), t=t)
+>>> x_p = 1e3 * backlash(s, {"g": 2e-3}).x[::1000]
+>>> (x_p - x_p[0]).round(2).tolist()
+[0.0, 1.0, 2.0, 2.0, 2.0]
+
 Source: M. Nordin, P.-O. Gutman, Controlling mechanical systems with backlash: a survey,
 Automatica 38 (2002) 1633-1649; the play operator of Krasnosel'skii and Pokrovskii (1989).
 """
@@ -20,7 +26,8 @@ from __future__ import annotations
 
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import MotionSlot, Values
 
 
 def backlash(s: Signals, p: Values) -> Signals:
@@ -41,7 +48,7 @@ def free_play(p: Values) -> float:
 EFFECT = Effect(
     name="backlash",
     stage=Stage.MOTION,
-    slot=Slot.MOTION,
+    slot=MotionSlot(backlash, free_play=free_play),
     title="lost motion between the measured rod and the piston",
     equation="x_p = x - q, |q| <= g/2, dq/dt = xdot in the play and 0 on its flanks",
     source="Nordin and Gutman, Automatica 38 (2002) 1633-1649",
@@ -54,7 +61,5 @@ EFFECT = Effect(
             low=1e-7, high=0.05, start=1e-4, scale=Scale.LOG,
         ),
     ),
-    apply=backlash,
-    free_play=free_play,
     companions=("mount_compliance", "coulomb_friction"),
 )  # fmt: skip

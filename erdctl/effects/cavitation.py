@@ -11,6 +11,13 @@ that it is continuous in x_v
 Valid for a void that forms and is taken up whatever the speed.
 Check: x_v = 2 mm, g = 100, lambda = 0.8, e = 0: 1 mm and 3 mm after full compression 0.2 and 1 of
 both forces; g = 0.5, after 2 mm of compression: 0.5 mm and 1.5 mm into release 0.2 and 1.
+>>> xdot = np.array([0.0, 1.0, 1.0, 0.0, -1.0, -1.0])  # 2 mm up, 0.5 and 1.5 mm down
+>>> p = {"x_v": 2e-3, "g": 0.5, "lambda": 0.8, "e": 0.0}
+>>> cavitation(signals(xdot, step=1e-3), p)["yield"][4:].round(4).tolist()
+[0.2, 1.0]
+>>> cavitation(signals(2.0 * xdot, step=1e-3), p | {"g": 100.0})["viscous"][4:].round(4).tolist()
+[0.2, 1.0]
+
 Source: S. Duym, R. Stiens, K. Reybrouck, Evaluation of shock absorber models, Vehicle System
 Dynamics 27 (1997) 109-127 (vapour that must be taken up before the pressure builds up).
 """
@@ -24,7 +31,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import ScaleSlot, Values
 
 NEGLIGIBLE = 1e-12  # m
 
@@ -61,7 +69,7 @@ def _void(s: Signals, x_v: float, growth: float) -> tuple[Array, Array]:
     return void[stroke], total - began[stroke]
 
 
-def guesses(s: Signals) -> list[dict[str, float]]:
+def guesses(s: Signals, rest: Array) -> list[dict[str, float]]:
     """Starts of a search: voids that every compression fills, and such as only long ones do."""
     stroke = float(np.ptp(s.x)) / 2
     sizes = [part * stroke for part in (0.003, 0.01, 0.03, 0.1, 0.3)]
@@ -74,7 +82,7 @@ def guesses(s: Signals) -> list[dict[str, float]]:
 EFFECT = Effect(
     name="cavitation",
     stage=Stage.FLUID,
-    slot=Slot.SCALE,
+    slot=ScaleSlot(cavitation),
     title="release force lost until the void is taken up",
     equation="F_viscous, F_yield -> (1 - lambda min(1, V / (e x_v))) of them in release;"
     " dV = g dx up to x_v in compression, dV = dx down to 0 in release",
@@ -100,6 +108,5 @@ EFFECT = Effect(
             low=0.0, high=1.0, start=0.5,
         ),
     ),
-    apply=cavitation,
     guesses=guesses,
 )  # fmt: skip

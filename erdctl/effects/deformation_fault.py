@@ -9,6 +9,12 @@ continuous in t_0. Which forces it takes `erdctl.model.faults` says, for mimic a
 Valid for a fault that sets in at once and stays; a record that ends before t_0 is healthy.
 Check: f = 0.5, t_0 = 15 s: 10 N of gas, 6 N of viscous and 4 N of yield force, 20 N at 14 s, are
 15 N at 16 s.
+>>> s = signals(np.ones(9), t=np.linspace(14.0, 16.0, 9))
+>>> left = deformation_fault(s, {"f": 0.5, "t_0": 15.0})
+>>> force = 10.0 * left["gas"] + 6.0 * left["viscous"] + 4.0 * left["yield"]
+>>> force[[0, -1]].round(9).tolist()
+[20.0, 15.0]
+
 Source: the ER damper paper, Eq. 23.
 """
 
@@ -16,8 +22,9 @@ from __future__ import annotations
 
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.faults import ONSET, FaultKind, onsets, set_in
+from erdctl.model.slots import ScaleSlot, Values
 
 
 def deformation_fault(s: Signals, p: Values) -> dict[str, Array]:
@@ -28,7 +35,7 @@ def deformation_fault(s: Signals, p: Values) -> dict[str, Array]:
 EFFECT = Effect(
     name="deformation_fault",
     stage=Stage.FAULT,
-    slot=Slot.SCALE,
+    slot=ScaleSlot(deformation_fault),
     title="a deformed duct takes a part of the viscous and the yield force",
     equation="F = gas + f [viscous + yield] for t >= t_0",
     source="the ER damper paper, Eq. 23",
@@ -36,6 +43,5 @@ EFFECT = Effect(
     requires=(Requirement.TIME,),
     shows=Variable.TIME,
     quantities=ONSET,
-    apply=deformation_fault,
     guesses=onsets,
 )

@@ -6,6 +6,10 @@ x : (n,) stroke [m], 0 half-way between the stops;  x_stop : free stroke to eith
 k_c, k_r : stiffness of the stop in compression and in release [N/m], >= 0, off at 0
 Valid for an elastic stop met at a speed that its damping does not matter for.
 Check: x_stop = 20 mm, k_c = 1000 N/m, k_r = 2000 N/m, x = 19, 21, -22 mm gives 0, 1, -4 N.
+>>> s = signals([0.0, 0.0, 0.0], x=[0.019, 0.021, -0.022])
+>>> ([1000.0, 2000.0] @ end_stop(s, {"x_stop": 0.02})).round(9).tolist()
+[0.0, 1.0, -4.0]
+
 Source: J. C. Dixon, The Shock Absorber Handbook, 2nd ed. (2007), bump stops; the one-sided spring
 without the damping of K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445.
 """
@@ -17,7 +21,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import TermSlot, Values
 
 
 def end_stop(s: Signals, p: Values) -> Array:
@@ -26,7 +31,7 @@ def end_stop(s: Signals, p: Values) -> Array:
     return np.array([np.maximum(s.x - stop, 0.0), -np.maximum(-s.x - stop, 0.0)])
 
 
-def starts(s: Signals) -> list[Values]:
+def starts(s: Signals, rest: Array) -> list[Values]:
     """Stops that the recorded stroke would touch."""
     reached = float(np.abs(s.x).max())
     return [{"x_stop": max(part * reached, 1e-4)} for part in (0.5, 0.7, 0.85, 0.95)]
@@ -35,7 +40,7 @@ def starts(s: Signals) -> list[Values]:
 EFFECT = Effect(
     name="end_stop",
     stage=Stage.MOTION,
-    slot=Slot.TERM,
+    slot=TermSlot(),
     title="stiff contact beyond a stroke limit",
     equation="F = k_c max(x - x_stop, 0) - k_r max(-x - x_stop, 0)",
     source="Dixon, The Shock Absorber Handbook (2007); Hunt and Crossley (1975)",

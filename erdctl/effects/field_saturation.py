@@ -7,6 +7,10 @@ v : (n,) duty cycle [1];  a : saturation [1], a >= 0, off at 0
 saturate at one duty v_s, a = v_s^-beta differs between directions as beta does.
 Valid for a yield stress that grows monotonically; beta takes up most of a weak saturation.
 Check: a = 2, v^beta = 0.5 gives tanh(1) / 2 = 0.3808 of sigma; 1 gives tanh(2) / 2 = 0.4820.
+>>> s, p = signals([0.1, 0.1]), {"a_c": 2.0, "a_r": 0.0}
+>>> field_saturation(np.array([0.5, 1.0]), s, p, "compression").round(4).tolist()
+[0.3808, 0.482]
+
 Source: H. J. Choi et al., A yield stress scaling function for electrorheological fluids, Appl.
 Phys. Lett. 78 (2001) 3806-3808 (tanh between the low and the high field's law).
 """
@@ -18,7 +22,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import FieldSlot, Values
 
 
 def field_saturation(field: Array, s: Signals, p: Values, way: str) -> Array:
@@ -30,7 +35,7 @@ def field_saturation(field: Array, s: Signals, p: Values, way: str) -> Array:
     return level
 
 
-def alike(s: Signals) -> list[dict[str, float]]:
+def alike(s: Signals, rest: Array) -> list[dict[str, float]]:
     """Starts of a search: about the same in both directions."""
     return [{"a_c": a, "a_r": a} for a in (0.1, 0.3, 1.0, 3.0, 10.0)]
 
@@ -38,7 +43,7 @@ def alike(s: Signals) -> list[dict[str, float]]:
 EFFECT = Effect(
     name="field_saturation",
     stage=Stage.FIELD,
-    slot=Slot.FIELD,
+    slot=FieldSlot(field_saturation),
     title="yield stress levels off at high duty",
     equation="F_ER -> sigma tanh(a v^beta) / a",
     source="Choi et al., Appl. Phys. Lett. 78 (2001) 3806-3808",
@@ -54,6 +59,5 @@ EFFECT = Effect(
             for way in DIRECTIONS
         ),
     ),
-    apply=field_saturation,
     guesses=alike,
 )  # fmt: skip

@@ -6,6 +6,10 @@ v : (n,) duty cycle [1];  v_c : critical duty [1], 0 <= v_c < 1, off at 0
 Valid for fluids whose particles need a critical field to form chains, and for amplifiers that
 give no voltage at small duty.
 Check: v_c = 0.05, beta = 0.5, v = 0.03, 0.05, 0.30 gives 0, 0, 0.5 of sigma.
+>>> s = signals([0.1, 0.1, 0.1], duty=[0.03, 0.05, 0.30])
+>>> (field_threshold(s, {"v_c": 0.05}) ** 0.5).round(4).tolist()
+[0.0, 0.0, 0.5]
+
 Source: H. Block, J. P. Kelly, Electro-rheology, J. Phys. D 21 (1988) 1661-1677 (threshold field).
 """
 
@@ -16,7 +20,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import ControlSlot, Values
 
 
 def field_threshold(s: Signals, p: Values) -> Array:
@@ -28,7 +33,7 @@ def field_threshold(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="field_threshold",
     stage=Stage.FIELD,
-    slot=Slot.CONTROL,
+    slot=ControlSlot(field_threshold),
     title="no yield stress below a critical duty",
     equation="F_ER -> sigma max(v - v_c, 0)^beta",
     source="Block and Kelly, J. Phys. D 21 (1988) 1661-1677",
@@ -41,6 +46,5 @@ EFFECT = Effect(
             low=0.0, high=0.95, start=0.05,
         ),
     ),
-    apply=field_threshold,
     order=20,  # the fluid comes after the amplifier
 )  # fmt: skip

@@ -5,9 +5,13 @@
 F_f : (n,) viscous and yield force [N];  v : (n,) speed of the flow in the duct [m/s]
 s_f : compliance of fluid, hoses and trapped air [m/N], s_f >= 0, off at 0;  1/s_f is A_p^2 K / V
 Valid for pressures at which the bulk modulus is constant. Simulated free-running, with the force
-that the model itself makes (`erdctl.model.series_compliance`); the gas force acts beside it.
+that the model itself makes (`erdctl.model.series_compliance`); the gas force acts in parallel.
 Check: c_vis = 100 N s/m, no field, s_f = 1e-4 m/N: xdot rises from 0 to 0.1 m/s, F_f follows with
-the time constant c_vis s_f = 10 ms: 10 (1 - exp(-1)) = 6.3212 N after 10 ms.
+the time constant c_vis s_f = 10 ms: 10 (1 - exp(-1)) = 6.321 N after 10 ms.
+>>> s = signals([0.0] + 10_000 * [0.1], step=1e-6)
+>>> round(float(force_with(EFFECT, s, {"s_f": 1e-4}, c_vis=100.0)[-1]), 3)
+6.321
+
 Source: D. J. Peel, R. Stanway, W. A. Bullough, Dynamic modelling of an ER vibration damper for
 vehicle suspension applications, Smart Mater. Struct. 5 (1996) 591-606; J. C. Maxwell (1867).
 """
@@ -15,7 +19,8 @@ vehicle suspension applications, Smart Mater. Struct. 5 (1996) 591-606; J. C. Ma
 from __future__ import annotations
 
 from erdctl.core.quantity import Quantity, Scale
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import SeriesSlot, Values
 
 
 def fluid_compressibility(p: Values) -> float:
@@ -26,7 +31,7 @@ def fluid_compressibility(p: Values) -> float:
 EFFECT = Effect(
     name="fluid_compressibility",
     stage=Stage.FLUID,
-    slot=Slot.SERIES,
+    slot=SeriesSlot(fluid_compressibility, carries=("viscous", "yield")),
     title="fluid force through a series stiffness (Maxwell)",
     equation="F_f = c_vis v + F_ER sign(v), v = xdot - s_f dF_f/dt",
     source="Peel, Stanway and Bullough, Smart Mater. Struct. 5 (1996) 591-606",
@@ -39,7 +44,5 @@ EFFECT = Effect(
             low=1e-12, high=1.0, start=1e-5, scale=Scale.LOG,
         ),
     ),
-    apply=fluid_compressibility,
-    carries=("viscous", "yield"),
     equivalents=("mount_compliance",),
 )  # fmt: skip

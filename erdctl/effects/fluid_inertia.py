@@ -6,8 +6,11 @@ d2x/dt2 : (n,) acceleration [m/s^2], the slope of xdot within 10 ms each way (`S
 m : mass [kg], m >= 0, off at 0; that of the fluid in a duct counts with the square of the ratio
 of piston to duct area
 Valid below about 20 Hz, where the window passes the acceleration (98 % at 7 Hz). At one frequency
-m cannot be told from k_nom, as then d2x/dt2 = -omega^2 x.
+m cannot be distinguished from k_nom, as then d2x/dt2 = -omega^2 x.
 Check: m = 2 kg, xdot = 0.5 t m/s gives 1 N.
+>>> (2.0 * fluid_inertia(signals([0.0, 0.05, 0.10, 0.15], step=0.1), {})[0]).round(9).tolist()
+[1.0, 1.0, 1.0, 1.0]
+
 Source: D. J. Peel, R. Stanway, W. A. Bullough, Dynamic modelling of an ER vibration damper for
 vehicle suspension applications, Smart Mater. Struct. 5 (1996) 591-606.
 """
@@ -17,7 +20,8 @@ from __future__ import annotations
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import TermSlot, Values
 
 
 def fluid_inertia(s: Signals, p: Values) -> Array:
@@ -28,7 +32,7 @@ def fluid_inertia(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="fluid_inertia",
     stage=Stage.FLUID,
-    slot=Slot.TERM,
+    slot=TermSlot(),
     title="inertia of the fluid column and of the moving parts",
     equation="F = m d2x/dt2",
     source="Peel, Stanway and Bullough, Smart Mater. Struct. 5 (1996) 591-606",

@@ -6,6 +6,9 @@ t : (n,) time [s];  t_0 : first time of the record [s]
 d_1 [N/s], d_2 [N/s^2] : of either sign, off at 0
 Valid for drifts that a parabola follows over a record, each record beginning with its zero set.
 Check: d_1 = -0.1 N/s, d_2 = 0.01 N/s^2, 20 s into a record: -2 + 4 = 2 N.
+>>> ([-0.1, 0.01] @ force_drift(signals([0.0, 0.0], t=[5.0, 25.0]), {})).round(9).tolist()
+[0.0, 2.0]
+
 Source: VDI/VDE/DKD 2638, Characteristics for force transducers (2008), drift of the zero signal.
 """
 
@@ -16,7 +19,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import TermSlot, Values
 
 
 def force_drift(s: Signals, p: Values) -> Array:
@@ -28,7 +32,7 @@ def force_drift(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="force_drift",
     stage=Stage.SENSOR,
-    slot=Slot.TERM,
+    slot=TermSlot(),
     title="slow zero drift of the force channel",
     equation="F = d_1 (t - t_0) + d_2 (t - t_0)^2, t_0 the first time of the record",
     source="VDI/VDE/DKD 2638 (2008)",

@@ -10,6 +10,11 @@ whatever the stroke, the speed and the force: no law of the damper does that.
 Valid for records that were smoothed one by one, slow tests over longer times than fast ones, before
 they were stored; a window of the same time throughout looks alike where all have one cycle.
 Check: xdot > 0 throughout, samples 1 s apart, F = 0, 4, 8, 0, 0 N, W = 2 s gives 0, 4, 5, 2, 0 N.
+>>> x = np.array([1.0, -1.0, 1.0, -1.0, 0.0]) * 1.25**0.5  # rms 1, as that of xdot: T = 2 pi s
+>>> s = signals(np.ones(5), x=x, step=1.0)
+>>> force_smoothing(np.array([0.0, 4.0, 8.0, 0.0, 0.0]), s, {"w": 1 / np.pi}).round(9).tolist()
+[0.0, 4.0, 5.0, 2.0, 0.0]
+
 Source: S. W. Smith, The Scientist and Engineer's Guide to Digital Signal Processing (1997), ch. 15
 (moving average).
 """
@@ -24,7 +29,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array, Index
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import ChannelSlot, Values
 
 FINEST = 1e-9  # of a log: a window narrower than that is lost in rounding
 
@@ -128,7 +134,7 @@ def _cycles(s: Signals) -> Array:
 EFFECT = Effect(
     name="force_smoothing",
     stage=Stage.SENSOR,
-    slot=Slot.CHANNEL,
+    slot=ChannelSlot(force_smoothing),
     title="force recorded as a moving average over a part of the motion's cycle",
     equation="F_rec(t) = mean of F from t - w T/2 to t + w T/2",
     source="Smith, The Scientist and Engineer's Guide to Digital Signal Processing (1997) ch. 15",
@@ -141,6 +147,5 @@ EFFECT = Effect(
             low=0.0, high=0.5, start=0.1,
         ),
     ),
-    apply=force_smoothing,
     order=1,
 )  # fmt: skip

@@ -9,6 +9,10 @@ Eq. 3
 Valid while gas is left: from a x = 0.95 on, the tangent goes on.
 Check: a = 10 /m, gamma = 1, x = 50 mm: (1 / 0.5 - 1) / 10 = 0.1 m, twice x; x = -100 mm:
 (1 / 2 - 1) / 10 = -0.05 m.
+>>> s = signals([0.0, 0.0], x=[0.05, -0.1])
+>>> gas_polytropic(s, {"a": 10.0, "gamma": 1.0}).round(9).tolist()
+[0.1, -0.05]
+
 Source: the ER damper paper, Eq. 3.
 """
 
@@ -19,7 +23,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import GasSlot, Values
 
 FULL = 0.95  # of the gas volume displaced; no damper is built to go beyond
 
@@ -44,7 +49,7 @@ def preload(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="gas_polytropic",
     stage=Stage.GAS,
-    slot=Slot.GAS,
+    slot=GasSlot(gas_polytropic),
     title="Eq. 3 in place of the linear spring of Eq. 14",
     equation="k_nom x -> F_0 + k_nom ((1 - a x)^-gamma - 1) / (gamma a), a = A_s / V_0",
     source="the ER damper paper, Eq. 3",
@@ -65,6 +70,5 @@ EFFECT = Effect(
             low=1.0, high=1.67, start=1.4, off=1.4,
         ),
     ),
-    apply=gas_polytropic,
     columns=preload,
 )  # fmt: skip

@@ -6,6 +6,10 @@ F_0 : [N], off at 0;  P_0 : filling pressure [Pa];  A_s : area of the rod [m^2]
 Valid at any stroke. Of either sign, since on force data alone it is the same as a force_offset, a
 zero error of the force channel; below 0 it must be that.
 Check: P_0 = 500 kPa, A_s = 50 mm^2 = 5e-5 m^2 gives 25 N at every stroke.
+>>> s = signals([0.0, 0.0], x=[-0.01, 0.01])
+>>> (500e3 * 5e-5 * gas_preload(s, {})[0]).round(9).tolist()
+[25.0, 25.0]
+
 Source: the ER damper paper, Eq. 3 at x = 0, in Eq. 4.
 """
 
@@ -16,7 +20,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import TermSlot, Values
 
 
 def gas_preload(s: Signals, p: Values) -> Array:
@@ -27,11 +32,11 @@ def gas_preload(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="gas_preload",
     stage=Stage.GAS,
-    slot=Slot.TERM,
+    slot=TermSlot(),
     title="constant static gas force",
     equation="F = F_0",
     source="the ER damper paper, Eqs. 3 and 4",
-    validity="on force data alone it cannot be told from force_offset, a zero error of the channel",
+    validity="on force data alone it is the same as force_offset, a zero error of the channel",
     requires=(Requirement.STROKE,),
     shows=Variable.X,
     quantities=(

@@ -9,6 +9,10 @@ its first duty holds.
 Valid for a constant dead time (control cycle, amplifier).
 Check: samples 10 ms apart, v^beta = 0, 1, 1, 1, tau = 4 ms: the step that begins at 10 ms has the
 old value for 4 of its 10 ms, so the field is 0, 0.6, 1, 1.
+>>> field = np.array([0.0, 1.0, 1.0, 1.0])
+>>> input_delay(field, signals(np.ones(4)), {"tau": 4e-3}, "release").round(9).tolist()
+[0.0, 0.6, 1.0, 1.0]
+
 Source: J.-H. Koo, F. D. Goncalves, M. Ahmadian, A comprehensive analysis of the response time of MR
 dampers, Smart Mater. Struct. 15 (2006) 351-358 (delay before the response sets in).
 """
@@ -22,7 +26,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import FieldSlot, Values
 
 
 def input_delay(field: Array, s: Signals, p: Values, way: str) -> Array:
@@ -43,7 +48,7 @@ def input_delay(field: Array, s: Signals, p: Values, way: str) -> Array:
 EFFECT = Effect(
     name="input_delay",
     stage=Stage.FIELD,
-    slot=Slot.FIELD,
+    slot=FieldSlot(input_delay),
     title="dead time between duty and yield stress",
     equation="T_d dF_ER/dt + F_ER = sigma v(t - tau)^beta",
     source="Koo, Goncalves and Ahmadian, Smart Mater. Struct. 15 (2006) 351-358",
@@ -56,6 +61,5 @@ EFFECT = Effect(
             low=0.0, high=1.0, start=5e-3,
         ),
     ),
-    apply=input_delay,
     order=10,  # of a constant delay and a memoryless law the order does not matter
 )  # fmt: skip

@@ -8,6 +8,10 @@ Valid for a mount that is linear and has little damping of its own. Simulated fr
 with the force that the model itself makes (`erdctl.model.series_compliance`).
 Check: held at x = 10 mm with a gas spring of 1000 N/m and s_m = 1e-4 m/N:
 F = k x / (1 + k s_m) = 10 / 1.1 = 9.0909 N.
+>>> s = signals([0.0, 0.0], x=[0.01, 0.01])
+>>> force_with(EFFECT, s, {"s_m": 1e-4}, k_nom=1000.0).round(4).tolist()
+[9.0909, 9.0909]
+
 Source: M. C. Constantinou, M. D. Symans, Experimental study of seismic response of buildings with
 supplemental fluid dampers, Struct. Design Tall Build. 2 (1993) 93-132; J. C. Maxwell (1867).
 """
@@ -15,7 +19,8 @@ supplemental fluid dampers, Struct. Design Tall Build. 2 (1993) 93-132; J. C. Ma
 from __future__ import annotations
 
 from erdctl.core.quantity import Quantity, Scale
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import SeriesSlot, Values
 
 
 def mount_compliance(p: Values) -> float:
@@ -26,7 +31,7 @@ def mount_compliance(p: Values) -> float:
 EFFECT = Effect(
     name="mount_compliance",
     stage=Stage.MOTION,
-    slot=Slot.SERIES,
+    slot=SeriesSlot(mount_compliance),
     title="elastic mount in series with the damper, of stiffness k_m = 1 / s_m",
     equation="x_p = x - s_m F, xdot_p = xdot - s_m dF/dt",
     source="Constantinou and Symans, Struct. Design Tall Build. 2 (1993) 93-132",
@@ -39,6 +44,5 @@ EFFECT = Effect(
             low=1e-12, high=1.0, start=1e-5, scale=Scale.LOG,
         ),
     ),
-    apply=mount_compliance,
     equivalents=("fluid_compressibility",),
 )  # fmt: skip

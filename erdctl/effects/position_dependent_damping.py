@@ -7,6 +7,11 @@ Valid for tapered or eccentric ducts and for bypasses, with the force at x = 0 a
 of varying gap d changes the two alike in sign but not in size: by d^-3 and d^-1 (Eq. 8), and a
 bypass may change the viscous force alone.
 Check: b_1 = 10 /m, b_2 = 100 /m^2, x = 20, -20, 0 mm gives 1.24, 0.84, 1 of the viscous force.
+>>> s = signals([0.1, 0.1, 0.1], x=[0.02, -0.02, 0.0])
+>>> p = {"b_1": 10.0, "b_2": 100.0, "e_1": 0.0, "e_2": 0.0}
+>>> position_dependent_damping(s, p)["viscous"].round(9).tolist()
+[1.24, 0.84, 1.0]
+
 Source: J. C. Dixon, The Shock Absorber Handbook, 2nd ed. (2007), position-dependent dampers.
 """
 
@@ -17,7 +22,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import ScaleSlot, Values
 
 
 def position_dependent_damping(s: Signals, p: Values) -> dict[str, Array]:
@@ -32,7 +38,7 @@ def position_dependent_damping(s: Signals, p: Values) -> dict[str, Array]:
 EFFECT = Effect(
     name="position_dependent_damping",
     stage=Stage.POSITION,
-    slot=Slot.SCALE,
+    slot=ScaleSlot(position_dependent_damping),
     title="damping varies along the stroke",
     equation="F_viscous -> max(1 + b_1 x + b_2 x^2, 0) of it, F_yield with e_1, e_2",
     source="Dixon, The Shock Absorber Handbook (2007)",
@@ -57,5 +63,4 @@ EFFECT = Effect(
             low=-1e7, high=1e7, start=100.0,
         ),
     ),
-    apply=position_dependent_damping,
 )  # fmt: skip

@@ -7,6 +7,9 @@ n : flow index [1], 0 <= n <= 1, off at 0
 Valid where more field makes the flowing fluid thicker too, so that no plateau is reached as speed
 grows; the viscosity with no field, c_vis, remains.
 Check: n = 0.5, xdot = 0.1, -0.025, 0 m/s gives 1, 0.5, 0 of F_ER.
+>>> power_law_yield(signals([0.1, -0.025, 0.0]), {"n": 0.5})["yield"].round(9).tolist()
+[1.0, 0.5, 0.0]
+
 Source: G. Yang, B. F. Spencer, J. D. Carlson, M. K. Sain, Large-scale MR fluid dampers: modeling
 and dynamic performance considerations, Engineering Structures 24 (2002) 309-323 (Herschel-
 Bulkley).
@@ -19,7 +22,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import ScaleSlot, Values
 
 REFERENCE = 0.1  # m/s
 
@@ -32,7 +36,7 @@ def power_law_yield(s: Signals, p: Values) -> dict[str, Array]:
 EFFECT = Effect(
     name="power_law_yield",
     stage=Stage.FLUID,
-    slot=Slot.SCALE,
+    slot=ScaleSlot(power_law_yield),
     title="the yield force rises with a power of speed (Herschel-Bulkley)",
     equation="F_ER -> F_ER (|xdot| / 0.1 m/s)^n",
     source="Yang, Spencer, Carlson and Sain, Engineering Structures 24 (2002) 309-323",
@@ -45,6 +49,5 @@ EFFECT = Effect(
             low=0.0, high=1.0, start=0.1,
         ),
     ),
-    apply=power_law_yield,
     of_speed=True,
 )  # fmt: skip

@@ -8,6 +8,10 @@ Solved exactly along |x|, each side of a reversal for itself. A record that begi
 slid long (z = sign(xdot)), one that begins at rest has no force in its seal (z = 0).
 Valid for rate-independent seals; LuGre adds a fall of friction with speed.
 Check: x_d = 0.1 mm, z = 1; 0.1 mm after the reversal z = -1 + 2 exp(-1) = -0.2642.
+>>> s = signals([0.1, 0.0, -0.1], step=2e-3)  # the reversal at the second sample
+>>> presliding_friction(s, {"x_d": 1e-4})[0].round(4).tolist()
+[1.0, 1.0, -0.2642]
+
 Source: P. R. Dahl, Solid friction damping of mechanical vibrations, AIAA Journal 14 (1976)
 1675-1682; C. Canudas de Wit et al., IEEE Trans. Automatic Control 40 (1995) 419-425 (LuGre).
 """
@@ -19,8 +23,9 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.kernels import follow
+from erdctl.model.slots import TermSlot, Values
 
 
 def presliding_friction(s: Signals, p: Values) -> Array:
@@ -36,7 +41,7 @@ def presliding_friction(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="presliding_friction",
     stage=Stage.FRICTION,
-    slot=Slot.TERM,
+    slot=TermSlot(),
     title="elastic pre-sliding loop at reversal (Dahl, LuGre)",
     equation="F = F_c z, dz/dx = (1 - z sign(xdot)) / x_d",
     source="Dahl, AIAA Journal 14 (1976) 1675-1682; Canudas de Wit et al. (1995)",

@@ -8,6 +8,10 @@ of time: the Bouc-Wen loop with n = 1 and beta = gamma, its height the yield for
 along |x| for an input that is a straight line between samples, or, in a step in which the piston
 turns, jumps where it does. A record begins with F_y steady.
 Check: F_ER = 10 N, x_d = 0.1 mm: 0.1 mm after a reversal F_y = 10 - 20 exp(-1) = 2.6424 N.
+>>> s = signals([-0.1, 0.0, 0.1], step=2e-3)  # the reversal at the second sample
+>>> preyield_elasticity(np.array([-10.0, -10.0, 10.0]), s, {"x_d": 1e-4}).round(4).tolist()
+[-10.0, -10.0, 2.6424]
+
 Source: B. F. Spencer, S. J. Dyke, M. K. Sain, J. D. Carlson, Phenomenological model for
 magnetorheological dampers, J. Engineering Mechanics 123 (1997) 230-238 (Eqs. 3, 4).
 """
@@ -19,8 +23,9 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.kernels import follow
+from erdctl.model.slots import Values, YieldSlot
 
 
 def preyield_elasticity(force: Array, s: Signals, p: Values) -> Array:
@@ -37,7 +42,7 @@ def preyield_elasticity(force: Array, s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="preyield_elasticity",
     stage=Stage.FLUID,
-    slot=Slot.YIELD,
+    slot=YieldSlot(preyield_elasticity),
     title="the yield force rebuilds over a distance after every reversal (Bouc-Wen)",
     equation="x_d dF_y/d|x| + F_y = F_ER sign(xdot)",
     source="Spencer et al., J. Engineering Mechanics 123 (1997) 230-238, Eqs. 3, 4",
@@ -50,6 +55,5 @@ EFFECT = Effect(
             low=1e-7, high=0.1, start=1e-4, scale=Scale.LOG,
         ),
     ),
-    apply=preyield_elasticity,
     companions=("preyield_viscosity",),
 )  # fmt: skip

@@ -5,6 +5,10 @@
 xdot : (n,) piston speed [m/s];  v_y : speed of yielding [m/s], v_y >= 0, off at 0 (sign)
 Valid below and above yield; the viscosity before yield is F_ER / v_y.
 Check: v_y = 10 mm/s, xdot = 5, -20, 0 mm/s gives tanh 0.5 = 0.4621, -tanh 2 = -0.9640, 0 of F_ER.
+>>> s = signals([0.005, -0.020, 0.0])
+>>> preyield_viscosity(s, {"v_y": 0.01}).round(4).tolist()
+[0.4621, -0.964, 0.0]
+
 Source: R. Stanway, J. L. Sproston, A. K. El-Wahed, Applications of electro-rheological fluids in
 vibration control: a survey, Smart Mater. Struct. 5 (1996) 464-482.
 """
@@ -16,7 +20,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import SignSlot, Values
 
 
 def preyield_viscosity(s: Signals, p: Values) -> Array:
@@ -30,7 +35,7 @@ def preyield_viscosity(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="preyield_viscosity",
     stage=Stage.FLUID,
-    slot=Slot.SIGN,
+    slot=SignSlot(preyield_viscosity),
     title="bi-viscous flow: tanh(xdot / v_y) in place of sign(xdot)",
     equation="F_ER sign(xdot) -> F_ER tanh(xdot / v_y)",
     source="Stanway, Sproston and El-Wahed, Smart Mater. Struct. 5 (1996) 464-482",
@@ -43,7 +48,6 @@ EFFECT = Effect(
             low=1e-6, high=10.0, start=0.01, scale=Scale.LOG,
         ),
     ),
-    apply=preyield_viscosity,
     companions=("mount_compliance",),
     of_speed=True,
 )  # fmt: skip

@@ -5,6 +5,9 @@
 xdot : (n,) piston speed [m/s];  c_2 : [N s^2/m^2], c_2 >= 0, off at 0
 Valid for flow well above the laminar one, and for losses at the ends of a duct.
 Check: c_2 = 200 N s^2/m^2, xdot = 0.1, -0.3 m/s gives 2, -18 N.
+>>> (200.0 * quadratic_damping(signals([0.1, -0.3]), {})[0]).round(9).tolist()
+[2.0, -18.0]
+
 Source: J. C. Dixon, The Shock Absorber Handbook, 2nd ed. (2007), orifice flow.
 """
 
@@ -15,7 +18,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import TermSlot, Values
 
 
 def quadratic_damping(s: Signals, p: Values) -> Array:
@@ -26,7 +30,7 @@ def quadratic_damping(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="quadratic_damping",
     stage=Stage.FLUID,
-    slot=Slot.TERM,
+    slot=TermSlot(),
     title="turbulent loss",
     equation="F = c_2 xdot |xdot|",
     source="Dixon, The Shock Absorber Handbook (2007)",

@@ -6,6 +6,9 @@ xdot : (n,) piston speed [m/s];  n : flow index [1], 0 < n <= 1, off at 1
 c_vis then is the viscosity at v_0. The Herschel-Bulkley law, with the yield force of Eq. 11.
 Valid for shear rates of one or two decades; near rest the yield force covers the steep start.
 Check: n = 0.5, xdot = 0.1, -0.4, 0 m/s gives 0.1, -0.1 sqrt(4) = -0.2, 0 m/s.
+>>> shear_thinning(signals([0.1, -0.4, 0.0]), {"n": 0.5}).round(9).tolist()
+[0.1, -0.2, 0.0]
+
 Source: X. Wang, F. Gordaninejad, Flow analysis of field-controllable, electro- and magneto-
 rheological fluids using Herschel-Bulkley model, J. Intell. Mater. Syst. Struct. 10 (1999) 601-608.
 """
@@ -17,7 +20,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import Values, ViscousSlot
 
 V_0 = 0.1  # m/s, the speed at which c_vis keeps its meaning
 
@@ -33,7 +37,7 @@ def shear_thinning(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="shear_thinning",
     stage=Stage.FLUID,
-    slot=Slot.VISCOUS,
+    slot=ViscousSlot(shear_thinning),
     title="viscous force C |xdot|^n sign(xdot), n < 1",
     equation="c_vis xdot -> c_vis v_0 |xdot / v_0|^n sign(xdot), v_0 = 0.1 m/s",
     source="Wang and Gordaninejad, J. Intell. Mater. Syst. Struct. 10 (1999) 601-608",
@@ -46,6 +50,5 @@ EFFECT = Effect(
             low=0.05, high=1.0, start=0.7, off=1.0,
         ),
     ),
-    apply=shear_thinning,
     of_speed=True,
 )  # fmt: skip

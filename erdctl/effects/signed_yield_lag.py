@@ -8,6 +8,10 @@ piston turns, jumps where it does. A record begins with F_y steady.
 Valid where chains break and form anew at a reversal. Where this is the lag that the damper has,
 T_d of Eq. 12, which acts on the unsigned force, goes to 0.
 Check: F_ER = 10 N, T_s = 20 ms: 20 ms after a reversal F_y = 10 - 20 exp(-1) = 2.6424 N.
+>>> s = signals([-0.1, 0.0, 0.1], step=0.02)  # the reversal at the second sample
+>>> signed_yield_lag(np.array([-10.0, -10.0, 10.0]), s, {"T_s": 0.02}).round(4).tolist()
+[-10.0, -10.0, 2.6424]
+
 Source: D. R. Gamota, F. E. Filisko, Dynamic mechanical studies of electrorheological materials:
 moderate frequencies, J. Rheol. 35 (1991) 399-425 (elastic stress that rebuilds after a reversal).
 """
@@ -17,8 +21,9 @@ from __future__ import annotations
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.kernels import follow
+from erdctl.model.slots import Values, YieldSlot
 
 
 def signed_yield_lag(force: Array, s: Signals, p: Values) -> Array:
@@ -35,7 +40,7 @@ def signed_yield_lag(force: Array, s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="signed_yield_lag",
     stage=Stage.FLUID,
-    slot=Slot.YIELD,
+    slot=YieldSlot(signed_yield_lag),
     title="the lag acts on the signed yield force, which rebuilds after every reversal",
     equation="T_s dF_y/dt + F_y = F_ER sign(xdot)",
     source="Gamota and Filisko, J. Rheol. 35 (1991) 399-425",
@@ -48,5 +53,4 @@ EFFECT = Effect(
             low=1e-5, high=10.0, start=0.01, scale=Scale.LOG,
         ),
     ),
-    apply=signed_yield_lag,
 )  # fmt: skip

@@ -6,6 +6,10 @@ xdot : (n,) piston speed [m/s];  F_k : kinetic friction [N];  F_s : static frict
 F_k and F_sk >= 0, off at 0;  v_s : Stribeck speed [m/s], > 0;  sign(0) = 0
 Valid for lubricated seals, beyond their pre-sliding.
 Check: F_k = 2 N, F_sk = 1 N, v_s = 10 mm/s, xdot = 10, -1000 mm/s gives 2 + exp(-1) = 2.3679, -2 N.
+>>> unit = stribeck_friction(signals([0.010, -1.0]), {"v_s": 0.010})
+>>> ([2.0, 1.0] @ unit).round(4).tolist()
+[2.3679, -2.0]
+
 Source: B. Armstrong-Hélouvry, P. Dupont, C. Canudas de Wit, Automatica 30 (1994) 1083-1138, after
 R. Stribeck (1902).
 """
@@ -17,7 +21,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import TermSlot, Values
 
 
 def stribeck_friction(s: Signals, p: Values) -> Array:
@@ -28,7 +33,7 @@ def stribeck_friction(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="stribeck_friction",
     stage=Stage.FRICTION,
-    slot=Slot.TERM,
+    slot=TermSlot(),
     title="friction that falls from static to kinetic with speed",
     equation="F = [F_k + F_sk exp(-(xdot / v_s)^2)] sign(xdot), F_sk = F_s - F_k",
     source="Armstrong-Hélouvry, Dupont and Canudas de Wit, Automatica 30 (1994) 1083-1138",

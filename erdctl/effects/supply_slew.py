@@ -8,6 +8,10 @@ v_a is handed on as its mean over each step. A record begins with v_a = v.
 Valid for an amplifier with the same limit up and down.
 Check: samples 10 ms apart, v = 0, 0.3, 0.3, 0.3, T_full = 50 ms (0.2 in 10 ms): v_a goes from 0 to
 0.2, then in 5 ms to 0.3: means 0, 0.1, (0.25 + 0.3) / 2 = 0.275, 0.3.
+>>> s = signals(np.ones(4), duty=[0.0, 0.3, 0.3, 0.3], step=0.01)
+>>> supply_slew(s, {"T_full": 0.05}).round(9).tolist()
+[0.0, 0.1, 0.275, 0.3]
+
 Source: P. Horowitz, W. Hill, The Art of Electronics, 3rd ed. (2015), Sec. 4.4 (slew rate).
 """
 
@@ -16,7 +20,8 @@ from __future__ import annotations
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import ControlSlot, Values
 
 
 def supply_slew(s: Signals, p: Values) -> Array:
@@ -32,7 +37,7 @@ def supply_slew(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="supply_slew",
     stage=Stage.FIELD,
-    slot=Slot.CONTROL,
+    slot=ControlSlot(supply_slew),
     title="the high-voltage amplifier is slew-rate limited",
     equation="dv_a/dt = sign(v - v_a) / T_full until v_a = v",
     source="Horowitz and Hill, The Art of Electronics (2015), Sec. 4.4",
@@ -45,6 +50,5 @@ EFFECT = Effect(
             low=1e-4, high=100.0, start=0.05, scale=Scale.LOG,
         ),
     ),
-    apply=supply_slew,
     order=10,  # the amplifier comes before the fluid
 )  # fmt: skip

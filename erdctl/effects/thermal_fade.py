@@ -12,6 +12,11 @@ model itself makes. In temperature, a theta = a h with theta = h / tau would nee
 Valid for one lumped temperature, and falls of up to a few tenths, where exp is as good as others.
 Check: 10 N of viscous force at 1 m/s, a_v = ln 2 / J, a_y = 0, long tau, sampled at 0.1 s: 10 N,
 then 5 N at h = 1 J, then 10 * 2^-1.5 = 3.5355 N at 1.5 J.
+>>> parts, s = {"viscous": np.full(3, 10.0), "yield": np.zeros(3)}, signals(np.ones(3), step=0.1)
+>>> left = thermal_fade(parts, s, {"a_v": np.log(2.0), "a_y": 0.0, "tau": 1e9})
+>>> (10.0 * left["viscous"]).round(4).tolist()
+[10.0, 5.0, 3.5355]
+
 Source: F. Gordaninejad, D. G. Breese, Heating of magnetorheological fluid dampers, J. Intell.
 Mater. Syst. Struct. 10 (1999) 634-645.
 """
@@ -23,7 +28,8 @@ from collections.abc import Mapping
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import FeedbackSlot, Values
 
 
 def thermal_fade(parts: Mapping[str, Array], s: Signals, p: Values) -> dict[str, Array]:
@@ -41,7 +47,7 @@ def thermal_fade(parts: Mapping[str, Array], s: Signals, p: Values) -> dict[str,
 EFFECT = Effect(
     name="thermal_fade",
     stage=Stage.FLUID,
-    slot=Slot.FEEDBACK,
+    slot=FeedbackSlot(thermal_fade),
     title="viscosity and yield stress fall as dissipated power heats the fluid",
     equation=(
         "F_viscous -> exp(-a_v h) F_viscous, F_yield -> exp(-a_y h) F_yield,"
@@ -65,5 +71,4 @@ EFFECT = Effect(
             low=0.1, high=1e6, start=100.0, off=100.0, scale=Scale.LOG,
         ),
     ),
-    apply=thermal_fade,
 )  # fmt: skip

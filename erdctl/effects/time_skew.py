@@ -6,6 +6,10 @@ F, F_rec : (n,) force of the damper, and as recorded [N];  tau : delay [s], < 0 
 Straight lines between samples; beyond the ends of a record its first or last force holds.
 Valid for a constant delay (filters, conversion times) of a few samples or more.
 Check: samples 10 ms apart, F = 0, 4, 8, 8 N, tau = 5 ms gives 0, 2, 6, 8 N; -5 ms 2, 6, 8, 8 N.
+>>> s, F = signals(np.ones(4), step=0.01), np.array([0.0, 4.0, 8.0, 8.0])
+>>> [time_skew(F, s, {"tau": tau}).round(9).tolist() for tau in (5e-3, -5e-3)]
+[[0.0, 2.0, 6.0, 8.0], [2.0, 6.0, 8.0, 8.0]]
+
 Source: T. I. Laakso et al., Splitting the unit delay, IEEE Signal Processing Magazine 13 (1996)
 30-60 (linear interpolation as fractional delay).
 """
@@ -19,7 +23,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import ChannelSlot, Values
 
 
 def time_skew(column: Array, s: Signals, p: Values) -> Array:
@@ -33,7 +38,7 @@ def time_skew(column: Array, s: Signals, p: Values) -> Array:
     return out
 
 
-def delays(s: Signals) -> list[dict[str, float]]:
+def delays(s: Signals, rest: Array) -> list[dict[str, float]]:
     """Starts of a search: the cost has a dip of its own for every jump that meets another."""
     step = s.typical_step or 1e-3
     longest = 0.2 * float(np.diff(s.t[[s.starts[:-1], s.starts[1:] - 1]], axis=0).min())
@@ -44,7 +49,7 @@ def delays(s: Signals) -> list[dict[str, float]]:
 EFFECT = Effect(
     name="time_skew",
     stage=Stage.MOTION,
-    slot=Slot.CHANNEL,
+    slot=ChannelSlot(time_skew),
     title="force channel recorded late (or early) against the motion",
     equation="F_rec(t) = F(t - tau)",
     source="Laakso et al., IEEE Signal Processing Magazine 13 (1996) 30-60",
@@ -57,6 +62,5 @@ EFFECT = Effect(
             low=-0.5, high=0.5, start=2e-3,
         ),
     ),
-    apply=time_skew,
     guesses=delays,
 )  # fmt: skip

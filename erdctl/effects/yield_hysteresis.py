@@ -9,6 +9,10 @@ the force changes sign [1/s], kappa >= 0 (the force outlasts the motion), off at
 Valid for steady cycles about x = 0: the loop is tied to the stroke, not to the last reversal.
 Check: v_y = 10 mm/s, kappa = 2 /s: at rest at x = 5 mm tanh(10 / 10) = 0.7616 of F_ER; at
 xdot = -10 mm/s and x = 5 mm 0.
+>>> s = signals([0.0, -0.010], x=[0.005, 0.005])
+>>> yield_hysteresis(s, {"v_y": 0.010, "kappa": 2.0}).round(4).tolist()
+[0.7616, 0.0]
+
 Source: S. Guo, S. Yang, C. Pan, Dynamic modeling of magnetorheological damper behaviors, J. Intell.
 Mater. Syst. Struct. 17 (2006) 3-14.
 """
@@ -20,7 +24,8 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Effect, Requirement, Slot, Stage, Values, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import SignSlot, Values
 
 
 def yield_hysteresis(s: Signals, p: Values) -> Array:
@@ -35,7 +40,7 @@ def yield_hysteresis(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="yield_hysteresis",
     stage=Stage.FLUID,
-    slot=Slot.SIGN,
+    slot=SignSlot(yield_hysteresis),
     title="loop of the yield force: tanh(k_1 x + c_1 xdot), c_1 = 1 / v_y, k_1 = kappa / v_y",
     equation="F_ER sign(xdot) -> F_ER tanh((xdot + kappa x) / v_y)",
     source="Guo, Yang and Pan, J. Intell. Mater. Syst. Struct. 17 (2006) 3-14",
@@ -52,5 +57,4 @@ EFFECT = Effect(
             low=0.0, high=1e4, start=1.0,
         ),
     ),
-    apply=yield_hysteresis,
 )  # fmt: skip

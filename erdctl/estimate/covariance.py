@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
@@ -12,9 +12,11 @@ from erdctl.core.blocks import Block
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.estimate.autoregressive import ColouredNoise
-from erdctl.estimate.least_squares import SINGULAR, huber_weight
+from erdctl.estimate.least_squares import huber_weight
+from erdctl.estimate.normal_equations import Normal
 from erdctl.model.composed import Model
-from erdctl.model.effect import Values
+from erdctl.model.parameters import Estimate
+from erdctl.model.slots import Values
 
 DIFFERENCE = 1e-6  # relative step of a one-sided difference
 COLOURED = 16  # blocks on which the effect of coloured noise is measured
@@ -102,7 +104,8 @@ def assess(
                 range(len(weighted)),
             )
         )
-        inverse, flat = _inverse(np.sum([p.normal for p in parts], axis=0), free)
+        normal = Normal.of(np.sum([p.normal for p in parts], axis=0))
+        inverse = normal.pseudo_inverse()
         coloured = [(p.meat, p.samples) for p in parts if p.meat is not None]
         share = sum(p.samples for p in parts) / max(sum(n for _, n in coloured), 1)
         meat = share * np.sum([m for m, _ in coloured], axis=0)
@@ -125,8 +128,23 @@ def assess(
         samples=samples,
         evaluations=evaluations,
         converged=converged,
-        flat=flat,
+        flat=_flat(normal, free),
     )
+
+
+def estimates(found: Fit, reasons: Mapping[str, str]) -> dict[str, Estimate]:
+    """Every parameter with its error; those that the data do not identify have a reason instead.
+
+    reasons : why, by name
+    """
+    errors, out = found.stderr, {}
+    for name, q in found.model.quantities.items():
+        value, reason = found.values[name], reasons.get(name)
+        if reason is None:
+            out[name] = Estimate(value=value, unit=q.unit, stderr=errors.get(name))
+        else:
+            out[name] = Estimate(value=None, unit=q.unit, assumed=value, reason=reason)
+    return out
 
 
 def jacobian(model: Model, signals: Signals, values: Values, free: Sequence[str]) -> Array:
@@ -182,13 +200,7 @@ def _sum_up(
     )
 
 
-def _inverse(normal: Array, free: Sequence[str]) -> tuple[Array, tuple[tuple[str, ...], ...]]:
-    """Inverse of the normal matrix, and the parameters along each direction that is flat."""
-    scale = np.sqrt(np.diag(normal))
-    scale[scale == 0.0] = 1.0
-    w, v = np.linalg.eigh(normal / np.outer(scale, scale))
-    keep = w > SINGULAR * w[-1]
-    inverse = (v[:, keep] / w[keep]) @ v[:, keep].T / np.outer(scale, scale)
+def _flat(normal: Normal, free: Sequence[str]) -> tuple[tuple[str, ...], ...]:
+    """The parameters along each direction in which the cost does not change."""
     names = np.array(free)
-    flat = [tuple(names[np.abs(v[:, j]) > 0.1].tolist()) for j in np.flatnonzero(~keep)]
-    return inverse, tuple(flat)
+    return tuple(tuple(names[np.abs(along) > 0.1].tolist()) for along in normal.lost.T)

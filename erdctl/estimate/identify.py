@@ -7,18 +7,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from erdctl.bench.identifiability import Lack, unmet
+from erdctl.bench.identifiability import held_values, unmet
 from erdctl.core.blocks import Block, pieces, sample
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import DIRECTIONS, Recording
-from erdctl.estimate.covariance import Fit, assess
-from erdctl.estimate.least_squares import fit
+from erdctl.estimate.covariance import Fit, assess, estimates
+from erdctl.estimate.least_squares import Fitted, fit
+from erdctl.estimate.starts import fresh_start
 from erdctl.estimate.two_step import two_step
 from erdctl.model.composed import Model, off_values
 from erdctl.model.parameters import Estimate
 
 SEARCH = 40_000  # samples for the search; the last step and the errors use all
 CORRELATED = 0.95
+FRESH = ((0.05, 0.3), (0.01, 1.0))  # T_d [s] and beta [1] of two guesses: slow and fast
 Progress = Callable[[str, str], None]
 
 
@@ -56,43 +58,30 @@ def identify(
         first = next(iter(reasons.values()))
         raise InputProblem(f"the logs identify no parameter at all; for one, {first}")
     search = sample(recording, SEARCH)
-    held = _held(needs)
+    held = held_values(needs)
     progress("fitting", "the paper's two steps")
     steps = two_step(search, held)
-    values, evaluations, converged = _search(model, search, held, steps, robust, progress)
+    best, evaluations = _search(model, search, held, steps, robust, progress)
     progress("fitting", f"last step and errors, {len(recording)} samples")
     blocks = pieces(recording)
     found = assess(
-        model, blocks, values,
-        fixed=held, evaluations=evaluations, converged=converged, robust=robust,
+        model, blocks, best.values,
+        fixed=held, evaluations=evaluations, converged=best.converged, robust=robust,
     )  # fmt: skip
     reasons |= _flat(found)
-    estimates = _estimates(found, reasons)
+    reasons |= _uncertain(found, reasons)
     complete = {**held, **steps}
     rms = None
     if set(Model().quantities) <= set(complete):
         rms = _rms(Model(), blocks, complete)
     return Identification(
         model=model,
-        joint=estimates,
+        joint=estimates(found, reasons),
         two_step=steps,
         fit=found,
         two_step_rms=rms,
         warnings=tuple(_warnings(found, steps, reasons)),
     )
-
-
-def _held(needs: Mapping[str, Lack]) -> dict[str, float]:
-    """Values for parameters that the data cannot identify, chosen so that the rest can be fitted.
-
-    With one level of duty any beta will do, since sigma takes up the difference; without a field
-    there is no yield force; without control steps there is no lag to see.
-    """
-    return {
-        name: 1.0 if name.endswith(".beta") else 0.0
-        for name, need in needs.items()
-        if not need.confounded
-    }
 
 
 def _search(
@@ -102,22 +91,23 @@ def _search(
     steps: Mapping[str, float],
     robust: bool,
     progress: Progress,
-) -> tuple[dict[str, float], int, bool]:
-    """The best of several starts: the paper's procedure, a slow and a fast guess."""
+) -> tuple[Fitted, int]:
+    """The best of several starts (the paper's procedure, two guesses), evaluations of all."""
     default = {n: q.start for n, q in model.quantities.items()} | off_values(model)
     starts = [default | dict(steps) | dict(held)] if steps else []
-    for beta, T_d in ((0.3, 0.05), (1.0, 0.01)):
-        guess = {f"{d}.beta": beta for d in DIRECTIONS} | {f"{d}.T_d": T_d for d in DIRECTIONS}
-        starts.append(default | guess | dict(held))
+    for T_d, beta in FRESH:
+        starts.append(default | fresh_start(T_d, beta) | dict(held))
     results = []
     for number, start in enumerate(starts, start=1):
         progress("fitting", f"all parameters, start {number} of {len(starts)}")
-        values, count, done = fit(model, block, start=start, fixed=held, robust=robust)
-        error = (block.force - model.force(block.signals, values)) * np.sqrt(block.weight)
-        cost = float(np.dot(error, error) if not robust else np.abs(error).sum())
-        results.append((cost, values, count, done))
-    cost, values, _, done = min(results, key=lambda r: r[0])
-    return values, sum(r[2] for r in results), done
+        results.append(fit(model, block, start=start, fixed=held, robust=robust))
+
+    def cost(found: Fitted) -> float:
+        if not robust:
+            return found.cost
+        return float(np.dot(np.sqrt(block.weight), np.abs(found.residual)))
+
+    return min(results, key=cost), sum(found.evaluations for found in results)
 
 
 def _flat(found: Fit) -> dict[str, str]:
@@ -129,18 +119,13 @@ def _flat(found: Fit) -> dict[str, str]:
     return out
 
 
-def _estimates(found: Fit, reasons: Mapping[str, str]) -> dict[str, Estimate]:
-    errors = found.stderr
+def _uncertain(found: Fit, reasons: Mapping[str, str]) -> dict[str, str]:
+    """Shape parameters whose error exceeds them."""
     out = {}
-    for name, q in found.model.quantities.items():
-        value, error = found.values[name], errors.get(name)
-        reason = reasons.get(name)
-        if reason is None and error is not None and not q.linear and error > abs(value):
-            reason = f"its standard error ({error:.2g} {q.unit}) is larger than the estimate"
-        if reason is None:
-            out[name] = Estimate(value=value, unit=q.unit, stderr=error)
-        else:
-            out[name] = Estimate(value=None, unit=q.unit, assumed=value, reason=reason)
+    for name, error in found.stderr.items():
+        q, value = found.model.quantities[name], found.values[name]
+        if name not in reasons and not q.linear and error > abs(value):
+            out[name] = f"its standard error ({error:.2g} {q.unit}) is larger than the estimate"
     return out
 
 

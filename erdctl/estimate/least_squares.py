@@ -10,6 +10,7 @@ linear in the amplitudes, and all parameters are searched. Nothing here names an
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import NamedTuple
 
@@ -18,15 +19,33 @@ import numpy as np
 from erdctl.core.blocks import Block
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
+from erdctl.estimate.normal_equations import Normal
 from erdctl.model.composed import Model
-from erdctl.model.effect import Values
+from erdctl.model.slots import Values
 
 STEP = 1e-5  # of a one-sided difference, in units of the search
 HUBER = 1.345  # tuning constant for 95 % efficiency under normal noise
-SINGULAR = 1e-10  # relative eigenvalue of the scaled normal matrix below which a direction is flat
 FINISH = 8  # steps of a search that is to end where the best is
 NEAR = 1e-4  # of the range of a search, from a bound that it was driven to
+FAILED = 1e100  # N, in place of the residual of a simulation that gave no finite force
 SHORTEST = 1e-5  # s; a time constant of exactly 0 has no derivative, a search stays above
+
+
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """Where one search ended.
+
+    values : every parameter of the model;  residual : (n,) measured less modelled force [N]
+    cost : weighted sum of its squares [N^2], infinite if the model gave no finite force
+    evaluations : of the model;  converged : whether the search ended by itself
+    """
+
+    model: Model
+    values: dict[str, float]
+    residual: Array
+    cost: float
+    evaluations: int
+    converged: bool
 
 
 def fit(
@@ -37,11 +56,10 @@ def fit(
     fixed: Iterable[str] = (),
     robust: bool = False,
     max_evaluations: int = 200,
-) -> tuple[dict[str, float], int, bool]:
+) -> Fitted:
     """Search from one start.
 
     start : a value for every parameter;  fixed : names that keep it
-    Returns the values found, the number of model evaluations, and whether the search converged.
     """
     held = set(fixed)
     shape = [n for n in model.shape if n not in held]
@@ -58,7 +76,10 @@ def fit(
         if np.max(np.abs(updated - weight), initial=0.0) < 1e-2:
             break
         weight = updated
-    return values, evaluations, converged
+    residual = block.force - model.force(block.signals, values)
+    cost = float(np.dot(block.weight, residual * residual))
+    cost = cost if np.isfinite(cost) else np.inf
+    return Fitted(model, values, residual, cost, evaluations, converged)
 
 
 def huber_weight(residual: Array, weight: Array) -> Array:
@@ -67,33 +88,20 @@ def huber_weight(residual: Array, weight: Array) -> Array:
     return 1.0 / np.maximum(np.abs(residual) / (HUBER * scale), 1.0)
 
 
-def solve_linear(
-    columns: Array, force: Array, weight: Array, low: Array, high: Array
-) -> tuple[Array, float]:
+def solve_linear(columns: Array, force: Array, weight: Array, low: Array, high: Array) -> Array:
     """Weighted least squares of `force` on the rows of `columns`, within bounds.
 
     columns : (k, n);  force, weight : (n,);  low, high : (k,)
-    Returns (k,) amplitudes and the weighted sum of squares. Solved on the scaled normal matrix:
-    after scaling, its condition is that of the physics (below 1e6), not that of the units.
+    Returns (k,) amplitudes.
     """
     if columns.shape[0] == 0:
-        return np.empty(0), float(np.dot(weight, force * force))
+        return np.empty(0)
     weighted = columns * weight
-    normal, right = weighted @ columns.T, weighted @ force
-    scale = np.sqrt(np.diag(normal))
-    scale[scale == 0.0] = 1.0
-    scaled = normal / np.outer(scale, scale)
-    w, v = np.linalg.eigh(scaled)
-    keep = w > SINGULAR * w[-1]
-    amplitude = v[:, keep] @ ((v[:, keep].T @ (right / scale)) / w[keep]) / scale
+    normal, right = Normal.of(weighted @ columns.T), weighted @ force
+    amplitude = normal.solve(right)
     if (amplitude < low).any() or (amplitude > high).any():
-        from scipy.optimize import lsq_linear
-
-        root = (v[:, keep] * np.sqrt(w[keep])).T
-        target = (v[:, keep].T @ (right / scale)) / np.sqrt(w[keep])
-        amplitude = lsq_linear(root, target, bounds=(low * scale, high * scale)).x / scale
-    residual = force - amplitude @ columns
-    return amplitude, float(np.dot(weight, residual * residual))
+        amplitude = normal.bounded(right, low, high)
+    return amplitude
 
 
 class _Projected:
@@ -123,13 +131,14 @@ class _Projected:
             values[name] = axis.back(u)
         force = self.block.force
         if not self.model.separable:
-            return values, force - self.model.force(self.block.signals, values)
+            residual = force - self.model.force(self.block.signals, values)
+            return values, residual if np.isfinite(residual).all() else np.full_like(force, FAILED)
         columns = self.model.columns(self.block.signals, values)
         if not self.open.all():
             given = np.array([values[n] for n in self.model.linear])[~self.open]
             force = force - given @ columns[~self.open]
             columns = columns[self.open]
-        amplitude, _ = solve_linear(columns, force, self.block.weight, self.low, self.high)
+        amplitude = solve_linear(columns, force, self.block.weight, self.low, self.high)
         values.update(zip(self.linear, amplitude.tolist(), strict=True))
         return values, force - amplitude @ columns
 
@@ -168,7 +177,15 @@ class _Projected:
 
 
 def at_bound(q: Quantity, value: float) -> bool:
-    """Whether a search has driven a parameter to one of its bounds."""
+    """Whether a fit has driven a parameter to one of its bounds.
+
+    A search keeps off the bounds and ends next to one; an amplitude that is solved for lies on it
+    exactly. There a parameter has no standard error, and the others are given for it as it is.
+    """
+    if q.linear:
+        return not q.low < value < q.high
+    if not q.low < value < q.high:
+        return True
     axis = _Axis.of(q, value)
     near = NEAR * (axis.high - axis.low)
     return not axis.low + near < axis.forth(value) < axis.high - near

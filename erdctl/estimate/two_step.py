@@ -59,6 +59,9 @@ def yield_law(duty: Array, F_ys: Array) -> tuple[float, float]:
 
     A duty level enters by its mean and count: the sum of squares is the same but for a constant.
     Check: v = 0.1, 0.4 and F = 2, 4 gives sigma = 6.3246, beta = 0.5.
+    >>> sigma, beta = yield_law(np.array([0.1, 0.4]), np.array([2.0, 4.0]))
+    >>> round(sigma, 4), round(beta, 4)
+    (6.3246, 0.5)
     """
     from scipy.optimize import least_squares
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from erdctl.core.errors import UsageProblem
 from erdctl.core.workers import one_thread
+from erdctl.diagnose.corrected import parameters as corrected
 from erdctl.diagnose.diagnosis import Diagnosis
 from erdctl.diagnose.diagnosis import diagnose as diagnosed
 from erdctl.diagnose.jobs import worthwhile
@@ -19,7 +20,6 @@ from erdctl.interface.arguments import ParametersLike, given_parameters
 from erdctl.interface.display import draw, frame_of, html, option, text
 from erdctl.interface.log import BenchLog, LogLike, Place, log_of, texts
 from erdctl.io import documents
-from erdctl.io.diagnosis import parameters as corrected
 from erdctl.io.diagnosis import to_json
 from erdctl.model.parameters import Parameters
 from erdctl.report.subjects import of_diagnosis

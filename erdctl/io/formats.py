@@ -1,4 +1,4 @@
-"""Formats of tables, told by suffix and by content."""
+"""Formats of tables, recognised by suffix and by content."""
 
 from __future__ import annotations
 

@@ -8,8 +8,7 @@ from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Recording
 from erdctl.estimate.identify import Identification
 from erdctl.estimate.method import Method
-from erdctl.io.parameters import provenance
-from erdctl.model.parameters import Parameters
+from erdctl.model.parameters import Parameters, provenance
 
 
 def parameters_of(found: Identification, method: Method, recording: Recording) -> Parameters:

@@ -274,7 +274,7 @@ def _stem(path: str) -> str:
 
 def _labels(paths: Sequence[str]) -> list[str]:
     stems = [_stem(p) for p in paths]
-    # Logs of the same name in several directories are told apart by their paths.
+    # Logs of the same name in several directories are distinguished by their paths.
     return [s if stems.count(s) == 1 else p for s, p in zip(stems, paths, strict=True)]
 
 

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
 from typing import Any
 
 import msgspec
 
-from erdctl import __version__
-from erdctl.core.errors import InputProblem
+from erdctl.core.errors import IncompatibleEffects, InputProblem
 from erdctl.core.quantity import Quantity
-from erdctl.core.recording import DIRECTIONS, Recording
+from erdctl.core.recording import DIRECTIONS
 from erdctl.io import documents
 from erdctl.model.composed import Model
 from erdctl.model.paper import QUANTITIES
@@ -118,7 +116,7 @@ def _check_together(parameters: Parameters, name: str) -> None:
     moment = Signals(t, still, still + 1e-3, still, np.array([1e-3, 0.0]), np.array([0, 2]))
     try:
         parameters.model.force(moment, parameters.values)
-    except ValueError as error:
+    except IncompatibleEffects as error:
         names = ", ".join(e.name for e in parameters.model.effects)
         raise InputProblem(f"effects {names} together: {error}", file=name) from error
 
@@ -182,25 +180,6 @@ def to_document(parameters: Parameters) -> ParameterFile:
 def write_parameters(parameters: Parameters, path: str) -> None:
     """Write the parameter file to a path, or to stdout for `-`."""
     documents.write(to_document(parameters), path)
-
-
-def provenance(recording: Recording, noise_rms: float) -> dict[str, Any]:
-    """Where an estimate comes from: version, logs, what they covered, noise. No date, so that
-    the same logs give the same file."""
-
-    def ends(channel: str) -> list[float]:
-        values = getattr(recording, channel)
-        return [float(values.min()), float(values.max())]
-
-    return {
-        "erdctl": __version__,
-        "logs": [asdict(source) for source in recording.sources],
-        "records": len(recording.names),
-        "samples": len(recording),
-        "ranges": {name: ends(name) for name in ("x", "xdot", "duty")},
-        "xdot": recording.xdot_note,
-        "noise_rms": noise_rms,
-    }
 
 
 def json_schema() -> dict[str, Any]:

@@ -184,7 +184,7 @@ def read_planned(
 ) -> tuple[pa.Table, Plan, str]:
     """The wanted columns, what is left to convert of them, and the hash of the file.
 
-    others : columns beside the plan's that hold numbers
+    others : columns other than the plan's that hold numbers
 
     The channels of a container come on one time base, and a time of their own in seconds.
     Raises InputProblem for whole numbers of a sensor whose scale nobody states.

@@ -1,6 +1,6 @@
 """The shapes of the JSON documents that erdctl writes for others to read, and their JSON Schemas.
 
-Parameter and geometry files, which erdctl reads as well, have theirs beside their readers.
+Parameter and geometry files, which erdctl reads as well, have theirs with their readers.
 """
 
 from __future__ import annotations

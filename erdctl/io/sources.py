@@ -138,7 +138,7 @@ def read_source(
         from concurrent.futures import ThreadPoolExecutor
 
         with ThreadPoolExecutor(1) as pool:
-            # Beside the parsing, hashing is nearly hidden.
+            # Next to the parsing, hashing takes hardly any time.
             digest = pool.submit(_sha256, source.data)
             return _guarded(source.name, source.format, read), digest.result()
     except MemoryError:

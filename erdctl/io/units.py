@@ -83,6 +83,10 @@ class Conversion:
         """Converted values; the same array if there is nothing to convert.
 
         Check: 12.3 mm is exactly 0.0123 m (12.3 * 0.001 is not); 212 degF is 100 degC.
+        >>> between("mm", "m")(np.array([12.3])).tolist()
+        [0.0123]
+        >>> between("degF", "degC")(np.array([212.0])).round(9).tolist()
+        [100.0]
         """
         out = values
         if self.factor.numerator == -1 or self.factor.numerator == 1:
@@ -200,8 +204,11 @@ def conversion(unit: str, target: str, spec: str) -> Conversion:
 def factor_between(given: str, wanted: str, label: str) -> float:
     """Factor from one unit to another, for units without an offset.
 
-    label : what carries the unit, for the message.  Check: "mm" to "m" is 0.001.
+    label : what carries the unit, for the message
     Raises InputProblem if `given` is no unit or of another dimension.
+    Check: "mm" to "m" is 0.001.
+    >>> factor_between("mm", "m", "the stroke")
+    0.001
     """
     try:
         found = between(given, wanted)

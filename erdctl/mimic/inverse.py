@@ -26,10 +26,10 @@ from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.core.signals import Signals
 from erdctl.model.amplifier import Amplifier
 from erdctl.model.composed import Model
-from erdctl.model.effect import Slot
 from erdctl.model.faults import FaultFactors
 from erdctl.model.paper import field_law
 from erdctl.model.response import Prepared
+from erdctl.model.slots import ControlSlot, FieldSlot
 
 NODES = np.linspace(0.0, 1.0, 1501) ** 6  # of a tabulated law, which is steepest where it sets in
 
@@ -51,7 +51,7 @@ class YieldLaw:
     def of(cls, model: Model, values: Mapping[str, float], direction: str) -> YieldLaw:
         """The law of a model in one direction."""
         sigma, beta = values[f"{direction}.sigma"], values[f"{direction}.beta"]
-        control, laws = model.of(Slot.CONTROL), model.of(Slot.FIELD)
+        control, laws = model.of(ControlSlot), model.of(FieldSlot)
         if not control and not laws:
             return cls(sigma, beta)
 
@@ -60,11 +60,11 @@ class YieldLaw:
             duty, zero = np.repeat(duties, 2), np.zeros(2 * len(duties))
             step = np.tile([1.0, 0.0], len(duties))
             held = Signals(1.0 - step, zero, zero, duty, step, np.arange(0, len(duty) + 1, 2))
-            for effect in control:
-                held = held.with_duty(effect.act(held, effect.local(values)))
+            for effect, slot in control:
+                held = held.with_duty(slot(held, effect.local(values)))
             field = field_law(held.duty, beta)
-            for effect in laws:
-                field = effect.act(field, held, effect.local(values), direction)
+            for effect, law in laws:
+                field = law(field, held, effect.local(values), direction)
             return field[::2]
 
         low, high = 0.0, 1.0  # between them the force sets in

@@ -1,11 +1,11 @@
 """The PWM sequence with which a healthy damper acts as a faulty one, Sec. 6, and what it reaches.
 
 The paper's model is inverted by formula (`erdctl.mimic.inverse`), a model with effects by iteration
-(`erdctl.mimic.iterate`). What comes out is replayed through the corrected model beside the sequence
-of the paper's parameters alone. Where that does better for one of the faults, it takes over while
-that fault acts; where it is better as a whole, it is the plan, and the plan says so. The paper's
-parameters get the same iteration, on their own model: the difference is what the physics is worth,
-not the method.
+(`erdctl.mimic.iterate`). What comes out is replayed through the corrected model, and so is the
+sequence of the paper's parameters alone. Where that does better for one of the faults, it takes
+over while that fault acts; where it is better as a whole, it is the plan, and the plan says so. The
+paper's parameters get the same iteration, on their own model: the difference is what the physics is
+worth, not the method.
 
 The fault is mimicked in the damper, not in the recording. What the force channel makes of a force
 (skew, drift) reaches neither a vehicle nor a rig: a sequence that made up for it would put the
@@ -27,16 +27,17 @@ from erdctl.mimic.inverse import Laws, compensate, follow, laws_of, static_duty
 from erdctl.mimic.outcome import Correction, Flags, Plan, Reach
 from erdctl.model.amplifier import Amplifier
 from erdctl.model.composed import Model
-from erdctl.model.effect import Slot, Stage, Values
+from erdctl.model.effect import Stage
 from erdctl.model.faults import Fault, FaultFactors, effectiveness, factors
 from erdctl.model.parameters import Parameters
 from erdctl.model.response import Prepared
+from erdctl.model.slots import ChannelSlot, Values
 from erdctl.score.nrmse import nrmse
 
 if TYPE_CHECKING:
     from erdctl.mimic.iterate import Target
 
-SMOOTH_SIGN = 0.05  # below this |sign law| a yield force cannot be told from none
+SMOOTH_SIGN = 0.05  # below this |sign law| a yield force counts as none
 UNSEEN = 2e-3  # of the range of the force: less is a matter of which fault's onset comes first
 MISSED = 0.005  # of the range of the force: an error of the best sequence that a user would see
 
@@ -46,7 +47,7 @@ class Inversion:
     """The inversion of one model by formula.
 
     rest : (n,) ideal force less all but the yield force [N]
-    way : (n,) direction in which a yield force pushes, 0 where it cannot be told from none
+    way : (n,) direction in which a yield force pushes, 0 where it counts as none
     target : (n,) yield force that gives the ideal one [N], below 0 where none does
     wanted : (n,) duty of the static inverse;  compensated : (n,) of the lag compensated one
     """
@@ -143,7 +144,9 @@ def mimic(
 
 def _damper(whole: Model) -> tuple[Model, tuple[str, ...]]:
     """The model without the effects of the force channel, and their names."""
-    channel = [e for e in whole.effects if e.slot is Slot.CHANNEL or e.stage is Stage.SENSOR]
+    channel = [
+        e for e in whole.effects if isinstance(e.slot, ChannelSlot) or e.stage is Stage.SENSOR
+    ]
     if not channel:
         return whole, ()
     return Model(tuple(e for e in whole.effects if e not in channel)), tuple(

@@ -12,16 +12,29 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
+from erdctl.core.errors import IncompatibleEffects
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import COMPRESSION, DIRECTIONS, RELEASE, Array
 from erdctl.core.signals import Signals
 from erdctl.model import paper
-from erdctl.model.effect import Effect, Slot, Values, in_slot
+from erdctl.model.checked import GROUPS
+from erdctl.model.effect import Effect, S, in_slot
 from erdctl.model.response import Factors, Prepared, multiplied
+from erdctl.model.slots import (
+    ControlSlot,
+    FeedbackSlot,
+    FieldSlot,
+    GasSlot,
+    LagSlot,
+    MotionSlot,
+    ScaleSlot,
+    SeriesSlot,
+    SignSlot,
+    Values,
+    ViscousSlot,
+    free_play_of,
+)
 
-GROUPS = ("gas", "viscous", "yield")
 _AMPLITUDE_OF = dict(zip(GROUPS, ("k_nom", "c_vis", "sigma"), strict=True))
 
 
@@ -56,11 +69,13 @@ class Model:
     @cached_property
     def separable(self) -> bool:
         """Whether the force is linear in the amplitudes: no effect feeds the force back."""
-        return not any(self.of(slot) for slot in (Slot.SERIES, Slot.FEEDBACK, Slot.LAG))
+        return not any(
+            isinstance(e.slot, SeriesSlot | FeedbackSlot | LagSlot) for e in self.effects
+        )
 
-    def of(self, slot: Slot) -> list[Effect]:
-        """The effects of one slot in the order in which they act."""
-        return in_slot(self.effects, slot)
+    def of(self, kind: type[S]) -> list[tuple[Effect, S]]:
+        """The effects of one slot, each with it, in the order in which they act."""
+        return in_slot(self.effects, kind)
 
     def force(self, signals: Signals, values: Values) -> Array:
         """(n,) damper force [N]."""
@@ -83,32 +98,32 @@ class Model:
         """All that does not depend on the amplitudes, computed once."""
         s = signals
         jointed, gap = self._jointed(values), 0.0
-        for effect in self.of(Slot.MOTION):
-            if jointed and effect.free_play is not None:
-                gap += effect.free_play(effect.local(values))
+        for effect, motion in self.of(MotionSlot):
+            if jointed and motion.free_play is not None:
+                gap += free_play_of(motion, effect.local(values))
             else:
-                s = effect.act(s, effect.local(values))
-        for effect in self.of(Slot.CONTROL):
-            s = s.with_duty(effect.act(s, effect.local(values)))
+                s = motion(s, effect.local(values))
+        for effect, control in self.of(ControlSlot):
+            s = s.with_duty(control(s, effect.local(values)))
         scale: Factors = {}
         of_speed: Factors = {}
-        for effect in self.of(Slot.SCALE):
-            factors = effect.act(s, effect.local(values))
+        for effect, law in self.of(ScaleSlot):
+            factors = law(s, effect.local(values))
             if effect.of_speed:
                 of_speed = multiplied(of_speed, factors)
             else:
                 scale = multiplied(scale, factors)
-        falls = np.ones(len(s)) if self.of(Slot.LAG) else None
-        for effect in self.of(Slot.LAG):
-            falls = falls * effect.act(s, effect.local(values))
+        falls: Array | None = None
+        for effect, lag in self.of(LagSlot):
+            falls = (1.0 if falls is None else falls) * lag(s, effect.local(values))
         if falls is not None and (falls == 1.0).all():
             falls = None  # off takes the same path as absent
         return Prepared(
             effects=self.effects,
             signals=s,
-            gas=self._replaced(Slot.GAS, s, values, s.x),
-            viscous=self._replaced(Slot.VISCOUS, s, values, s.xdot),
-            sign=self._replaced(Slot.SIGN, s, values, s.sign),
+            gas=self._replaced(GasSlot, s, values, s.x),
+            viscous=self._replaced(ViscousSlot, s, values, s.xdot),
+            sign=self._replaced(SignSlot, s, values, s.sign),
             fields=self._fields(s, values),
             falls=falls,
             scale=scale,
@@ -119,23 +134,30 @@ class Model:
 
     def _jointed(self, values: Values) -> bool:
         """Whether a compliance in series with the whole damper acts, whose joint may have play."""
-        springs = [e for e in self.of(Slot.SERIES) if e.carries is None]
-        return any(float(e.act(e.local(values))) > 0.0 for e in springs)
+        springs = [(e, spring) for e, spring in self.of(SeriesSlot) if spring.carries is None]
+        return any(spring(e.local(values)) > 0.0 for e, spring in springs)
 
-    def _replaced(self, slot: Slot, s: Signals, values: Values, plain: Array) -> Array:
-        effects = self.of(slot)
-        if len(effects) > 1:
-            names = ", ".join(e.name for e in effects)
-            raise ValueError(f"only one effect can take the place of {slot.value}: {names}")
-        return effects[0].act(s, effects[0].local(values)) if effects else plain
+    def _replaced(
+        self,
+        kind: type[GasSlot] | type[ViscousSlot] | type[SignSlot],
+        s: Signals,
+        values: Values,
+        plain: Array,
+    ) -> Array:
+        laws = [(e, e.slot) for e in self.effects if isinstance(e.slot, kind)]
+        if len(laws) > 1:
+            names = ", ".join(e.name for e, _ in laws)
+            what = {GasSlot: "gas", ViscousSlot: "viscous", SignSlot: "sign"}[kind]
+            raise IncompatibleEffects(f"only one effect can take the place of {what}: {names}")
+        return laws[0][1](s, laws[0][0].local(values)) if laws else plain
 
     def _fields(self, s: Signals, values: Values) -> tuple[Array, Array]:
-        laws = self.of(Slot.FIELD)
+        laws = self.of(FieldSlot)
 
         def law(direction: int) -> Array:
             field = paper.field_law(s.duty, values[f"{DIRECTIONS[direction]}.beta"])
-            for effect in laws:
-                field = effect.act(field, s, effect.local(values), DIRECTIONS[direction])
+            for effect, slot in laws:
+                field = slot(field, s, effect.local(values), DIRECTIONS[direction])
             return field
 
         compression = law(COMPRESSION)

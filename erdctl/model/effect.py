@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Any
+from typing import TypeVar
+
+import numpy as np
 
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.model.slots import (
+    Slot,
+    StartsFunction,
+    TermFunction,
+    TermSlot,
+    Values,
+    added_forces,
+    checked_starts,
+)
 
-Values = Mapping[str, float]
+S = TypeVar("S", bound=Slot)
 
 
 class Stage(Enum):
@@ -24,43 +36,6 @@ class Stage(Enum):
     POSITION = "position"
     FAULT = "fault"
     SENSOR = "sensor"
-
-
-class Slot(Enum):
-    """Where an effect enters the model, and so what its function receives and returns.
-
-    s is a `Signals`, p maps the effect's symbols to values, (n,) arrays are samples:
-
-    MOTION    (s, p) -> Signals           motion of the piston from that of the rod
-    CONTROL   (s, p) -> (n,) duty         what reaches the electrodes
-    FIELD     (field, s, p, way) -> (n,)  normalised yield force, from v^beta, in the direction
-              `way`, compression or release
-    LAG       (s, p) -> (n,)              factor of T_d while the yield force falls
-    SIGN      (s, p) -> (n,) in -1..1     in place of sign(xdot)
-    YIELD     (force, s, p) -> (n,)       what becomes of the signed yield force
-    VISCOUS   (s, p) -> (n,) [m/s]        in place of xdot
-    GAS       (s, p) -> (n,) [m]          in place of x
-    SCALE     (s, p) -> {group: (n,)}     multipliers of the groups gas, viscous, yield
-    TERM      nothing but added forces, see `Effect.columns`
-    FEEDBACK  (parts, s, p) -> {group: (n,)}  multipliers that depend on the forces themselves:
-              parts are those that act without it, by group and `other`, for it to march through
-    SERIES    (p) -> float [m/N]          compliance in series with the groups of `Effect.carries`
-    CHANNEL   (column, s, p) -> (n,)      what the force channel makes of the force
-    """
-
-    MOTION = "motion"
-    CONTROL = "control"
-    FIELD = "field"
-    LAG = "lag"
-    SIGN = "sign"
-    YIELD = "yield"
-    VISCOUS = "viscous"
-    GAS = "gas"
-    SCALE = "scale"
-    TERM = "term"
-    FEEDBACK = "feedback"
-    SERIES = "series"
-    CHANNEL = "channel"
 
 
 class Requirement(Enum):
@@ -92,19 +67,17 @@ class Variable(Enum):
 class Effect:
     """One physical effect: facts for people and programs, and pure functions.
 
-    name : as in the contract;  stage, slot : where it belongs and where it enters the model
+    name : as in the contract;  stage : where it belongs
+    slot : where it enters the model, with the function that does it, see `erdctl.model.slots`
     quantities : its parameters; those marked linear are amplitudes of `columns`, in its order
-    apply : the pure function of its slot, see `Slot`; None for a TERM
-    columns : (s, p) -> (k, n) forces for unit amplitudes that the effect adds, in any slot
-    of_speed : apply or columns depend on xdot alone, sample by sample
-    carries : groups behind a SERIES compliance, or None for the whole force
+    columns : forces for unit amplitudes that the effect adds, in any slot
+    of_speed : what it does depends on xdot alone, sample by sample
     equation, source, validity : text for people
     requires : what a log must contain;  shows : where the misfit gathers when it is left out
-    guesses : (s) -> starts of a search by symbol, where one start would not do (several dips of the
-        cost, or a scale that depends on the motion)
-    free_play : (p) -> play [m] in the joint of a compliance in series with the whole damper, which
-        takes it over from `apply`: a play bears no force, so that what is stretched unloads first
-    beside : effects that commonly come with it, and without which it may be worth nothing
+    guesses : starts of a search where the grid would not do (several dips of the cost, a scale that
+        depends on the motion, a frequency). The grid is made by unit: m, m/s, m/N, 1/m, 1/m^2, s
+        and 1/J from what the recording spans, others from 0.1 to 10 times the parameter's start
+    companions : effects that commonly come with it, and without which it may improve no fit
     equivalents : effects that force data can hardly tell from this one, whatever the log
     order : effects of one slot act in this order
     """
@@ -119,12 +92,9 @@ class Effect:
     requires: tuple[Requirement, ...]
     shows: Variable
     quantities: tuple[Quantity, ...]
-    apply: Callable[..., object] | None = field(default=None, repr=False)
-    columns: Callable[[Any, Values], Array] | None = field(default=None, repr=False)
-    guesses: Callable[[Any], Sequence[Values]] | None = field(default=None, repr=False)
+    columns: TermFunction | None = field(default=None, repr=False)
+    guesses: StartsFunction | None = field(default=None, repr=False)
     of_speed: bool = False
-    carries: tuple[str, ...] | None = None
-    free_play: Callable[[Values], float] | None = field(default=None, repr=False)
     companions: tuple[str, ...] = ()
     equivalents: tuple[str, ...] = ()
     order: int = 0
@@ -132,14 +102,25 @@ class Effect:
     def __post_init__(self) -> None:
         if bool(self.amplitudes) != (self.columns is not None):
             raise ValueError(f"{self.name}: linear parameters and columns go together")
-        if (self.apply is None) != (self.slot is Slot.TERM):
-            raise ValueError(f"{self.name}: every slot but TERM needs a function")
+        if isinstance(self.slot, TermSlot) and self.columns is None:
+            raise ValueError(f"{self.name}: a term needs columns")
 
-    def act(self, *arguments: Any) -> Any:
-        """The function of the effect's slot."""
-        if self.apply is None:
-            raise ValueError(f"{self.name} only adds forces")
-        return self.apply(*arguments)
+    def added(self, s: Signals, p: Values) -> Array:
+        """(k, n) forces at unit amplitudes, k = 0 if the effect adds none [N]."""
+        if self.columns is None:
+            return np.empty((0, len(s)))
+        return added_forces(self.columns, len(self.amplitudes), s, p)
+
+    def starts(self, s: Signals, rest: Array) -> list[dict[str, float]] | None:
+        """Starts of a search by symbol; None where the effect leaves them to a grid."""
+        if self.guesses is None:
+            return None
+        return checked_starts(self.guesses, [q.symbol for q in self.shape], s, rest)
+
+    @property
+    def shape(self) -> tuple[Quantity, ...]:
+        """The parameters that a fit searches for."""
+        return tuple(q for q in self.quantities if not q.linear)
 
     @property
     def amplitudes(self) -> tuple[Quantity, ...]:
@@ -161,6 +142,7 @@ class Effect:
         return {self.key(q.symbol): q.off for q in self.quantities}
 
 
-def in_slot(effects: Iterable[Effect], slot: Slot) -> list[Effect]:
-    """The effects of one slot in the order in which they act."""
-    return sorted((e for e in effects if e.slot is slot), key=lambda e: e.order)
+def in_slot(effects: Iterable[Effect], kind: type[S]) -> list[tuple[Effect, S]]:
+    """The effects of one slot, each with it, in the order in which they act."""
+    found = [(e, e.slot) for e in effects if isinstance(e.slot, kind)]
+    return sorted(found, key=lambda f: f[0].order)

@@ -98,6 +98,9 @@ def parse_fault(spec: str) -> Fault:
 
     Raises UsageProblem that names the part that makes no sense.
     Check: "oil=0.5@15:31" is OIL, factor 0.5, from 15 s until 31 s.
+    >>> f = parse_fault("oil=0.5@15:31")
+    >>> f.kind.name, f.factor, f.start, f.end
+    ('OIL', 0.5, 15.0, 31.0)
     """
     head, *options = (part.strip() for part in spec.split(","))
     name, equals, rest = head.partition("=")
@@ -130,6 +133,10 @@ def factors(faults: Sequence[Fault], t: Array, xdot: Array, starts: Index) -> Fa
 
     Check: oil=0.5@15:31 and deformation=0.7@20 give at 25 s gas 0.5, viscous and yield 0.35; at
     31 s gas 1, viscous and yield 0.7.
+    >>> both = [parse_fault("oil=0.5@15:31"), parse_fault("deformation=0.7@20")]
+    >>> f = factors(both, np.array([25.0, 31.0]), np.zeros(2), np.array([0, 2]))
+    >>> [a.round(9).tolist() for a in (f.gas, f.viscous, f.yield_)]
+    [[0.5, 1.0], [0.35, 0.7], [0.35, 0.7]]
     """
     gas, viscous, yield_ = np.ones((3, len(t)))
     for fault in faults:
@@ -155,6 +162,11 @@ def effectiveness(fault: Fault, t: Array, xdot: Array, starts: Index) -> Array:
     t, xdot : (n,) [s], [m/s];  starts : (r + 1,).  Returns (n,) [1] in 0..1.
     Check: q = 0.05 m/s gives 1 at rest and at 0.05 m/s, 0.5 at 0.1 m/s. factor 0.5 with a ramp of
     2 s from 10 s gives 0.75 at 11 s and 0.5 from 12 s.
+    >>> t, xdot, starts = np.array([10.0, 11.0, 12.0]), np.array([0.0, 0.05, 0.1]), np.array([0, 3])
+    >>> effectiveness(parse_fault("oil=flow:0.05"), t, xdot, starts).round(9).tolist()
+    [1.0, 1.0, 0.5]
+    >>> effectiveness(parse_fault("oil=0.5@10,ramp=2"), t, xdot, starts).round(9).tolist()
+    [1.0, 0.75, 0.5]
     """
     full = np.full(len(t), fault.factor) if fault.flow is None else leakage(xdot, fault.flow)
     if fault.start is None:
@@ -188,7 +200,7 @@ def set_in(kind: FaultKind, s: Signals, p: Mapping[str, float]) -> dict[str, Arr
     return {"gas": found.gas, "viscous": found.viscous, "yield": found.yield_}
 
 
-def onsets(s: Signals) -> list[dict[str, float]]:
+def onsets(s: Signals, rest: Array) -> list[dict[str, float]]:
     """Where a search for a fault may begin: onsets over the length of the records [s]."""
     parts = (0.15, 0.3, 0.45, 0.6, 0.75, 0.9)
     return [{"f": 0.5, "t_0": float(t_0)} for t_0 in np.quantile(s.t, parts)]
@@ -211,6 +223,8 @@ def leakage(xdot: Array, flow: float) -> Array:
 
     xdot : (n,) [m/s];  flow : q [m/s] > 0.  Returns (n,) [1].
     Check: q = 0.05, xdot = 0, -0.05, 0.1 gives 1, 1, 0.5.
+    >>> leakage(np.array([0.0, -0.05, 0.1]), 0.05).round(9).tolist()
+    [1.0, 1.0, 0.5]
     """
     f: Array = flow / np.maximum(np.abs(xdot), flow)
     return f

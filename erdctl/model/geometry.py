@@ -74,7 +74,14 @@ def derive(geometry: Geometry, *, file: str | None = None) -> Derived:
 
     file : named in the message if the geometry makes no sense.  Raises InputProblem.
 
-    Check: the values of `viscous_damping`, `full_yield_force`, `gas_stiffness`.
+    Check: the values of `gas_stiffness`, `viscous_damping`, `full_yield_force` and `preload`, 250,
+    85.94, 12 and 25.
+    >>> length = {"L_d": 0.1, "d": 1e-3, "R_d": 0.01, "d_e": 1e-3}
+    >>> gas = {"A_p": 3.5e-4, "A_s": 0.5e-4, "P_0": 5e5, "V_0": 7e-6, "gamma": 1.4, "stroke": 0.0}
+    >>> fluid = {"mu": 0.05, "c": 2.0, "alpha": 0.2, "beta": 0.5, "U_m": 1000.0}
+    >>> found = derive(geometry(**length, **gas, **fluid))
+    >>> [round(v, 2) for v in (found.k_nom, found.c_vis, found.sigma, found.preload)]
+    [250.0, 85.94, 12.0, 25.0]
     """
     check(geometry, file=file)
     return Derived(
@@ -129,6 +136,9 @@ def gas_pressure(geometry: Geometry, x: Array) -> Array:
     x : (n,) deflection [m], positive in compression.  Returns (n,) [Pa].
     Raises InputProblem where the shaft displaces all the gas.
     Check: half the volume displaced, gamma = 1: twice P_0; gamma = 1.4: 2^1.4 = 2.639 times.
+    >>> half = np.array([0.5])  # of V_0 / A_s
+    >>> [gas_pressure(geometry(gamma=gamma), half).round(3).tolist() for gamma in (1.0, 1.4)]
+    [[2.0], [2.639]]
     """
     left = 1.0 - geometry.A_s * x / geometry.V_0
     if np.any(left <= 0):
@@ -145,7 +155,10 @@ def flow(geometry: Geometry, xdot: Array) -> Array:
 
     Remark 1 takes the flow as "equivalent to" the velocity; the area between them is kept here.
 
-    xdot : (n,) [m/s].  Returns (n,) [m^3/s].  Check: 3 cm^2, 0.1 m/s give 3e-5 m^3/s.
+    xdot : (n,) [m/s].  Returns (n,) [m^3/s].
+    Check: 3.5 less 0.5 cm^2, 0.1 m/s give 3e-5 m^3/s.
+    >>> flow(geometry(A_p=3.5e-4, A_s=0.5e-4), np.array([0.1])).round(9).tolist()
+    [3e-05]
     """
     Q: Array = (geometry.A_p - geometry.A_s) * xdot
     return Q
@@ -159,7 +172,10 @@ def field(geometry: Geometry, duty: Array) -> Array:
     Eq. 10 has E = -U / d_e, and Eq. 11 raises it to a fractional power, which is complex. A yield
     stress does not depend on the polarity: |E| is meant.
 
-    duty : (n,) [1].  Returns (n,) [V/m].  Check: 20 % of 5 kV over 1 mm is 1e6 V/m.
+    duty : (n,) [1].  Returns (n,) [V/m].
+    Check: 20 % of 5 kV over 1 mm is 1e6 V/m.
+    >>> field(geometry(U_m=5000.0, d_e=1e-3), np.array([0.2])).round(3).tolist()
+    [1000000.0]
     """
     E: Array = np.abs(voltage(duty, geometry.U_m)) / geometry.d_e
     return E
@@ -170,6 +186,8 @@ def yield_stress(geometry: Geometry, E: Array) -> Array:
 
     E : (n,) [V/m].  Returns (n,) [Pa].
     Check: alpha = 0.2 Pa (m/V)^0.5, beta = 0.5, 1e6 V/m give 200 Pa.
+    >>> yield_stress(geometry(alpha=0.2, beta=0.5), np.array([1e6])).round(9).tolist()
+    [200.0]
     """
     tau_y: Array = geometry.alpha * np.abs(E) ** geometry.beta
     return tau_y
@@ -186,7 +204,10 @@ def pressure_drop(geometry: Geometry, Q: Array, tau_y: Array) -> Array:
 
     Q : (n,) [m^3/s];  tau_y : (n,) [Pa].  Returns (n,) [Pa].
     Check: mu = 0.05 Pa s, L_d = 0.1 m, d = 1 mm, R_d = 1 cm, Q = pi 1e-5 m^3/s: 0.03 / 1e-11 *
-    1e-5 = 3e4 Pa; tau_y = 200 Pa with c = 2: 4e4 Pa more.
+    1e-5 = 3e4 Pa; tau_y = 200 Pa with c = 2: 4e4 Pa more, 7e4.
+    >>> g = geometry(mu=0.05, L_d=0.1, d=1e-3, R_d=0.01, c=2.0)
+    >>> pressure_drop(g, np.full(2, np.pi * 1e-5), np.array([0.0, 200.0])).round(6).tolist()
+    [30000.0, 70000.0]
     """
     g = geometry
     drop: Array = _resistance(g) * Q + g.c * g.L_d / g.d * tau_y * np.sign(Q)
@@ -203,7 +224,10 @@ def static_force(geometry: Geometry, x: Array, xdot: Array, duty: Array) -> Arra
     carries p_atm A_s of it, is left out as in the paper.
 
     x, xdot, duty : (n,) [m], [m/s], [1].  Returns (n,) [N].
-    Check: x = xdot = 0 gives P_0 A_s.
+    Check: x = xdot = 0 gives P_0 A_s, 5 bar on 0.5 cm^2 or 25 N.
+    >>> at_rest = np.zeros(1)
+    >>> static_force(geometry(P_0=5e5, A_s=0.5e-4), at_rest, at_rest, at_rest).round(9).tolist()
+    [25.0]
     """
     g = geometry
     drop = pressure_drop(g, flow(g, xdot), yield_stress(g, field(g, duty)))
@@ -219,8 +243,12 @@ def viscous_damping(geometry: Geometry) -> float:
     Below Eq. 13 the paper gives it without the area, [Pa s/m^3], and Table 2 in N s/m^2; in both
     it multiplies a velocity to give a force.
 
-    Returns [N s/m].  Check: mu = 0.05 Pa s, L_d = 0.1 m, d = 1 mm, R_d = 1 cm, A_p - A_s =
-    3 cm^2: 0.03 * 9e-8 / (pi 1e-11) = 270 / pi = 85.94.
+    Returns [N s/m].
+    Check: mu = 0.05 Pa s, L_d = 0.1 m, d = 1 mm, R_d = 1 cm, A_p - A_s = 3 cm^2:
+    0.03 * 9e-8 / (pi 1e-11) = 270 / pi = 85.94.
+    >>> g = geometry(mu=0.05, L_d=0.1, d=1e-3, R_d=0.01, A_p=3.5e-4, A_s=0.5e-4)
+    >>> round(viscous_damping(g), 2)
+    85.94
     """
     return _resistance(geometry) * (geometry.A_p - geometry.A_s) ** 2
 
@@ -233,8 +261,12 @@ def full_yield_force(geometry: Geometry) -> float:
     Eq. 11 has (-U_m / d_e)^beta, complex for a fractional beta; see `field`. Table 2 prints no
     unit, and Eqs. 19, 27 and 35 call it delta.
 
-    Returns [N].  Check: A_p - A_s = 3 cm^2, c = 2, L_d / d = 100, alpha = 0.2, beta = 0.5, 1e6 V
-    per m: 3e-4 * 200 * 200 = 12.
+    Returns [N].
+    Check: A_p - A_s = 3 cm^2, c = 2, L_d / d = 100, alpha = 0.2, beta = 0.5, 1e6 V per m:
+    3e-4 * 200 * 200 = 12.
+    >>> g = geometry(A_p=3e-4, A_s=0.0, c=2.0, L_d=0.1, d=1e-3, alpha=0.2, beta=0.5, U_m=1e6)
+    >>> round(full_yield_force(g), 9)
+    12.0
     """
     g = geometry
     sigma: float = (g.A_p - g.A_s) * g.c * g.L_d / g.d * g.alpha * (g.U_m / g.d_e) ** g.beta
@@ -246,8 +278,10 @@ def gas_stiffness(geometry: Geometry) -> float:
 
         k_nom = gamma P_0 A_s^2 / V_0
 
-    Returns [N/m].  Check: gamma = 1.4, 5 bar, A_s = 0.5 cm^2, V_0 = 7 cm^3: 1.4 * 5e5 * 2.5e-9 /
-    7e-6 = 250.
+    Returns [N/m].
+    Check: gamma = 1.4, 5 bar, A_s = 0.5 cm^2, V_0 = 7 cm^3: 1.4 * 5e5 * 2.5e-9 / 7e-6 = 250.
+    >>> round(gas_stiffness(geometry(gamma=1.4, P_0=5e5, A_s=0.5e-4, V_0=7e-6)), 9)
+    250.0
     """
     return geometry.gamma * geometry.P_0 * geometry.A_s**2 / geometry.V_0
 
@@ -256,6 +290,8 @@ def preload(geometry: Geometry) -> float:
     """Static force of the gas at x = 0, P_0 A_s [N], which Eq. 14 leaves out.
 
     Check: 5 bar on 0.5 cm^2 is 25 N.
+    >>> round(preload(geometry(P_0=5e5, A_s=0.5e-4)), 9)
+    25.0
     """
     return geometry.P_0 * geometry.A_s
 
@@ -263,7 +299,10 @@ def preload(geometry: Geometry) -> float:
 def voltage(duty: Array, U_m: float = FULL_SCALE_VOLTAGE) -> Array:
     """Voltage at a duty cycle, U = U_m v (Table 1).
 
-    duty : (n,) [1];  U_m : [V].  Returns (n,) [V].  Check: 40 % of 5 kV is 2 kV.
+    duty : (n,) [1];  U_m : [V].  Returns (n,) [V].
+    Check: 40 % of 5 kV is 2 kV.
+    >>> voltage(np.array([0.4])).tolist()
+    [2000.0]
     """
     U: Array = U_m * duty
     return U

@@ -16,7 +16,7 @@ from erdctl.core.recording import Array, Index
 LIMIT = 300.0
 # Above this decay a step, segments would be so short that doubling costs less.
 FAST = 0.5
-GONE = 1e-30  # of a decay: no longer seen beside any sum, and kept out of slow denormal numbers
+GONE = 1e-30  # of a decay: lost in any sum, and kept out of slow denormal numbers
 
 
 def first_order(exponent: Array | float, source: Array, initial: Array, starts: Index) -> Array:
@@ -34,6 +34,9 @@ def first_order(exponent: Array | float, source: Array, initial: Array, starts: 
     stays at machine precision.
 
     Check: e = ln 2, source = 1, y[0] = 0 gives 0, 1, 1.5, 1.75.
+    >>> starts = np.array([0, 4])
+    >>> first_order(np.log(2.0), np.ones(4), np.zeros(1), starts).round(9).tolist()
+    [0.0, 1.0, 1.5, 1.75]
     """
     out = np.empty_like(source)
     for record, (a, b) in enumerate(pairwise(starts.tolist())):
@@ -66,8 +69,13 @@ def follow(
     target : (n,);  exponent : (n,) or one number, the step in s;  initial, starts : as above
     turns : (k,) samples before the steps in which the target jumps, before, after : (k,) parts of
     the exponent on either side of the jump
-    Returns (n,), exact.  Check: target -1, 1, 1, steps of 2 s, the jump in the middle of the first,
-    y[0] = -1: y = -1 + 2 (1 - exp(-1)) = 0.2642 as that step ends.
+    Returns (n,), exact.
+    Check: target -1, 1, 1, steps of 2 in s, the jump in the middle of the first, y[0] = -1:
+    y = -1 + 2 (1 - exp(-1)) = 0.2642 as that step ends.
+    >>> target, one = np.array([-1.0, 1.0, 1.0]), np.ones(1)
+    >>> y = follow(target, 2.0, np.array([0]), one, one, -one, np.array([0, 3]))
+    >>> y[:2].round(4).tolist()
+    [-1.0, 0.2642]
     """
     e = np.maximum(exponent, 1e-300)  # the step at the end of a record is 0, and not used
     gone = -np.expm1(-e)

@@ -71,6 +71,8 @@ def field_law(duty: Array, beta: float) -> Array:
 
     duty : (n,) v [1];  beta : [1] > 0.  Returns (n,) [1].
     Check: v = 0.25, beta = 0.5 gives 0.5.
+    >>> field_law(np.array([0.25, 0.0]), 0.5).tolist()
+    [0.5, 0.0]
 
     Duty is usually held over long stretches, and a power costs far more than a comparison: each
     stretch is computed once.
@@ -108,6 +110,9 @@ def yield_force(
     value of its first sample.
 
     Check: u = 0 then 1, T_d = 43 ms: F = 1 - exp(-1) = 0.6321 at 43 ms after the step.
+    >>> u, s = np.array([0.0, 1.0, 1.0]), signals(np.ones(3), step=0.043)
+    >>> yield_force(s, u, u, 0.043, 0.043).round(4).tolist()
+    [0.0, 0.0, 0.6321]
     """
     up = signals.compressing
     target = compression if release is compression else np.where(up, compression, release)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from typing import Any
 
+from erdctl import __version__
+from erdctl.core.recording import Recording
 from erdctl.model.composed import Model
 
 
@@ -58,3 +60,22 @@ class Parameters:
             if not e.identified:
                 by_reason.setdefault(e.reason or "no value given", []).append(name)
         return [f"not identified: {', '.join(names)}: {why}" for why, names in by_reason.items()]
+
+
+def provenance(recording: Recording, noise_rms: float) -> dict[str, Any]:
+    """Where an estimate comes from: version, logs, what they covered, noise. No date, so that
+    the same logs give the same file."""
+
+    def ends(channel: str) -> list[float]:
+        values = getattr(recording, channel)
+        return [float(values.min()), float(values.max())]
+
+    return {
+        "erdctl": __version__,
+        "logs": [asdict(source) for source in recording.sources],
+        "records": len(recording.names),
+        "samples": len(recording),
+        "ranges": {name: ends(name) for name in ("x", "xdot", "duty")},
+        "xdot": recording.xdot_note,
+        "noise_rms": noise_rms,
+    }

@@ -38,6 +38,10 @@ def play(
     Check: gap 2.2 m, steps of 1 s, xdot = 1, 1, -1, -1, -1, -1 m/s. The rod turns at 1.5 s,
     is 0.25 m back at 2 s, 1.25 m at 3 s and meets the other flank at 3.95 s: q = 1.1, 1.1, 0.85,
     -0.15, -1.1, -1.1, engaged 1, 1, 0, 0, 0.75, 1.
+    >>> s = signals([1.0, 1.0, -1.0, -1.0, -1.0, -1.0], step=1.0)
+    >>> found = play(s.xdot, s.step, s.starts, s.compressing, s.rests, 2.2)
+    >>> [a.round(9).tolist() for a in found]
+    [[1.1, 1.1, 0.85, -0.15, -1.1, -1.1], [1.0, 1.0, 0.0, 0.0, 0.75, 1.0]]
     """
     n = len(xdot)
     lost, engaged = np.empty(n), np.empty(n)
@@ -99,6 +103,9 @@ def rate_limited(target: Array, step: Array, starts: Index, rate: float) -> Arra
     Check: target 0, 1, 1, 1, steps of 1 s, rate 0.4 / s: y begins the last
     three steps at 0, 0.4, 0.8 and is 1 half-way through the last: means 0, 0.2, 0.6 and
     (0.9 + 1) / 2 = 0.95.
+    >>> target = np.array([0.0, 1.0, 1.0, 1.0])
+    >>> rate_limited(target, np.ones(4), np.array([0, 4]), 0.4).round(9).tolist()
+    [0.0, 0.2, 0.6, 0.95]
     """
     out = np.empty(len(target))
     for r in range(len(starts) - 1):
@@ -132,7 +139,11 @@ def fading(
     a_v, a_y : [1/J] >= 0;  tau : [s] > 0.  Returns f_v and f_y, (n,) each. Power is held over a
     step, the decay of h is exact.
     Check: viscous 10 N, no yield force, 1 m/s, a step of 0.1 s, a_v = ln 2 / J, tau very long:
-    h = 1 J after one step, f_v = 0.5; 1.5 J after two.
+    h = 1 J after one step, f_v = 0.5; 1.5 J after two, f_v = 2^-1.5 = 0.3536.
+    >>> s, force, none = signals(np.ones(3), step=0.1), np.full(3, 10.0), np.zeros(3)
+    >>> f_v, f_y = fading(force, none, s.xdot, s.step, s.starts, np.log(2.0), 0.0, 1e9)
+    >>> f_v.round(4).tolist(), f_y.tolist()
+    ([1.0, 0.5, 0.3536], [1.0, 1.0, 1.0])
     """
     n = len(xdot)
     f_v, f_y = np.empty(n), np.empty(n)
@@ -159,6 +170,10 @@ def forming(
     compressing : (n,) direction;  before : (n,) part of a step that passes before the turn in it
     step, falls : (n,) [s], [1];  starts : (r + 1,).  Returns (n,) [N], steady as a record begins.
     Check: u = 1 then 0 N, T_d = 10 ms, falls = 2: exp(-1) = 0.3679 N after 20 ms.
+    >>> u, step, falls = np.array([1.0, 0.0, 0.0]), np.full(3, 0.02), np.full(3, 2.0)
+    >>> up, none, starts = np.ones(3, dtype=bool), np.zeros(3), np.array([0, 3])
+    >>> forming(u, u, up, none, step, starts, 0.01, 0.01, falls).round(4).tolist()
+    [1.0, 1.0, 0.3679]
     """
     out = np.empty(len(u_c))
     # Steps are mostly alike, and an exponential costs more than all the rest.

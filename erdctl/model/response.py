@@ -8,11 +8,23 @@ from typing import NamedTuple
 
 import numpy as np
 
+from erdctl.core.errors import IncompatibleEffects
 from erdctl.core.recording import COMPRESSION, RELEASE, Array
 from erdctl.core.signals import Signals
 from erdctl.model import paper
-from erdctl.model.effect import Effect, Slot, Values, in_slot
+from erdctl.model.checked import GROUPS
+from erdctl.model.effect import Effect, in_slot
 from erdctl.model.paper import pair
+from erdctl.model.slots import (
+    ChannelSlot,
+    FeedbackSlot,
+    ScaleSlot,
+    SeriesSlot,
+    SignSlot,
+    Values,
+    ViscousSlot,
+    YieldSlot,
+)
 
 Factors = Mapping[str, Array]
 
@@ -70,9 +82,9 @@ class Prepared:
     def _fed_back(self, values: Values, factors: Factors | None) -> Factors:
         """(n,) factors of groups, with those that depend on the forces themselves."""
         factors = multiplied(self.scale, factors or {})
-        for effect in in_slot(self.effects, Slot.FEEDBACK):
+        for effect, feedback in in_slot(self.effects, FeedbackSlot):
             out = self._parts(values, factors)
-            back: Factors = effect.act(out, self.signals, effect.local(values))
+            back = feedback(out, self.signals, effect.local(values))
             factors = multiplied(factors, back)
         return factors
 
@@ -123,33 +135,32 @@ class Prepared:
         return [
             (e.key(q.symbol), row)
             for e in self.effects
-            if e.columns is not None
             for q, row in zip(
-                e.amplitudes, e.columns(self.signals, e.local(self.values)), strict=True
+                e.amplitudes, e.added(self.signals, e.local(self.values)), strict=True
             )
         ]
 
     def _signed_yield(self, compression: Array, release: Array) -> Array:
         force = self.yield_state(compression, release) * self.sign
-        for effect in in_slot(self.effects, Slot.YIELD):
-            force = effect.act(force, self.signals, effect.local(self.values))
+        for effect, law in in_slot(self.effects, YieldSlot):
+            force = law(force, self.signals, effect.local(self.values))
         return force
 
     def _recorded(self, column: Array) -> Array:
-        for effect in in_slot(self.effects, Slot.CHANNEL):
-            column = effect.act(column, self.signals, effect.local(self.values))
+        for effect, channel in in_slot(self.effects, ChannelSlot):
+            column = channel(column, self.signals, effect.local(self.values))
         return column
 
-    def _springs(self, values: Values) -> list[tuple[Effect, float]]:
-        """The effect that puts a compliance in series, if any does, and its compliance [m/N]."""
-        springs = [(e, float(e.act(e.local(values)))) for e in in_slot(self.effects, Slot.SERIES)]
-        springs = [(e, compliance) for e, compliance in springs if compliance > 0.0]
+    def _springs(self, values: Values) -> list[tuple[SeriesSlot, float]]:
+        """The slot that puts a compliance in series, if any does, and its compliance [m/N]."""
+        all_ = [(slot, slot(e.local(values))) for e, slot in in_slot(self.effects, SeriesSlot)]
+        springs = [(slot, compliance) for slot, compliance in all_ if compliance > 0.0]
         if len(springs) > 1:
-            raise ValueError("only one compliance can be in series")
+            raise IncompatibleEffects("only one compliance can be in series")
         return springs
 
     def _total_behind_spring(
-        self, values: Values, factors: Factors, spring: Effect, compliance: float
+        self, values: Values, factors: Factors, spring: SeriesSlot, compliance: float
     ) -> Array:
         """(n,) what `_behind_spring` adds up to, without taking it apart."""
         force = self._march(values, factors, spring, compliance).force
@@ -161,12 +172,12 @@ class Prepared:
         return force
 
     def _outside(self, *, inner: bool) -> Sequence[tuple[str, Array]]:
-        """Terms that act beside the spring; behind one of all forces are those of speed alone."""
+        """Terms in parallel with the spring; behind one of all forces are those of speed alone."""
         inside = {e.key(q.symbol) for e in self.effects if e.of_speed for q in e.amplitudes}
         return [(name, row) for name, row in self.terms() if not (inner and name in inside)]
 
     def _march(
-        self, values: Values, factors: Factors, spring: Effect, compliance: float
+        self, values: Values, factors: Factors, spring: SeriesSlot, compliance: float
     ) -> _Behind:
         """The spring and what moves behind it.
 
@@ -181,7 +192,7 @@ class Prepared:
         if not inner:
             friction = np.zeros_like(friction)
         ones = np.ones(len(s))
-        gain = {g: factors.get(g, ones) for g in ("gas", "viscous", "yield")}
+        gain = {g: factors.get(g, ones) for g in GROUPS}
         u_c, u_r = (f * s_ for f, s_ in zip(self.fields, pair(values, "sigma"), strict=True))
         k = pair(values, "k_nom") if inner else (0.0, 0.0)
         T = [max(T_d, 1e-9) for T_d in pair(values, "T_d")]
@@ -196,7 +207,7 @@ class Prepared:
         return _Behind(force, stretch, v, grid, viscous, friction, gain)
 
     def _behind_spring(
-        self, values: Values, factors: Factors, spring: Effect, compliance: float
+        self, values: Values, factors: Factors, spring: SeriesSlot, compliance: float
     ) -> dict[str, Array]:
         """Forces by group with a compliance [m/N] in series with the groups that it carries."""
         from erdctl.model.series_compliance import along
@@ -227,26 +238,28 @@ class Prepared:
         speeds = np.concatenate([grid, -grid])
         s = Signals(zero, zero, speeds, zero, zero, np.array([0, len(speeds)]))
 
-        def law(slot: Slot, plain: Array) -> Array:
-            for e in in_slot(self.effects, slot):
-                if not e.of_speed:
-                    raise ValueError(f"{e.name} cannot act behind a spring: no law of speed alone")
-                plain = e.act(s, e.local(values))
+        def law(kind: type[ViscousSlot] | type[SignSlot], plain: Array) -> Array:
+            for e in self.effects:
+                if isinstance(e.slot, kind):
+                    if not e.of_speed:
+                        raise IncompatibleEffects(
+                            f"{e.name} cannot act behind a spring: no law of speed alone"
+                        )
+                    plain = e.slot(s, e.local(values))
             return plain.reshape(2, -1)
 
         friction = np.zeros(len(speeds))
         for e in self.effects:
-            if e.columns is not None and e.of_speed:
-                rows = e.columns(s, e.local(values))
-                for q, row in zip(e.amplitudes, rows, strict=True):
-                    friction += values[e.key(q.symbol)] * row
-        if in_slot(self.effects, Slot.YIELD):
-            raise ValueError("a yield force with memory cannot act behind a spring")
-        one = np.ones(len(speeds))
-        viscous, sign = law(Slot.VISCOUS, speeds), law(Slot.SIGN, np.sign(speeds))
-        for e in in_slot(self.effects, Slot.SCALE):
             if e.of_speed:
-                factors = e.act(s, e.local(values))
+                for q, row in zip(e.amplitudes, e.added(s, e.local(values)), strict=True):
+                    friction += values[e.key(q.symbol)] * row
+        if in_slot(self.effects, YieldSlot):
+            raise IncompatibleEffects("a yield force with memory cannot act behind a spring")
+        one = np.ones(len(speeds))
+        viscous, sign = law(ViscousSlot, speeds), law(SignSlot, np.sign(speeds))
+        for e, scale in in_slot(self.effects, ScaleSlot):
+            if e.of_speed:
+                factors = scale(s, e.local(values))
                 viscous = viscous * factors.get("viscous", one).reshape(2, -1)
                 sign = sign * factors.get("yield", one).reshape(2, -1)
         return viscous, sign, friction.reshape(2, -1)

@@ -101,6 +101,10 @@ def advanced(
 
     was, now : direction before and after, +1 or -1;  goal_c, goal_r : targets of either
     Check: F = 0, goal 1 N, h = T_d, no turn gives 1 - 1/e = 0.632 N.
+    >>> side, p = Side(k_nom=0.0, c_vis=0.0, T_d=0.04, sigma=1.0, beta=1.0), Physics()
+    >>> fade = fades(0.04, side, side, p)
+    >>> round(advanced(0.0, 1.0, 1.0, 0.1, 0.1, 1.0, 1.0, 0.04, fade, side, side, p), 3)
+    0.632
     """
     if h == 0.0:
         return F

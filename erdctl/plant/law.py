@@ -19,6 +19,9 @@ def gas(x: float, side: Side, p: Physics) -> float:
 
     P_0 A_s ((1 - x/L)^-n - 1) with P_0 A_s = k L / n, so that k stays the stiffness at x = 0.
     Check: k = 100 N/m, L = 0.1 m, n = 1, x = 0.05 m gives 100 * 0.1 * (2 - 1) = 10 N.
+    >>> side, p = Side(100.0, 0.0, 0.0, 0.0, 1.0), Physics(closing=10.0, polytropic=1.0)
+    >>> round(gas(0.05, side, p), 9)
+    10.0
     """
     if p.closing == 0.0:
         return side.k_nom * x
@@ -40,7 +43,11 @@ def stops(x: float, p: Physics) -> float:
 def viscous(x: float, v: float, side: Side, p: Physics) -> float:
     """Loss in the duct [N]: linear, thinned by shear, turbulent; the duct may be tapered.
 
-    c v_ref |v/v_ref|^n sign(v).  Check: c = 10, v_ref = 1, n = 0.5, v = 0.25 m/s gives 5 N.
+    c v_ref |v/v_ref|^n sign(v)
+    Check: c = 10, v_ref = 1, n = 0.5, v = 0.25 m/s gives 5 N.
+    >>> side = Side(0.0, 10.0, 0.0, 0.0, 1.0)
+    >>> viscous(0.0, 0.25, side, Physics(flow_index=0.5, v_ref=1.0))
+    5.0
     """
     if p.flow_index == 1.0:
         linear = side.c_vis * v

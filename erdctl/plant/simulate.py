@@ -83,7 +83,7 @@ def forces(plant: Plant, over: Sequence[Ride]) -> Array:
 def simulate(plant: Plant, record: CampaignRecord, *, refine: int = 1) -> Array:
     """(n,) force of a plant over one record [N].
 
-    Check: xdot > 0 throughout and a duty step from 0 to v: sigma v^beta (1 - exp(-t/T_d)) on top
-    of gas and viscous force.
+    With xdot > 0 throughout and a duty step from 0 to v that is sigma v^beta (1 - exp(-t/T_d)) on
+    top of gas and viscous force, which the plant's tests hold it to.
     """
     return force(plant, ride(record, refine=refine))

@@ -1,24 +1,22 @@
 """The best that could be reached: the true structure, all its parameters fitted to the same log.
 
-It is told what is hidden and where the damper's own parameters lie, so that its search does not
+It is given what is hidden and where the damper's own parameters lie, so that its search does not
 fail where a diagnosis may.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
-import numpy as np
-
-from erdctl.core.blocks import Block, thinned
+from erdctl.core.blocks import thinned
+from erdctl.core.errors import IncompatibleEffects
 from erdctl.core.recording import DIRECTIONS
 from erdctl.core.signals import Signals
 from erdctl.diagnose.problem import Problem, prepare
 from erdctl.diagnose.screening import starts
-from erdctl.estimate.least_squares import fit
+from erdctl.estimate.least_squares import Fitted, fit
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 from erdctl.model.paper import QUANTITIES
@@ -31,18 +29,9 @@ KEPT = 3  # starts that are searched to the end
 Values = Mapping[str, float]
 
 
-@dataclass(frozen=True)
-class Reached:
-    """A fit: weighted mean square on what it was fitted to [N^2]."""
-
-    model: Model
-    values: dict[str, float]
-    cost: float
-
-
 def best_fit(
     problem: Problem, effects: Sequence[Effect], damper: Values, diagnosed: Values
-) -> Reached:
+) -> Fitted:
     """The true structure on a log.
 
     damper : the plant's own paper parameters, to start from
@@ -67,7 +56,7 @@ def acts(effects: Sequence[Effect], signals: Signals) -> bool:
     model = Model(tuple(effects))
     try:
         model.force(signals, _defaults(model))
-    except ValueError:  # how a model refuses effects that cannot act together
+    except IncompatibleEffects:
         return False
     return True
 
@@ -82,7 +71,8 @@ def _guesses(
 ) -> list[dict[str, float]]:
     """Starts for one effect; of a pair only those that do best alone, or there are too many."""
     own = {effect.key(q.symbol) for q in effect.quantities}
-    out = [{effect.key(s): v for s, v in g.items()} for g in starts(effect, problem)]
+    rest = problem.block.force - Model().force(problem.block.signals, damper)
+    out = [{effect.key(s): v for s, v in g.items()} for g in starts(effect, problem, rest)]
     if few:
         alone = _ranked(problem, Model((effect,)), [_joined([damper, g]) for g in out], LOOK)
         out = [{n: v for n, v in r.values.items() if n in own} for r in alone[:KEPT]]
@@ -93,20 +83,16 @@ def _guesses(
 
 def _ranked(
     problem: Problem, model: Model, points: Sequence[Values], evaluations: int
-) -> list[Reached]:
+) -> list[Fitted]:
     """Fits from every point, the best first."""
     fits = [_fitted(problem, model, point, evaluations) for point in points]
     return sorted(fits, key=lambda r: r.cost)
 
 
-def _fitted(problem: Problem, model: Model, point: Values, evaluations: int) -> Reached:
-    block: Block = problem.block
+def _fitted(problem: Problem, model: Model, point: Values, evaluations: int) -> Fitted:
     start = {n: v for n, v in {**_defaults(model), **point, **problem.held}.items()
              if n in model.quantities}  # fmt: skip
-    values, _, _ = fit(model, block, start=start, fixed=problem.held, max_evaluations=evaluations)
-    residual = block.force - model.force(block.signals, values)
-    cost = float(np.average(residual**2, weights=block.weight))
-    return Reached(model, values, cost if np.isfinite(cost) else np.inf)
+    return fit(model, problem.block, start=start, fixed=problem.held, max_evaluations=evaluations)
 
 
 def _defaults(model: Model) -> dict[str, float]:

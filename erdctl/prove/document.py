@@ -15,7 +15,7 @@ from erdctl.prove.run import Outcome
 from erdctl.prove.summary import Summary, summarise
 
 SCHEMA = "erdctl.proof/1"
-DERIVED = ("nrmse_paper", "nrmse_corrected", "nrmse_best", "removed")  # beside the errors of a case
+DERIVED = ("nrmse_paper", "nrmse_corrected", "nrmse_best", "removed")  # added to a case
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,7 @@ class Result:
     hidden : what the key says;  verdict, findings : what the diagnosis said without it
     named : whether the first finding is right, None where nothing of the catalogue is hidden
     matched, spurious, redundant : see `score.Naming`
-    located : None where the misfit lives everywhere
+    located : None where the misfit is everywhere
     flags : what the plant says makes the case unfair or undecidable
     """
 
@@ -57,7 +57,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Failed:
-    """A case that could not be scored; it counts against the proof, and its seed is printed."""
+    """A case that could not be scored; it counts as a miss, and its seed is printed."""
 
     number: int
     seed: int

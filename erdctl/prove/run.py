@@ -32,15 +32,15 @@ def prove(
     Raises ComputationProblem if a worker dies.
     """
     done: dict[int, Outcome] = {}
-    told = 0
+    reported = 0
     # Also for one job: linear algebra rounds otherwise with several threads.
     pool = workers(jobs)
     try:
         for outcome in _outcomes(pool, wish, seeds, folder, jobs, on_sealed):
             done[outcome.number] = outcome
-            while told + 1 in done:
-                told += 1
-                on_outcome(done[told])
+            while reported + 1 in done:
+                reported += 1
+                on_outcome(done[reported])
     except BrokenProcessPool:
         raise ComputationProblem(
             "a worker process was killed, perhaps for want of memory; try --jobs 1"

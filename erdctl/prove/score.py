@@ -1,4 +1,4 @@
-"""What a case's key says of its diagnosis: named, located, how much of the error removed."""
+"""A diagnosis against the key of its case: named, located, and the error reduction reached."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 from erdctl.plant.regions import MOST_WIDTH, MisfitRegion, overlap
 
 OVERLAP = 0.3  # intersection over union from which a region is the true one
-EXTRA = 2  # names beside the first that a finding may hold: at most three in all
+EXTRA = 2  # names after the first that a finding may hold: at most three in all
 BANDS = (2.0, 1.0, 0.2)  # misfit over noise, lower edges, the strongest first
 BAND_NAMES = (">= 2", "1 to 2", "0.2 to 1", "< 0.2")
 
@@ -42,7 +42,7 @@ class Interval:
 
 @dataclass(frozen=True)
 class Errors:
-    """Root mean square errors on the fresh records [N], and what they are held against.
+    """Root mean square errors on the fresh records [N], and the range that scales them.
 
     best : of the true structure refitted on the log, None where erdctl has no such structure
     span : range of the true force [N]
@@ -55,9 +55,11 @@ class Errors:
 
     @property
     def removed(self) -> float | None:
-        """Part of the error removed, of what the true structure would remove.
+        """Attainable reduction: the error removed, over what the true structure, fitted, removes.
 
         Check: paper 5 N, corrected 1.4 N, best 1 N gives 3.6 / 4 = 0.9.
+        >>> round(Errors(paper=5.0, corrected=1.4, best=1.0, span=20.0).removed, 9)
+        0.9
         """
         if self.best is None or self.best >= self.paper:
             return None
@@ -84,7 +86,12 @@ class Naming:
 
 
 def band(level: float) -> str:
-    """Name of the band of a level.  Check: 2.0 is in ">= 2", 1.99 in "1 to 2"."""
+    """Name of the band of a level.
+
+    Check: 2.0 is in ">= 2", 1.99 in "1 to 2".
+    >>> band(2.0), band(1.99)
+    ('>= 2', '1 to 2')
+    """
     for name, edge in zip(BAND_NAMES, BANDS, strict=False):
         if level >= edge:
             return name
@@ -127,7 +134,7 @@ def _paired(findings: Sequence[Found], hidden: Sequence[HiddenEffect]) -> int:
 
 
 def located(places: Sequence[Interval], regions: Sequence[Mapping[str, Any]]) -> bool | None:
-    """Whether a reported place is a true one; None if the misfit lives everywhere.
+    """Whether a reported place is a true one; None if the misfit is everywhere.
 
     The key gives each region's width as a part of the variable's range, which says how wide a
     reported place is: one that covers most of the range points at nothing.

@@ -10,7 +10,7 @@ from statistics import mean, median
 from erdctl.prove.judge import Failed, Result
 from erdctl.prove.score import BAND_NAMES, band
 
-STRONG = 1.0  # misfit over noise from which the part of the error removed is counted
+STRONG = 1.0  # misfit over noise from which the attainable reduction is counted
 
 
 @dataclass(frozen=True)
@@ -31,9 +31,10 @@ class Tally:
     """Rates of a group of cases; a rate of nothing where a question does not arise.
 
     named : first finding right;  wrong : first finding wrong
-    all_found : every hidden effect has its finding;  spurious : findings a case that match nothing
+    all_found : every hidden effect has its finding
+    spurious : findings per case that match nothing hidden
     right : verdict as it should be for what is hidden
-    removed : median part of the error removed, of what the true structure would remove
+    removed : attainable reduction: the error removed, over what the true structure removes; median
     """
 
     label: str

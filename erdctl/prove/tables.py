@@ -36,15 +36,19 @@ def tables(s: Summary) -> Iterator[Table]:
 
 def _every(s: Summary) -> Iterator[Table]:
     single = ["misfit over noise", "cases", "named first", "wrong name", "explained", "located",
-              "spurious a case", "error removed"]  # fmt: skip
-    yield "Singles, by the misfit that the paper's model leaves", single, [
+              "spurious per case", "attainable reduction"]  # fmt: skip
+    yield "Single effects, by the misfit of the paper's model over the noise", single, [
         [g.label, str(g.cases), _rate(g.named), _rate(g.wrong), _rate(g.explained),
          _rate(g.located), _digits(g.spurious, 2), _removed(g)]
         for g in s.bands
     ]  # fmt: skip
-    yield "Named first, by effect and misfit over noise", ["", *BAND_NAMES], _by_effect(s)
-    yield "Pairs", ["", "cases", "both found", "first right", "explained", "located",
-                    "spurious a case", "error removed"], [
+    yield (
+        "Single effects named first, by effect and misfit over noise",
+        ["", *BAND_NAMES],
+        _by_effect(s),
+    )
+    yield "Pairs of effects", ["", "cases", "both found", "named first", "explained", "located",
+                    "spurious per case", "attainable reduction"], [
         [g.label, str(g.cases), _rate(g.all_found), _rate(g.named), _rate(g.explained),
          _rate(g.located), _digits(g.spurious, 2), _removed(g)]
         for g in (s.pairs,) if g.cases
@@ -55,18 +59,18 @@ def _every(s: Summary) -> Iterator[Table]:
         [[g.label, str(g.cases), _rate(g.adequate)] for g in s.nulls if g.cases],
     )
     yield "Outside the catalogue", [
-        "", "cases", "unexplained", "a wrong name as the whole story", "adequate", "located"
+        "", "cases", "unexplained", "explained by a wrong name", "adequate", "located"
     ], [
         [g.label, str(g.cases), _rate(g.unexplained), _rate(g.explained), _rate(g.adequate),
          _rate(g.located)]
         for g in (s.unknowns,) if g.cases
     ]  # fmt: skip
     split = ["", "cases", "named first", "all found", "right verdict", "located",
-             "spurious a case"]  # fmt: skip
+             "spurious per case"]  # fmt: skip
     for title, groups in (
-        ("By kind and motion: as it was, or xdot from a noisy, quantised x", s.motions),
-        ("Singles, by concealment", s.concealments),
-        ("Everything", (s.whole,)),
+        ("By kind and motion (measured: xdot from a noisy, quantised x)", s.motions),
+        ("Single effects, by concealment", s.concealments),
+        ("All cases", (s.whole,)),
     ):
         yield title, split, [
             [g.label, str(g.cases), _rate(g.named), _rate(g.all_found), _rate(g.right),
@@ -75,11 +79,11 @@ def _every(s: Summary) -> Iterator[Table]:
         ]  # fmt: skip
     yield (
         "Confusions",
-        ["hidden", "said", "cases", "seeds"],
+        ["hidden", "named", "cases", "seeds"],
         [[c.hidden, c.said, str(len(c.seeds)), " ".join(map(str, c.seeds))] for c in s.confusions],
     )
-    yield "Misses; one alone: the same options with --cases 1 --seed SEED", [
-        "hidden", "seed", "said", "why"
+    yield "Misses (one of them alone: the same options with --cases 1 --seed SEED)", [
+        "hidden", "seed", "named", "why"
     ], [[m.hidden, str(m.seed), m.said, ", ".join(m.why)] for m in s.misses]  # fmt: skip
 
 

@@ -33,7 +33,7 @@ def table(
 ) -> None:
     """A table whose first column is text and whose other columns are numbers.
 
-    bars : values of columns to draw beside them on a terminal, all to one scale; one a row, and NaN
+    bars : values of columns to draw as bars on a terminal, all to one scale; one a row, and NaN
         for a row without
     """
     if QUIET.get():

@@ -28,7 +28,11 @@ def series(values: Array, starts: Index, columns: int = COLUMNS) -> Index:
     as there are no more records than columns.
 
     values : (n,);  starts : (r + 1,) offsets of the records.  Returns indices, ascending.
-    Check: values 0 5 1 9 2 3 in 2 columns: 0 and 3 are the lowest of each, 1 and 3 the highest.
+    Check: values 2 0 1 5 3 2 and 4 4 9 2 3 3, a column each: the ends 0, 5, 6, 11, the lowest 1, 9
+    and the highest 3, 8.
+    >>> values = np.array([2, 0, 1, 5, 3, 2, 4, 4, 9, 2, 3, 3])
+    >>> series(values, np.array([0, 12]), 2).tolist()
+    [0, 1, 3, 5, 6, 8, 9, 11]
     """
     n = len(values)
     per = -(-n // columns)

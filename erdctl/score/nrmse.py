@@ -52,6 +52,9 @@ def nrmse(force: Array, modelled: Array, normalise: Normalise = Normalise.RANGE)
     force, modelled : (n,) [N], n >= 1
     NRMSE is 0 for no error and infinite for an error on a force without range.
     Check: force 0, 2 and model 0, 0: rms = sqrt(2) = 1.41421, over the range 2 is 0.70711.
+    >>> found = nrmse(np.array([0.0, 2.0]), np.zeros(2))
+    >>> round(found.rms, 5), round(found.nrmse, 5)
+    (1.41421, 0.70711)
     """
     error = force - modelled
     rms = float(np.sqrt(np.mean(error * error)))
@@ -75,6 +78,9 @@ def duty_levels(duty: Array) -> tuple[Codes, Array]:
     A level is a duty to 0.01. A log with more than MAX_LEVELS of them has a continuous control: a
     level is then the middle of a bin of 0.05, and 0 stays a level of its own.
     Check: 0.3, 0, 0.302 gives levels 0, 0.3 and codes 1, 0, 1.
+    >>> codes, levels = duty_levels(np.array([0.3, 0.0, 0.302]))
+    >>> levels.tolist(), codes.tolist()
+    ([0.0, 0.3], [1, 0, 1])
     """
     percent = np.empty(len(duty), dtype=np.int16)
     seen = np.zeros(101, dtype=np.intp)

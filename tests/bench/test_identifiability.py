@@ -155,7 +155,7 @@ def unmet(r: Recording) -> list[Check]:
 
 @pytest.mark.parametrize("name", LOGS)
 def test_the_drive_that_is_named_shows_it(name: str) -> None:
-    """Recorded beside the log, the drives leave nothing of what was missing."""
+    """Recorded in addition to the log, the drives leave nothing of what was missing."""
     r = LOGS[name]()
     specs = list(dict.fromkeys(c.drive for c in unmet(r)))
     if not specs:

@@ -246,6 +246,7 @@ def test_the_two_step_fit_on_request() -> None:
     assert document["release"]["sigma"]["value"] == steps["release.sigma"]
 
 
+@pytest.mark.real_data
 def test_real_recording_end_to_end() -> None:
     log = real("mr_sine.parquet", SHARED)
     run = erdctl("identify", log)

@@ -44,4 +44,4 @@ def test_the_document_is_the_same_for_any_number_of_jobs() -> None:
 def test_effects_that_cannot_act_together_are_no_trial() -> None:
     both = tuple(get(name) for name in ("preyield_viscosity", "yield_hysteresis"))
     problem = prepare(rubbing())
-    assert Executor([problem]).run(problem, [Task("pairs", both, ({},))]) == [None]
+    assert Executor([problem]).fit(problem, [Task("pairs", both, ({},))]) == [None]

@@ -15,9 +15,10 @@ import pytest
 from rig import TRUTH, campaign, noisy
 
 from erdctl.core.recording import Recording
+from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Verdict, diagnose
 from erdctl.effects import get
-from erdctl.io.diagnosis import parameters, to_json
+from erdctl.io.diagnosis import to_json
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Estimate, Parameters

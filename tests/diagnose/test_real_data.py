@@ -22,6 +22,8 @@ from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.effects import catalogue
 from erdctl.score.nrmse import Normalise, nrmse
 
+pytestmark = pytest.mark.real_data
+
 MOST = 20_000  # samples of a log for a diagnosis; the prediction is of all samples
 EFFECTS = 3  # at most; the five of the command predict better still, and take twice as long
 

@@ -11,12 +11,13 @@ from rig import campaign, noisy
 
 from erdctl import plant
 from erdctl.core.recording import Recording
+from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
 from erdctl.diagnose.problem import prepare
 from erdctl.diagnose.record_effects import RecordEffects, Varying, estimate, shrunk
 from erdctl.effects import get
 from erdctl.io import documents
-from erdctl.io.diagnosis import parameters, to_json
+from erdctl.io.diagnosis import to_json
 
 FEW = ("coulomb_friction", "quadratic_damping", "preyield_viscosity", "position_dependent_damping")
 SEED, EFFECT, LEVEL = 28, "quadratic_damping", 3.0  # a short campaign; misfit over noise

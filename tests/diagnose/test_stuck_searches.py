@@ -8,14 +8,15 @@ import numpy as np
 import pytest
 from rig import campaign, noisy
 
+from erdctl.diagnose.backward_step import without_each
 from erdctl.diagnose.executor import Executor
-from erdctl.diagnose.forward_step import Explored, key_of, with_effect
-from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis, fresh_start
+from erdctl.diagnose.forward_step import Exploration, Explored, key_of, with_effect
+from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem, prepare
 from erdctl.diagnose.screening import Candidate
-from erdctl.diagnose.search import _without_each
 from erdctl.effects import get
 from erdctl.estimate.least_squares import SHORTEST, at_bound
+from erdctl.estimate.starts import fresh_start
 from erdctl.model.paper import QUANTITIES
 
 FRICTION = get("coulomb_friction")
@@ -44,7 +45,7 @@ def test_a_parameter_at_its_bound_is_known() -> None:
     assert not at_bound(beta, 0.4)
 
 
-def test_what_is_added_to_a_cornered_model_also_starts_afresh(problem: Problem) -> None:
+def test_what_is_added_to_a_model_at_a_bound_also_starts_afresh(problem: Problem) -> None:
     candidate = Candidate(FRICTION, 0.1, ({},))
     cornered = no_steps(problem)
     free = replace(cornered, values={**cornered.values, **fresh_start(0.03, 0.5)})
@@ -57,10 +58,11 @@ def test_a_smaller_model_is_searched_for_from_where_the_larger_ended(problem: Pr
     base = no_steps(problem)
     larger = fit_hypothesis(problem, (FRICTION,), [fresh_start(0.05, 0.4)])
     seen = Explored([base, larger])
-    (lesser,) = _without_each(problem, base, larger, seen, Executor([problem]))
+    search = Exploration(problem, base, seen, Executor([problem]))
+    (lesser,) = without_each(search, larger)
     assert lesser.score < 0.8 * base.score
     assert seen[key_of(base.effects)] is lesser
     assert lesser.score == pytest.approx(larger.score, rel=0.02)  # nothing rubs in this log
     assert np.ptp(lesser.residual) < np.ptp(base.residual)
-    (again,) = _without_each(problem, base, larger, seen, Executor([problem]))
+    (again,) = without_each(search, larger)
     assert again is lesser

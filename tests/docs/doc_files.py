@@ -25,7 +25,7 @@ def copy(name: str) -> Make:
 
 
 def bench(*records: str) -> Make:
-    """Records of the campaign at 125 Hz, as CSV or Parquet; with a lab's names beside the own."""
+    """Records of the campaign at 125 Hz, as CSV or Parquet; with a lab's own names, too."""
 
     def make(path: Path) -> None:
         log = pd.read_parquet(FIXTURES / "healthy_campaign.parquet")

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from by_hand import signals
 
-from erdctl.core.recording import Array, Recording
+from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.effects import get
 from erdctl.model.composed import Model
@@ -22,30 +23,6 @@ PLAIN = {
 }  # fmt: skip
 
 
-def signals(
-    xdot: Sequence[float] | Array,
-    *,
-    x: Sequence[float] | Array | None = None,
-    duty: Sequence[float] | Array | float = 0.0,
-    step: float = 0.01,
-    t: Array | None = None,
-    starts: Sequence[int] | None = None,
-) -> Signals:
-    """Signals from a velocity; x is 0 and the sampling even unless given."""
-    v = np.asarray(xdot, dtype=float)
-    n = len(v)
-    bounds = [0, n] if starts is None else list(starts)
-    recording = Recording(
-        t=np.arange(n) * step if t is None else t,
-        x=np.zeros(n) if x is None else np.asarray(x, dtype=float),
-        xdot=v,
-        duty=np.broadcast_to(np.asarray(duty, dtype=float), v.shape).copy(),
-        starts=np.array(bounds, dtype=np.intp),
-        names=tuple(str(i) for i in range(len(bounds) - 1)),
-    )
-    return Signals.of(recording)
-
-
 def sine(
     frequency: float, amplitude: float, duration: float, rate: float, duty: float = 0.0
 ) -> Signals:
@@ -58,14 +35,13 @@ def sine(
 
 def act(name: str, *arguments: Any) -> Any:
     """What the function of one effect returns."""
-    return get(name).act(*arguments)
+    slot: Any = get(name).slot
+    return slot(*arguments)
 
 
 def unit_forces(name: str, s: Signals, p: Mapping[str, float]) -> Array:
     """The columns of one effect."""
-    columns = get(name).columns
-    assert columns is not None
-    return columns(s, p)
+    return get(name).added(s, p)
 
 
 def force(name: str, s: Signals, p: Mapping[str, float], **changed: float) -> Array:

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from functools import cache
 from importlib import import_module
 from itertools import combinations
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,14 +18,16 @@ from hypothesis import strategies as st
 from places import ROOT
 from rig import TRUTH, campaign
 
+from erdctl.core.errors import IncompatibleEffects
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.effects import catalogue
 from erdctl.io.parameters import parse_parameters, to_document
 from erdctl.model.composed import Model, off_values
-from erdctl.model.effect import Effect, Slot, Stage
+from erdctl.model.effect import Effect, Stage
 from erdctl.model.parameters import Estimate, Parameters
+from erdctl.model.slots import FeedbackSlot, ScaleSlot, SeriesSlot, SignSlot, TermSlot, ViscousSlot
 
 CONTRACT = {
     Stage.MOTION: "backlash mount_compliance end_stop time_skew",
@@ -124,7 +127,7 @@ def test_finite_and_stable_for_all_parameters(
     values = TRUTH | {"compression.T_d": T_d, "release.T_d": T_d}
     force = Model((effect,)).force(s, values | chosen)
     assert np.isfinite(force).all()
-    if effect.slot in (Slot.SERIES, Slot.FEEDBACK):
+    if isinstance(effect.slot, SeriesSlot | FeedbackSlot):
         assert np.abs(force).max() <= 1.5 * np.abs(Model().force(s, values)).max()
 
 
@@ -141,7 +144,7 @@ def refusal(model: Model, values: dict[str, float]) -> str:
     """Why a model cannot be computed; empty if it can."""
     try:
         model.force(clean(), values)
-    except ValueError as error:
+    except IncompatibleEffects as error:
         return str(error)
     return ""
 
@@ -239,7 +242,7 @@ def test_declaration_is_complete(effect: Effect) -> None:
         assert q.admits(q.off), q.symbol
         assert np.isfinite(q.off), q.symbol
         assert q.start != q.off or effect.amplitudes or len(effect.quantities) > 1
-    assert effect.of_speed <= (effect.slot in (Slot.SIGN, Slot.VISCOUS, Slot.SCALE, Slot.TERM))
+    assert effect.of_speed <= isinstance(effect.slot, SignSlot | ViscousSlot | ScaleSlot | TermSlot)
 
 
 @every
@@ -272,7 +275,7 @@ def test_of_speed_is_true() -> None:
     for e in CATALOGUE:
         if e.of_speed:
             p = {q.symbol: q.start for q in e.quantities}
-            law = e.columns if e.columns is not None else e.act
+            law: Any = e.added if e.columns is not None else e.slot
             found, plain = law(s, p), law(bare, p)
             if not isinstance(found, dict):
                 found, plain = {"": found}, {"": plain}

@@ -18,7 +18,7 @@ def test_check_value() -> None:
 
 @pytest.mark.parametrize("s_f", [1e-6, 2e-5, 2e-4])
 def test_force_equals_an_ode_solver(s_f: float) -> None:
-    """dF/dt = (xdot - v) / s; v = 0 where |F| < Y, else (F -+ Y) / c; the gas acts beside."""
+    """dF/dt = (xdot - v) / s; v = 0 where |F| < Y, else (F -+ Y) / c; the gas in parallel."""
     k, c, Y = 200.0, 70.0, 20.0 * 0.3**0.5
     frequency, amplitude = 1.5, 0.01
     w = 2 * np.pi * frequency

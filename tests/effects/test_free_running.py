@@ -14,11 +14,12 @@ from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.signals import Signals
 from erdctl.effects import catalogue
 from erdctl.model.composed import Model
-from erdctl.model.effect import Effect, Slot
+from erdctl.model.effect import Effect
+from erdctl.model.slots import FeedbackSlot, SeriesSlot
 
-COUPLED = [e for e in catalogue() if e.slot in (Slot.SERIES, Slot.FEEDBACK)]
-SPRINGS = [e for e in COUPLED if e.slot is Slot.SERIES]
-FEEDBACKS = [e for e in COUPLED if e.slot is Slot.FEEDBACK]
+COUPLED = [e for e in catalogue() if isinstance(e.slot, SeriesSlot | FeedbackSlot)]
+SPRINGS = [e for e in COUPLED if isinstance(e.slot, SeriesSlot)]
+FEEDBACKS = [e for e in COUPLED if isinstance(e.slot, FeedbackSlot)]
 CHOICES = [(e,) for e in COUPLED] + list(product(SPRINGS, FEEDBACKS))
 
 

@@ -152,6 +152,7 @@ def test_search_on_a_part_and_one_step_on_all_reach_the_full_fit(
         assert part.joint[name].value == pytest.approx(e.value, abs=0.5 * (e.stderr or 0)), name
 
 
+@pytest.mark.real_data
 def test_real_magnetorheological_damper() -> None:
     import pyarrow.parquet as pq
 

@@ -15,9 +15,10 @@ from erdctl.effects import catalogue, get
 from erdctl.mimic import Plan, mimic
 from erdctl.model.amplifier import Amplifier
 from erdctl.model.composed import Model
-from erdctl.model.effect import Effect, Slot, Stage
+from erdctl.model.effect import Effect, Stage
 from erdctl.model.faults import parse_fault
 from erdctl.model.parameters import Estimate, Parameters
+from erdctl.model.slots import ChannelSlot
 
 CATALOGUE = catalogue()
 every = pytest.mark.parametrize("effect", CATALOGUE, ids=lambda e: e.name)
@@ -129,7 +130,7 @@ def test_several_faults_and_a_real_amplifier() -> None:
 
 def test_the_channel_of_the_force_is_not_made_up_for() -> None:
     """What only the recording knows leaves the sequence alone, and shows in what is recorded."""
-    channel = [e for e in CATALOGUE if e.slot is Slot.CHANNEL or e.stage is Stage.SENSOR]
+    channel = [e for e in CATALOGUE if isinstance(e.slot, ChannelSlot) or e.stage is Stage.SENSOR]
     assert channel
     for effect in channel:
         alone, found = plan(), plan(effect)

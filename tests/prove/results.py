@@ -36,7 +36,7 @@ def key(*effects: tuple[str, float], kind: str = "single", **more: Any) -> dict[
 
 
 def document(verdict: str, *findings: tuple[str, ...], places: Any = ()) -> dict[str, Any]:
-    """A diagnosis: of each finding its name and those it cannot be told from."""
+    """A diagnosis: of each finding its name and its look-alikes."""
     return {
         "verdict": verdict,
         "mismatch": [{"where": where, "share": 0.8, "text": ""} for where in places],
@@ -48,7 +48,7 @@ def document(verdict: str, *findings: tuple[str, ...], places: Any = ()) -> dict
 
 
 def result(seed: int = 7, **given: Any) -> Result:
-    """A single, named and explained unless told otherwise."""
+    """A single, named and explained unless given otherwise."""
     plain: dict[str, Any] = {
         "number": 1, "seed": seed, "key_sha256": "ab" * 32, "kind": "single",
         "concealment": "unlabelled", "colour": "white", "motion": "exact", "level": 3.0,

@@ -34,7 +34,7 @@ MOST_SPURIOUS = 0.1  # a case
 
 
 def figures(s: Summary) -> dict[str, float | None]:
-    """What is held against LEAST; None where these seeds have no such case."""
+    """What is compared with LEAST; None where these seeds have no such case."""
     nulls = s.nulls[-1]
     singles = Rate(sum(g.explained.hits for g in s.bands), sum(g.cases for g in s.bands))
     return {

@@ -88,7 +88,7 @@ def mapped(maps: list[str]) -> list[str]:
 
 
 def concealed() -> Recording:
-    """Seal friction of RUBBING newton beside the exact model, with 0.3 N of noise."""
+    """Seal friction of RUBBING newton added to the exact model, with 0.3 N of noise."""
     clean = campaign(duration=4.0)
     assert clean.force is not None
     force = clean.force + RUBBING * np.sign(clean.xdot)

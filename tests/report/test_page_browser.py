@@ -222,7 +222,7 @@ def test_zoom_by_button_wheel_and_drag(window: Callable[..., Opened]) -> None:
         ("rubbing", "map-before", "RMS misfit"),
         ("rubbing", "profile-xdot", "mm/s"),
         ("mimic", "duty-fl", "Time"),
-        ("proof", "cases", "said: "),
+        ("proof", "cases", "named: "),
     ],
 )
 def test_values_by_key_and_by_mouse(

@@ -66,7 +66,7 @@ def test_maps_hold_the_misfit_of_their_cells() -> None:
     r = concealed()
     assert r.force is not None
     levels = Levels.of(r)
-    misfit = np.where(r.x > 0, 2.0, np.nan)  # half of the samples have no vote
+    misfit = np.where(r.x > 0, 2.0, np.nan)  # half of the samples have weight zero
     found = misfit_maps(r, levels, {"a": misfit}, noise=0.3)["a"]
     values, counts = np.array(found["values"]), np.array(found["counts"])
     assert counts.sum() == np.isfinite(misfit).sum()

@@ -1,6 +1,6 @@
 """Every figure of the paper: its command from CONTRIBUTING, and what that draws.
 
-The numbers drawn are held against the fixtures' independent solution or plain formulas.
+The numbers drawn are compared with the fixtures' independent solution or plain formulas.
 """
 
 from __future__ import annotations

@@ -67,7 +67,7 @@ def test_the_corrected_loops_are_the_true_ones(made: tuple[Figure, Path]) -> Non
             assert np.count_nonzero(far) > 50
             curve = cKDTree(np.column_stack([rod / 36, force / 35]))
             away, _ = curve.query(np.column_stack([x[far] / 36, y[far] / 35]))
-            # Parts of the panel: hair's breadth after, plainly beside it before.
+            # Parts of the panel: hair's breadth after, plainly off it before.
             if column:
                 assert np.quantile(away, 0.95) < 0.012
             else:

@@ -8,13 +8,9 @@ import numpy as np
 
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem
 from erdctl.model.effect import Variable
-
-HELD = 0.5  # share of the energy that a region must hold
-EXCESS = 0.2  # of that share over its share of the time
-CELLS = 200  # of equal time
-WIDE = 0.6  # of the time: a region that covers more says nothing
 
 UNITS = {
     Variable.XDOT: (1e3, "mm/s"),
@@ -69,7 +65,7 @@ def locate(problem: Problem, square: Array) -> list[Region]:
     found = []
     for variable, values in variables(problem.block.signals, problem.block.force).items():
         region = _interval(variable, values, energy / total, weight / weight.sum())
-        if region is not None and region.time < WIDE:
+        if region is not None and region.time < thresholds.REGION_WIDEST:
             found.append(region)
     return sorted(found, key=lambda r: r.time - r.share)
 
@@ -83,7 +79,9 @@ def _interval(variable: Variable, values: Array, energy: Array, time: Array) -> 
     order = np.argsort(v, kind="stable")
     v, e, w = v[order], e[order], w[order]
     passed = np.cumsum(w)
-    edges = np.unique(v[np.searchsorted(passed, np.linspace(0.0, passed[-1], CELLS + 1)[1:-1])])
+    edges = np.unique(
+        v[np.searchsorted(passed, np.linspace(0.0, passed[-1], thresholds.REGION_CELLS + 1)[1:-1])]
+    )
     edges = np.unique(np.concatenate([[v[0]], edges, [v[-1]]]))
     at = np.searchsorted(v, edges, side="left")
     at[-1] = len(v)
@@ -98,7 +96,7 @@ def _interval(variable: Variable, values: Array, energy: Array, time: Array) -> 
     a, b = int(at[i]), int(at[j])
     low = float(v[0] if a == 0 else 0.5 * (v[a - 1] + v[a]))
     high = float(v[-1] if b == len(v) else 0.5 * (v[b - 1] + v[b]))
-    if share < HELD or share - spent < EXCESS:
+    if share < thresholds.REGION_SHARE or share - spent < thresholds.REGION_EXCESS:
         return None
     return Region(variable, low, high, share, spent, describe(variable, low, high, share))
 

@@ -8,9 +8,8 @@ import numpy as np
 
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem
-
-ALIKE = 0.5  # correlation below which a likeness says nothing
 
 
 @dataclass(frozen=True)
@@ -31,7 +30,7 @@ def resemblance(problem: Problem, misfit: Array) -> Resemblance | None:
         if scale > 0.0:
             found.append(Resemblance(form, float(np.dot(weight, a * b)) / scale))
     best = max(found, key=lambda f: abs(f.correlation), default=None)
-    return best if best is not None and abs(best.correlation) > ALIKE else None
+    return best if best is not None and abs(best.correlation) > thresholds.RESEMBLANCE else None
 
 
 def forms(s: Signals) -> dict[str, Array]:
@@ -45,7 +44,7 @@ def forms(s: Signals) -> dict[str, Array]:
         "the acceleration": s.xddot,
         "the square of the deflection": s.x**2,
     }
-    turning = np.exp(-np.minimum(s.since_reversal, 1e3) / 0.05)
+    turning = np.exp(-np.minimum(s.since_reversal, 1e3) / thresholds.RESEMBLANCE_FADING)
     more = {
         "the direction of motion, fading within 50 ms of a reversal": s.sign * turning,
         "the duty": s.duty,

@@ -14,13 +14,8 @@ from itertools import pairwise
 import numpy as np
 
 from erdctl.core.recording import Array
+from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem
-
-SHARE = 0.1  # of the residual's square that the line must hold
-SHARPER = 50.0  # times the spectrum around it
-AROUND = 401  # bins of the spectrum around it
-BEYOND = 2.0  # times the line in the residual itself: a hum stands in both
-SLOWEST = 10  # bins, below which any slow noise looks like a line
 
 
 @dataclass(frozen=True)
@@ -32,18 +27,19 @@ class SpectralLine:
 
 
 def spectral_line(problem: Problem, residual: Array) -> SpectralLine | None:
-    """The ripple that turns over with the motion in a residual (n,) [N], if there is one."""
+    """The line that turns over with the motion in a residual (n,) [N], if there is one."""
     s = problem.block.signals
-    turned, sharp = _line(problem, residual * s.sign)
+    turned, height = _line(problem, residual * s.sign)
     plain, _ = _line(problem, residual)
-    if turned.share < SHARE or sharp < SHARPER or turned.share < BEYOND * plain.share:
+    if turned.share < thresholds.LINE_SHARE or height < thresholds.LINE_HEIGHT:
         return None
-    return turned
+    return turned if turned.share >= thresholds.LINE_OVER_PLAIN * plain.share else None
 
 
 def _line(problem: Problem, values: Array) -> tuple[SpectralLine, float]:
     """The highest line in the mean spectrum of all records, and its height over what is around."""
     from scipy.ndimage import median_filter
+    from scipy.signal import periodogram
 
     s = problem.block.signals
     weighted = values * problem.block.weight
@@ -51,10 +47,10 @@ def _line(problem: Problem, values: Array) -> tuple[SpectralLine, float]:
     bins = 1 << (4 * longest - 1).bit_length()
     spectrum = np.zeros(bins // 2 + 1)
     for a, b in pairwise(s.starts.tolist()):
-        part = weighted[a:b] - weighted[a:b].mean()
-        spectrum += np.abs(np.fft.rfft(part, bins)) ** 2 * 2.0 / (b - a)
-    around = np.maximum(median_filter(spectrum, size=2 * AROUND, mode="nearest"), 1e-300)
-    at = SLOWEST + int(np.argmax(spectrum[SLOWEST:]))
+        spectrum += periodogram(weighted[a:b], nfft=bins)[1]
+    size, lowest = 2 * thresholds.LINE_AROUND, thresholds.LINE_LOWEST
+    around = np.maximum(median_filter(spectrum, size=size, mode="nearest"), 1e-300)
+    at = lowest + int(np.argmax(spectrum[lowest:]))
     total = max(float(np.dot(weighted, values)), 1e-300)
     frequency = at / (bins * s.typical_step) if s.typical_step else 0.0
     return SpectralLine(frequency, float(spectrum[at]) / total), float(spectrum[at] / around[at])

@@ -1,11 +1,11 @@
 """MATLAB files as channels, in the shapes in which labs save them.
 
 A channel is
-    a vector that stands beside others, with a vector `t` or `time` as their clock;
+    a vector together with others, and a vector `t` or `time` as their clock;
     a struct or object with data and time: timeseries, `Structure with time`, an element of a
     Simulink Dataset; integers with `scale` (`gain`, `factor`, `slope`) and `offset` (`bias`);
     a column of a table, or of a matrix `data` with `colheaders`.
-Elements of a struct array are records. Units are a field `unit` or `units` beside the data, or a
+Elements of a struct array are records. Units are a field `unit` or `units` next to the data, or a
 struct or variable `units` with the names of the fields.
 """
 

@@ -116,7 +116,7 @@ def misfit_maps(
 ) -> dict[str, Json]:
     """Root mean square misfit [N] over velocity and duty level, on one scale for all.
 
-    misfits : (n,) by name, NaN where a sample has no vote, the same samples in each
+    misfits : (n,) by name, NaN where a sample has weight zero, the same samples in each
     """
     v = 1e3 * recording.xdot
     top = float(np.abs(v).max()) or 1.0
@@ -156,7 +156,7 @@ def profile(
     """Root mean square misfit [N] along one variable, in bins of equal time.
 
     values : (n,) in SI units, not finite where there is none
-    misfits : (n,) by name, NaN where a sample has no vote;  region : low, high [SI], words
+    misfits : (n,) by name, NaN where a sample has weight zero;  region : low, high [SI], words
     """
     scale, unit = UNITS[variable]
     label, logarithmic = LABELS[variable]

@@ -74,7 +74,7 @@ def _figures(
     assert r.force is not None
     names = {"before": plain_name, "after": "corrected"}
     noise = doc["noise_rms"]
-    # What the diagnosis gave no vote is no misfit here either.
+    # Samples that have weight zero in the diagnosis are left out here, too.
     sure = prepare(r).block.weight > 0.0
     misfits = {key: np.where(sure, r.force - model, np.nan) for key, model in models.items()}
     out: dict[str, Json] = {}
@@ -109,7 +109,7 @@ def _answers(doc: Json, name: str) -> Json:
     many = "explain" if len(named) > 1 else "explains"
     match verdict:
         case "adequate":
-            head = f"{start} holds: what remains is measurement noise."
+            head = f"{start} holds: the residual is measurement noise."
         case "explained":
             head = f"{start} does not hold; {joined(named)} {many} what it misses."
         case _ if named:
@@ -207,9 +207,9 @@ def _finding(f: Json) -> Json:
     effect = get(f["effect"])
     titles = {q.symbol: q.title for q in effect.quantities}
     e = f["evidence"]
-    evidence = f"The gain is {digits(e['gain_over_scatter'], 2)} times its scatter over the log."
+    evidence = f"t statistic of the gain over the log: {digits(e['gain_over_scatter'], 2)}."
     if e["runner_up"]:
-        evidence += f" Best of the others: {e['runner_up']}."
+        evidence += f" Next best effect: {e['runner_up']}."
     return {
         **f,
         "title": plain(effect.name).capitalize(),

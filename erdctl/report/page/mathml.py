@@ -48,6 +48,10 @@ def equation(text: str) -> Markup:
     """MathML of an equation, or the text in monospace where it cannot be read.
 
     Check: equation("g/2") holds an mfrac of g over 2; "v^beta" an msup of v and the letter beta.
+    >>> str(equation("g/2")).partition(">")[2]
+    '<mfrac><mi>g</mi><mn>2</mn></mfrac></math>'
+    >>> str(equation("v^beta")).partition(">")[2]
+    '<msup><mi>v</mi><mi>β</mi></msup></math>'
     """
     try:
         parser = _Parser(_tokens(text))
@@ -60,7 +64,12 @@ def equation(text: str) -> Markup:
 
 
 def symbol(name: str) -> Markup:
-    """MathML of a parameter's symbol.  Check: symbol("T_d") is an msub of T and d."""
+    """MathML of a parameter's symbol.
+
+    Check: symbol("T_d") is an msub of T and an upright d.
+    >>> str(symbol("T_d")).partition(">")[2]
+    '<msub><mi>T</mi><mi mathvariant="normal">d</mi></msub></math>'
+    """
     return Markup('<math xmlns="{}">{}</math>').format(NAMESPACE, _name(name))
 
 
@@ -207,7 +216,7 @@ def _name(text: str) -> Markup:
     if head in FUNCTIONS or head in {"gas", "viscous", "yield"}:
         out = Markup('<mi mathvariant="normal">{}</mi>').format(head)
     elif head.endswith("dot") and len(head) > 3:
-        # The combining form would sit beside the letter where no mathematical font is at hand.
+        # The combining form would sit next to the letter where no mathematical font is at hand.
         out = Markup('<mover accent="true"><mi>{}</mi><mo>˙</mo></mover>').format(head[:-3])
     else:
         out = Markup("<mi>{}</mi>").format(GREEK.get(head, head))

@@ -1,4 +1,4 @@
-"""The page of a proof: what was hidden, what was said, and every case that went wrong."""
+"""The page of a proof: what was hidden, what was named, and every case that went wrong."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def _answers(summary: Json, whole: Json) -> Json:
     named, right, located = whole["named"], whole["right"], whole["located"]
     nulls = [g for g in summary["nulls"] if g["label"] == "all"]
     quiet = nulls[0]["adequate"] if nulls and nulls[0]["cases"] else None
-    head = f"{right['hits']} of {right['of']} cases got the verdict that they deserve"
+    head = f"{right['hits']} of {right['of']} cases got the right verdict"
     if named["of"]:
         head = f"{named['hits']} of {named['of']} hidden effects were named first"
     removed = whole["removed"]
@@ -68,7 +68,7 @@ def _bar(label: str, rate: Json) -> Json:
 
 def _words(header: Sequence[str]) -> list[int]:
     """Columns of text: the first, and those that hold names."""
-    return [i for i, name in enumerate(header) if not i or name in {"said", "why", "seeds"}]
+    return [i for i, name in enumerate(header) if not i or name in {"named", "why", "seeds"}]
 
 
 def _figures(results: Sequence[Json]) -> dict[str, Json]:
@@ -80,7 +80,7 @@ def _figures(results: Sequence[Json]) -> dict[str, Json]:
             continue
         hidden = " + ".join(h["effect"] for h in r["hidden"])
         said = " + ".join(f["effect"] for f in r["findings"]) or "nothing"
-        words = f"seed {r['seed']}: {hidden}\nsaid: {said} ({r['verdict']})"
+        words = f"seed {r['seed']}: {hidden}\nnamed: {said} ({r['verdict']})"
         key = "right name first" if r["named"] else "wrong name or none"
         groups[key].append((r["level"], 100 * left / paper, words))
     found = {name: sorted(points) for name, points in groups.items() if points}

@@ -105,6 +105,8 @@ def digits(value: float | None, count: int = 4) -> str:
     """A number with so many significant digits, a dash for none.
 
     Check: 0.25 is "0.25", 32659 is "32660", -5.4e-8 is "−5.4×10⁻⁸".
+    >>> digits(0.25), digits(32659.0), digits(-5.4e-8)
+    ('0.25', '32660', '−5.4×10⁻⁸')
     """
     if value is None:
         return "–"

@@ -18,6 +18,8 @@ def keep(columns: Sequence[Array], most: int, corners: Index | None = None) -> I
     distances. The first and the last sample are always kept.
     Check: column 0 9 1 1 -5 1 8 1, most 7 is one run: 1 and 4 (9 and -5), the ends 0 and 7, and
     every third besides: 0, 1, 3, 4, 6, 7.
+    >>> keep([np.array([0, 9, 1, 1, -5, 1, 8, 1])], 7).tolist()
+    [0, 1, 3, 4, 6, 7]
     """
     n = len(columns[0])
     if n <= most:

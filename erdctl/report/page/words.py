@@ -13,7 +13,12 @@ def plain(name: str) -> str:
 
 
 def joined(words: Sequence[str], last: str = "and") -> str:
-    """A list in a sentence.  Check: a, b, c gives "a, b and c"."""
+    """A list in a sentence.
+
+    Check: a, b, c gives "a, b and c".
+    >>> joined(["a", "b", "c"])
+    'a, b and c'
+    """
     return f" {last} ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
 
 

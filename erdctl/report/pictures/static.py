@@ -1,4 +1,4 @@
-"""The static model beside the dynamic one: what the lag T_d makes of the loops."""
+"""The static and the dynamic model: what the lag T_d makes of the loops."""
 
 from __future__ import annotations
 

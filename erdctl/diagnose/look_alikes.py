@@ -1,0 +1,57 @@
+"""Effects that explain as much in the place of a chosen one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from erdctl.diagnose import thresholds
+from erdctl.diagnose.comparison import compare, ranked
+from erdctl.diagnose.executor import Task
+from erdctl.diagnose.forward_step import Exploration, key_of, with_effect
+from erdctl.diagnose.hypothesis import Hypothesis
+from erdctl.diagnose.problem import Problem
+from erdctl.diagnose.screening import Screen
+from erdctl.model.effect import Effect
+
+
+def is_preferred(problem: Problem, other: Hypothesis, best: Hypothesis) -> bool:
+    """Whether another hypothesis should have the name: as good with less, better with no more."""
+    extra = len(other.model.quantities) - len(best.model.quantities)
+    if extra < 0:
+        return not compare(problem, other, best).significant
+    return extra == 0 and compare(problem, best, other).gain > 0.0
+
+
+def look_alikes(
+    x: Exploration,
+    best: Hypothesis,
+    effect: Effect,
+    candidates: Sequence[Effect],
+    singles: Sequence[Hypothesis],
+) -> list[tuple[str, Hypothesis]]:
+    """Effects that do as well in the place of one, the best first, each with its hypothesis."""
+    others = tuple(e for e in best.effects if e is not effect)
+    likely = [h.effects[-1] for h in ranked(singles)[: thresholds.LOOK_ALIKES]]
+    likely += [c for c in candidates if c.name in effect.equivalents]
+    names, rest = key_of(best.effects), key_of(others)
+    keys = {e.name: rest | {e.name} for e in likely if e.name not in names}
+    if rest not in x.explored:
+        task = Task("second pass", others, (best.values,), record_effects=best.record_effects)
+        x.explored.keep(*x.executor.fit_compatible(x.problem, [task]))
+    new = [e for e in dict.fromkeys(likely) if e.name in keys and keys[e.name] not in x.explored]
+    if new:
+        parent = x.explored[rest]
+        screen = Screen(x.problem, parent)
+        worth = [c for c in (screen.candidate(e) for e in new) if c is not None]
+        tasks = [with_effect("look-alikes", parent, c) for c in worth]
+        for hypothesis in x.executor.fit(x.problem, tasks):
+            if hypothesis is not None:
+                x.explored.keep(hypothesis)
+    found = {}
+    for name, key in keys.items():
+        other = x.explored.get(key)
+        if other is not None and (
+            compare(x.problem, other, best).tied or is_preferred(x.problem, other, best)
+        ):
+            found[key] = name
+    return [(found[key_of(h.effects)], h) for h in ranked(x.explored[key] for key in found)]

@@ -1,0 +1,269 @@
+"""Every number by which a diagnosis decides, with what it is, what it decides and its origin.
+
+"Origin: none" marks a number that was set by judgement and has been neither derived nor calibrated;
+the issue on inference settles those. "Origin: budget" is a matter of time, not of truth. A test
+holds that no other file of this room has numbers of its own that decide.
+"""
+
+from __future__ import annotations
+
+# --- cross-validation ---------------------------------------------------------------------------
+
+# Number of groups that are left out in turn, where the log has fewer records than that.
+# Decides: how long a left-out part is.
+# Origin: none; more groups cost time, fewer leave out more than one effect can do without.
+CV_GROUPS = 24
+
+# Length of a stretch [s], the unit whose mean squares are compared as if independent.
+# Decides: the degrees of freedom of every t statistic over stretches.
+# Origin: longer than the memory of the noise of load cells and amplifiers seen so far (0.1 s).
+STRETCH = 0.8
+
+# Ridge of the jackknife, as a part of the weight of all data.
+# Decides: how far a parameter moves that a left-out group alone determines.
+# Origin: none; without it the step goes to infinity.
+CV_RIDGE = 0.05
+
+# Relative cut-off of singular values of the jackknife's step.
+# Decides: which directions the rest of the data do not determine.
+# Origin: square root of the rounding of 64-bit sums, with a margin.
+CV_SINGULAR = 1e-10
+
+# Number of stretches of a log that have weight, at least.
+# Decides: whether a log is too short to diagnose.
+# Origin: none; a mean over fewer has no useful standard error.
+LEAST_GROUPS = 5
+
+# --- doubtful samples ---------------------------------------------------------------------------
+
+# Standard deviations of the velocity noise within which the direction of motion is uncertain.
+# Decides: which samples have no weight.
+# Origin: 0.3 % of the samples of a normal noise lie beyond.
+DIRECTION_SIGMAS = 3.0
+
+# Part of a recorded sample that may come from samples of uncertain direction.
+# Decides: which samples a force channel that averages or delays leaves without weight.
+# Origin: none; set by argument so that ramps at reversals keep weight.
+DOUBTFUL_PART = 0.5
+
+# Share of the velocity's spectral energy that is motion, the multiple of its frequency beyond which
+# the spectrum is noise, and the bins added to it.
+# Decides: the estimate of the velocity noise.
+# Origin: none.
+MOTION_ENERGY, NOISE_BEYOND, NOISE_BINS = 0.99, 3, 8
+
+# Samples of a record whose velocity noise can be estimated.
+# Decides: whether any of its samples is doubtful.
+# Origin: none.
+LEAST_SPECTRUM = 32
+
+# --- comparing two hypotheses -------------------------------------------------------------------
+
+# One-sided t statistic of the mean log ratio of squared cross-validated residuals, over stretches.
+# Decides: whether one hypothesis is better than another.
+# Origin: none; p = 2e-4 for one comparison of normal values, meant for some tens of them.
+T_STRETCHES = 3.5
+
+# The same over left-out groups.
+# Decides: whether a gain that is clear by many stretches lies in more than one group.
+# Origin: none; p = 0.07.
+T_GROUPS = 1.5
+
+# Relative reduction of the cross-validated mean square.
+# Decides: whether a gain is worth a name.
+# Origin: none.
+LEAST_GAIN = 0.004
+
+# Reduction of the cross-validated error over the range of the force.
+# Decides: whether a gain may be the rounding of a simulation.
+# Origin: simulations agree with an independent solution within 1e-4 of the range.
+ROUNDING = 2e-4
+
+# t statistic over stretches below which two hypotheses cannot be told apart.
+# Decides: what is listed as equivalent.
+# Origin: p = 0.05, two-sided.
+T_TIE = 2.0
+
+# --- processes --------------------------------------------------------------------------------
+
+# Samples times effects from which the second that a process needs to start is worth it.
+# Origin: budget.
+WORTH_PROCESSES = 60_000
+
+# --- forward selection --------------------------------------------------------------------------
+
+# Samples of the thinned log among whose hypotheses is searched; the result is fitted to all.
+# Origin: budget.
+SEARCH_SAMPLES = 12_000
+
+# Hypotheses that are extended side by side, and the number of effects up to which they are.
+# Decides: the width of the beam.
+# Origin: budget; with a beam of one, pairs of which neither gains alone were missed.
+BEAM, BEAM_DEPTH = 3, 3
+
+# Part of the most promising effect's screened gain, and the number of effects in any case.
+# Decides: which effects are fitted beside a parent.
+# Origin: budget; the screen is a linear estimate, right within about a factor of two.
+SCREENED_GAIN, SCREENED_LEAST = 0.4, 4
+
+# Single effects, the best first, that are tried in the place of a chosen one; how many are listed.
+# Decides: which look-alikes are looked for.
+# Origin: budget.
+LOOK_ALIKES, LOOK_ALIKES_LISTED = 6, 2
+
+# Steps of a search: of a hypothesis, of one that begins where another ended, of companions, of a
+# look at a start, of the first fit.
+# Origin: budget.
+STEPS, STEPS_AGAIN, STEPS_TOGETHER, STEPS_RANKING, STEPS_BASE = 25, 12, 40, 4, 40
+
+# Starts of each companion that are combined, and combinations that are searched to the end.
+# Origin: budget.
+COMPANION_STARTS, COMPANION_BEST = 5, 3
+
+# Time constant [s] and exponent with which searches of the paper's parameters begin afresh: first,
+# second, and behind a compliance, whose place a lag takes.
+# Origin: the middle and the ends of what ER dampers are published with (5 to 50 ms, 0.4 to 1).
+FRESH, FRESH_SECOND, FRESH_SERIES = (0.05, 0.4), (0.01, 1.0), (0.005, 0.4)
+
+# --- screening: the grid of starts --------------------------------------------------------------
+
+# Parts of what the recording spans, for lengths, speeds and compliances.
+# Origin: half a decade apart, since a search finds its way from a factor of two.
+PARTS = (0.003, 0.01, 0.03, 0.1, 0.3)
+
+# Multiples of a parameter's own start, where nothing in a log sets a scale.
+# Origin: as above.
+MULTIPLES = (0.1, 0.3, 1.0, 3.0, 10.0)
+
+# The same for parameters of both signs.
+SIGNED_MULTIPLES = (0.3, 1.0, -1.0)
+
+# Parts of 1/stroke, of 1/stroke^2 and of 1/dissipated energy.
+# Origin: the force changes by some tenths over the stroke or the test.
+INVERSE_PARTS, INVERSE_SQUARE, INVERSE_NEGATIVE = (0.1, 0.5), 0.5, -0.3
+ENERGY_PARTS = (0.03, 0.3)
+
+# Starts of a time, from a sample to half of the longest record.
+# Origin: budget.
+DELAYS = 6
+
+# Starts of an effect's grid, and how many of them are searched from.
+# Origin: budget.
+MOST_STARTS, SEARCHED_STARTS = 30, 2
+
+# Size of what a direction of the Jacobian adds to those before it, relative to the largest.
+# Decides: what the present model can take of the residual, beyond which an effect must explain.
+# Origin: smaller ones are rounding of one-sided differences.
+BASIS = 1e-4
+
+# --- record effects (a gain and an offset of each record) ---------------------------------------
+
+# Rounds of alternating least squares, and the part of its error by which a value may still move.
+# Origin: budget.
+RECORD_ROUNDS, RECORD_SETTLED = 12, 0.1
+
+# Gain of a record, at least.
+# Decides: whether a record would be noise that is blown up.
+# Origin: none.
+LEAST_RECORD_GAIN = 0.2
+
+# --- lack of fit --------------------------------------------------------------------------------
+
+# Folds, and samples that a regression learns from.
+# Origin: budget.
+FOLDS, REGRESSION_SAMPLES = 5, 12_000
+
+# Trees, learning rate, leaves, samples of a leaf, penalty of the gradient boosting.
+# Decides: how fine a dependence on the state is seen.
+# Origin: none.
+TREES, RATE, LEAVES, LEAF, PENALTY = 60, 0.12, 24, 60, 10.0
+
+# t statistics over stretches and over groups by which a predicted part must reduce the residual,
+# and its share of the square.
+# Decides: whether a lack of fit is significant.
+# Origin: as T_STRETCHES and T_GROUPS; the share: none.
+T_PREDICTED, T_PREDICTED_GROUPS, SHARE_PREDICTED = 3.5, 1.5, 0.01
+
+# The same for a hint, and root mean square over the robust scale of a residual with heavy tails.
+# Decides: whether a further search is worth while; no verdict rests on it.
+# Origin: budget.
+T_HINT, SHARE_HINT, HEAVY_TAILS = 1.0, 0.003, 1.1
+
+# t statistic over groups of the log ratio of the residual variance in the states of the damper
+# where it is large to that where it is small, and the root of that ratio at least.
+# Decides: whether the residual variance depends on the state.
+# Origin: none.
+T_VARIANCE, VARIANCE_RATIO = 3.0, 1.2
+
+# Part of the samples, those of the least expected variance, whose mean square is the noise.
+# Origin: none.
+NOISE_PART = 0.2
+
+# Samples of a state in a group, groups, and floor of a logarithm as a part of the mean square.
+# Origin: none.
+STATE_SAMPLES, STATE_GROUPS, LOG_FLOOR = 20, 3, 1e-3
+
+# What the regression is given of the past [s], and where times [s] and travel [m] since an event
+# end.
+# Origin: lags of ER fluids and amplifiers (1 to 100 ms).
+LAGS, LONGEST_SINCE, FARTHEST_SINCE = (0.01, 0.05), 10.0, 1.0
+
+# Misfit over noise up to which a lack of fit counts as noise; the part of what the paper's model
+# misses, in mean square, from which it counts where noise is larger.
+# Decides: `unexplained`.
+# Origin: none.
+MISFIT_OVER_NOISE, MISFIT_PART = 0.3, 0.05
+
+# --- a spectral line that turns over with the motion --------------------------------------------
+
+# Share of the square; height over the median around it, of so many bins; share over that of the
+# line in the residual itself; lowest bin.
+# Decides: whether there is a ripple of the yield force.
+# Origin: none; white noise of 1e5 bins has its highest line at about 12 times its mean.
+LINE_SHARE, LINE_HEIGHT, LINE_AROUND, LINE_OVER_PLAIN, LINE_LOWEST = 0.1, 50.0, 401, 2.0, 10
+
+# --- impulses -----------------------------------------------------------------------------------
+
+# Innovation over the robust scale; impulses and groups with any, at least.
+# Decides: what counts as an impulse.
+# Origin: 6 standard deviations of a normal noise happen once in 5e8 samples; the counts: none.
+IMPULSE_SIGMAS, IMPULSES_LEAST, IMPULSE_GROUPS = 6.0, 8, 3
+
+# Order of the autoregressive model of the residual.
+# Origin: more would learn the beat of a regular saw-tooth.
+IMPULSE_ORDER = 2
+
+# Samples next to a reversal, a duty step or the start of a record; part of the rms speed.
+# Decides: where a model may jump itself, so that no impulse is counted.
+# Origin: none.
+IMPULSE_NEAR, IMPULSE_SLOW = 4, 0.2
+
+# Part of an innovation that stays in the mean of so many samples after it over as many before.
+# Decides: what is an impulse and what a spike.
+# Origin: none.
+IMPULSE_STAYS, IMPULSE_AFTER = 0.5, 3
+
+# Share of the square of all innovations and of those beyond IMPULSE_SIGMAS; steps of the channel.
+# Decides: whether impulses are reported.
+# Origin: none.
+IMPULSE_SHARE, IMPULSE_MOSTLY, IMPULSE_QUANTA = 0.1, 0.5, 3.0
+
+# --- where and what it looks like ---------------------------------------------------------------
+
+# Share of the misfit's energy in a region, that share less the region's part of the time, cells of
+# equal time, part of the time beyond which a region says nothing, regions that are listed.
+# Decides: where a misfit is located.
+# Origin: none.
+REGION_SHARE, REGION_EXCESS, REGION_CELLS, REGION_WIDEST, REGIONS = 0.5, 0.2, 200, 0.6, 3
+
+# Correlation with a simple form of motion and control; fading of one of them [s].
+# Decides: whether a resemblance is reported.
+# Origin: none.
+RESEMBLANCE, RESEMBLANCE_FADING = 0.5, 0.05
+
+# --- the drive that tells look-alikes apart ------------------------------------------------------
+
+# Length [s], sampling rate and frequencies [Hz], parts of the stroke, part that settles.
+# Origin: what benches run.
+DRIVE_SECONDS, DRIVE_RATE = 4.0, 500.0
+DRIVE_FREQUENCIES, DRIVE_STROKES, DRIVE_SETTLES = (0.2, 0.5, 1.0, 2.0, 5.0, 10.0), (1.0, 0.2), 0.25

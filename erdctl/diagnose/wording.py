@@ -1,0 +1,81 @@
+"""A diagnosis in an engineer's words."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import Any
+
+from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict
+
+
+def finding_text(finding: Finding) -> str:
+    """One finding in words."""
+    e = finding.effect
+    text = (
+        f"{e.title}: leaving it out costs {100 * finding.gain.gain:.0f} % of the mean square error"
+        f" on data that the fit had not seen (NRMSE {finding.before:.4f} without it,"
+        f" {finding.after:.4f} with it)"
+    )
+    if finding.where is not None:
+        text += f"; {finding.where.text.replace('the misfit', 'its force')}"
+    if finding.equivalent:
+        text += f"; these data cannot tell it from {' or '.join(finding.equivalent)}"
+    if finding.test is not None:
+        text += (
+            f"; to tell it from {finding.test.against}, record --drive {finding.test.drive}, where"
+            f" they differ by {finding.test.difference:.3g} N rms"
+        )
+    return text
+
+
+def remaining_text(found: Diagnosis) -> str:
+    """What is left, in words."""
+    left = found.lack_of_fit
+    if found.verdict is not Verdict.UNEXPLAINED:
+        return (
+            f"what remains, {found.carried.overall.rms:.3g} N rms, holds nothing that motion,"
+            " duty, time or energy would predict: measurement noise"
+        )
+    words = (
+        f"{left.misfit_rms:.3g} N rms beyond a noise of {left.noise_rms:.3g} N can be predicted"
+        " from motion and duty, but by no effect in the catalogue"
+    )
+    if left.spectral_line is not None:
+        words += (
+            f"; {100 * left.spectral_line.share:.0f} % of it swings at"
+            f" {left.spectral_line.frequency:.3g} Hz and turns over with the motion, as a ripple of"
+            " the yield force does"
+        )
+    if left.impulses > 0.0:
+        words += (
+            f"; {100 * left.impulses:.0f} % of it comes in sudden jumps, as of a seal that sticks"
+            " and slips, a joint that knocks or a valve that opens"
+        )
+    resembles = found.resemblance
+    if resembles is not None:
+        words += f"; it is most like {resembles.form} (correlation {resembles.correlation:+.2f})"
+    return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
+
+
+def record_values(found: Diagnosis) -> list[dict[str, Any]]:
+    """Gain and offset of each record, as far as they were free; no error where undetermined."""
+    free, record_effects = found.problem.free, found.record_effects
+    if record_effects is None:
+        return []
+
+    def value(number: float, unit: str, error: float) -> dict[str, Any]:
+        return {"value": number, "unit": unit, "stderr": error if isfinite(error) else None}
+
+    out = []
+    for i, name in enumerate(found.problem.recording.names):
+        entry: dict[str, Any] = {"name": name}
+        if free.gain:
+            entry["gain"] = value(
+                float(record_effects.gain[i]), "1", float(record_effects.gain_error[i])
+            )
+        if free.offset:
+            entry["offset"] = value(
+                float(record_effects.offset[i]), "N", float(record_effects.offset_error[i])
+            )
+        out.append(entry)
+    return out

@@ -1,0 +1,274 @@
+"""Where an effect enters the model, and what its function receives and must return there.
+
+One class a slot: it holds the effect's function, whose type is a Protocol, so that a type checker
+holds every effect to its slot; and it calls the function, so that what comes back is checked where
+it is used. Common to all:
+
+s : `Signals`, motion and control at the samples;  p : the effect's values by symbol;  (n,) : one
+value a sample. Values are those *at* a sample, but for two that hold until the next one:
+
+- the duty that `ControlSlot` returns is **held** from its sample to the next, as an amplifier does;
+- the normalised yield force that `FieldSlot` returns is the **mean over the step** that begins at
+  its sample, which Eq. 12 needs: what swings or jumps within a step and is given at the sample
+  comes out half a step late.
+
+A function is pure, finite for all values within the bounds of its parameters, and returns its
+argument itself (or what has no effect) at the off values. It sees records one after the other,
+divided by `s.starts`, and must not let one see another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from erdctl.core.errors import EffectFailed
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.model.checked import Groups, called, finite, groups, in_words, number, samples
+
+Values = Mapping[str, float]
+
+
+class MotionFunction(Protocol):
+    """Motion of the piston from that of the rod; `Signals.with_motion` makes it."""
+
+    def __call__(self, s: Signals, p: Values, /) -> Signals: ...
+
+
+class SamplesFunction(Protocol):
+    """(n,) of what the slot takes the place of; see the slot."""
+
+    def __call__(self, s: Signals, p: Values, /) -> Array: ...
+
+
+class FieldFunction(Protocol):
+    """(n,) normalised steady yield force from `field`, in one direction."""
+
+    def __call__(self, field: Array, s: Signals, p: Values, way: str, /) -> Array: ...
+
+
+class ColumnFunction(Protocol):
+    """(n,) what becomes of a force (n,) [N]."""
+
+    def __call__(self, column: Array, s: Signals, p: Values, /) -> Array: ...
+
+
+class ScaleFunction(Protocol):
+    """(n,) factors of groups; a group that is not in it keeps its force."""
+
+    def __call__(self, s: Signals, p: Values, /) -> Groups: ...
+
+
+class FeedbackFunction(Protocol):
+    """(n,) factors of groups from the forces that act without it, by group and `other`."""
+
+    def __call__(self, parts: Groups, s: Signals, p: Values, /) -> Groups: ...
+
+
+class NumberFunction(Protocol):
+    """One number."""
+
+    def __call__(self, p: Values, /) -> float: ...
+
+
+class TermFunction(Protocol):
+    """(k, n) forces at unit amplitudes, one row for each linear parameter, in their order [N]."""
+
+    def __call__(self, s: Signals, p: Values, /) -> Array: ...
+
+
+class StartsFunction(Protocol):
+    """Starts of a search, each with a number for every parameter that is not linear.
+
+    `rest` is what the present model leaves of the force (n,) [N], 0 where it has no weight: from it
+    a frequency or a time can be read. All starts are looked at with one evaluation of the model
+    each, so some tens are cheap and thousands are not; the best few are searched from.
+    """
+
+    def __call__(self, s: Signals, rest: Array, /) -> Sequence[Values]: ...
+
+
+@dataclass(frozen=True)
+class MotionSlot:
+    """The piston's motion, at the samples and on straight lines between them.
+
+    free_play : (p) -> play [m] in the joint of a compliance in series with the whole damper, which
+        takes it over from `function`: a play bears no force, so that what is stretched unloads
+    """
+
+    function: MotionFunction
+    free_play: NumberFunction | None = None
+
+    def __call__(self, s: Signals, p: Values) -> Signals:
+        out = called(self.function, s, p)
+        if not isinstance(out, Signals):
+            raise EffectFailed(self.function, f"returned {in_words(out)}, expected Signals")
+        for name in ("x", "xdot"):
+            samples(self.function, getattr(out, name), s, name)
+        return out
+
+
+@dataclass(frozen=True)
+class ControlSlot:
+    """(n,) duty [1] that reaches the electrodes, held from its sample to the next."""
+
+    function: SamplesFunction
+
+    def __call__(self, s: Signals, p: Values) -> Array:
+        return samples(self.function, called(self.function, s, p), s)
+
+
+@dataclass(frozen=True)
+class FieldSlot:
+    """(n,) steady yield force over sigma [1], from v^beta: its mean over the step that begins here.
+
+    way : "compression" or "release", the direction for which it is
+    """
+
+    function: FieldFunction
+
+    def __call__(self, field: Array, s: Signals, p: Values, way: str) -> Array:
+        return samples(self.function, called(self.function, field, s, p, way), s)
+
+
+@dataclass(frozen=True)
+class LagSlot:
+    """(n,) factor of T_d [1] in the step that begins here, while the yield force falls."""
+
+    function: SamplesFunction
+
+    def __call__(self, s: Signals, p: Values) -> Array:
+        return samples(self.function, called(self.function, s, p), s)
+
+
+@dataclass(frozen=True)
+class SignSlot:
+    """(n,) in -1..1, in place of sign(xdot), at the samples."""
+
+    function: SamplesFunction
+
+    def __call__(self, s: Signals, p: Values) -> Array:
+        return samples(self.function, called(self.function, s, p), s)
+
+
+@dataclass(frozen=True)
+class YieldSlot:
+    """(n,) what becomes of the signed yield force [N], at the samples; may remember."""
+
+    function: ColumnFunction
+
+    def __call__(self, column: Array, s: Signals, p: Values) -> Array:
+        return samples(self.function, called(self.function, column, s, p), s)
+
+
+@dataclass(frozen=True)
+class ViscousSlot:
+    """(n,) in place of xdot [m/s] in the viscous force, at the samples."""
+
+    function: SamplesFunction
+
+    def __call__(self, s: Signals, p: Values) -> Array:
+        return samples(self.function, called(self.function, s, p), s)
+
+
+@dataclass(frozen=True)
+class GasSlot:
+    """(n,) in place of x [m] in the gas force, at the samples."""
+
+    function: SamplesFunction
+
+    def __call__(self, s: Signals, p: Values) -> Array:
+        return samples(self.function, called(self.function, s, p), s)
+
+
+@dataclass(frozen=True)
+class ScaleSlot:
+    """(n,) factors [1] of the groups `gas`, `viscous`, `yield`, at the samples."""
+
+    function: ScaleFunction
+
+    def __call__(self, s: Signals, p: Values) -> Groups:
+        return groups(self.function, called(self.function, s, p), s)
+
+
+@dataclass(frozen=True)
+class TermSlot:
+    """Nothing but added forces: `Effect.columns`."""
+
+
+@dataclass(frozen=True)
+class FeedbackSlot:
+    """(n,) factors [1] of groups that depend on the forces themselves, at the samples.
+
+    It is to march free-running, with the forces that its own factors leave.
+    """
+
+    function: FeedbackFunction
+
+    def __call__(self, parts: Groups, s: Signals, p: Values) -> Groups:
+        return groups(self.function, called(self.function, parts, s, p), s)
+
+
+@dataclass(frozen=True)
+class SeriesSlot:
+    """Compliance [m/N] in series with some groups, or with the whole damper (`carries` None)."""
+
+    function: NumberFunction
+    carries: tuple[str, ...] | None = None
+
+    def __call__(self, p: Values) -> float:
+        return number(self.function, called(self.function, p))
+
+
+@dataclass(frozen=True)
+class ChannelSlot:
+    """(n,) what the force channel records of a force [N], at the samples; linear in it."""
+
+    function: ColumnFunction
+
+    def __call__(self, column: Array, s: Signals, p: Values) -> Array:
+        return samples(self.function, called(self.function, column, s, p), s)
+
+
+Slot = (
+    MotionSlot | ControlSlot | FieldSlot | LagSlot | SignSlot | YieldSlot | ViscousSlot | GasSlot
+    | ScaleSlot | TermSlot | FeedbackSlot | SeriesSlot | ChannelSlot
+)  # fmt: skip
+
+
+def added_forces(function: TermFunction, rows: int, s: Signals, p: Values) -> Array:
+    """(k, n) forces at unit amplitudes, as many as the effect has linear parameters."""
+    out = called(function, s, p)
+    if not isinstance(out, np.ndarray) or out.shape != (rows, len(s)):
+        raise EffectFailed(
+            function,
+            f"returned {in_words(out)}, expected {rows} x {len(s)} forces: a row for each linear"
+            " parameter, a column for each sample",
+        )
+    return finite(function, out)
+
+
+def checked_starts(
+    function: StartsFunction, symbols: Sequence[str], s: Signals, rest: Array
+) -> list[dict[str, float]]:
+    """Starts of a search as plain numbers, one for each of some symbols."""
+    out = []
+    for start in called(function, s, rest):
+        if not isinstance(start, Mapping) or set(start) != set(symbols):
+            raise EffectFailed(
+                function,
+                f"gave the start {in_words(start)}, expected a number for each of {symbols}",
+            )
+        out.append({symbol: number(function, start[symbol]) for symbol in symbols})
+    if not out:
+        raise EffectFailed(function, "gave no start of a search")
+    return out
+
+
+def free_play_of(slot: MotionSlot, p: Values) -> float:
+    """Play in a joint [m]; 0 for a motion that has none."""
+    return 0.0 if slot.free_play is None else number(slot.free_play, called(slot.free_play, p))
