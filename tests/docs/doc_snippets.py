@@ -1,13 +1,17 @@
-"""Commands and their printed output out of Markdown files and help texts, and how they are run."""
+"""Commands, Python and their output out of Markdown files and help texts, and how they are run."""
 
 from __future__ import annotations
 
+import ast
 import os
 import re
 import subprocess
 import sys
+from contextlib import redirect_stdout
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
+from typing import Any
 
 from doc_files import place
 from places import FIXTURES, SHARED
@@ -25,7 +29,7 @@ _NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 @dataclass(frozen=True)
 class Block:
-    """A block of shell commands, and the output that the text prints for it, if any."""
+    """A block of shell commands or Python, and the output that the text prints for it, if any."""
 
     line: int
     code: str
@@ -45,9 +49,13 @@ def shortened(command: str) -> str:
     return command
 
 
-def blocks(path: Path) -> list[Block]:
-    """The `sh` blocks of a Markdown file; a plain block before the next heading is its output."""
-    found: list[Block] = []
+def blocks(path: Path, language: str = "sh") -> list[Block]:
+    """The blocks of a language in a Markdown file.
+
+    A plain block before the next heading, or the next block that is run, is a block's output.
+    """
+    found: dict[str, list[Block]] = {"sh": [], "python": []}
+    last = ""
     inside: str | None = None
     body: list[str] = []
     start, open_to_output = 0, False
@@ -57,18 +65,31 @@ def blocks(path: Path) -> list[Block]:
             inside, body, start = fence[1].split(" ")[0], [], number + 1
         elif fence:
             text = "\n".join(body)
-            if inside == "sh":
-                found.append(Block(start, text, None))
-                open_to_output = True
+            if inside in found:
+                found[inside].append(Block(start, text, None))
+                last, open_to_output = inside, True
             elif inside == "" and open_to_output:
-                found[-1] = Block(found[-1].line, found[-1].code, text)
+                found[last][-1] = Block(found[last][-1].line, found[last][-1].code, text)
                 open_to_output = False
             inside = None
         elif inside is not None:
             body.append(row)
         elif row.startswith("#"):
             open_to_output = False
-    return found
+    return found[language]
+
+
+def run_python(code: str, names: dict[str, Any]) -> str:
+    """Run a block as a prompt does: what it prints, and its last value, if that is not None."""
+    tree, out = ast.parse(code), StringIO()
+    last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+    with redirect_stdout(out):
+        exec(compile(tree, "block", "exec"), names)
+        if isinstance(last, ast.Expr):
+            value = eval(compile(ast.Expression(last.value), "block", "eval"), names)
+            if value is not None:
+                print(repr(value))
+    return out.getvalue()
 
 
 def inline(path: Path) -> list[str]:

@@ -1,5 +1,7 @@
 """Every command that README, tutorial, proof and help texts show is run, and prints what they say.
 
+So is the Python beside the tutorial's commands, in order and in one namespace.
+
 Shortened: `diagnose` searches few effects unless it is the tutorial's (see doc_snippets). `prove`
 is parsed only, since a case takes ten seconds and tests/prove runs the command. What runs pytest
 is left to CI.
@@ -24,6 +26,7 @@ from doc_snippets import (
     inline,
     missing_lines,
     run,
+    run_python,
     shortened,
     workplace,
 )
@@ -129,6 +132,24 @@ def test_the_tutorial(tmp_path: Path) -> None:
         variables += "".join(re.findall(r"^\w+=.*\n", block.code, flags=re.MULTILINE))
         if block.output is not None:
             assert missing_lines(block.output, output) == [], f"line {block.line}:\n{output}"
+
+
+def test_the_tutorial_in_python(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(workplace(tmp_path))
+    found = blocks(TUTORIAL, "python")
+    assert len(found) >= 8
+    names: dict[str, Any] = {}
+    for block in found:
+        output = run_python(block.code, names)
+        if block.output is not None:
+            assert missing_lines(block.output, output) == [], f"line {block.line}:\n{output}"
+
+
+def test_python_runs_as_at_a_prompt() -> None:
+    names: dict[str, Any] = {}
+    assert run_python("a = 2\nprint('x')\na + 1", names) == "x\n3\n"
+    assert run_python("print(a)", names) == "2\n"
+    assert run_python("b = [a]", names) == ""
 
 
 def test_numbers_are_compared_to_their_last_digits() -> None:
