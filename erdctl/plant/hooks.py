@@ -75,6 +75,9 @@ def behind_play(x: Array, v: Array, a: Array, gap: float) -> tuple[Array, Array,
     """Motion of a piston that the rod takes along at either end of its play.
 
     Check: x = 0, 1, 2, 1, 0 mm, moving up from the start, gap 2 mm gives -1, 0, 1, 1, 1 mm.
+    >>> x, v = np.array([0.0, 1.0, 2.0, 1.0, 0.0]), np.array([1.0, 1.0, 1.0, -1.0, -1.0])
+    >>> behind_play(x, v, 0.0 * v, 2.0)[0].tolist()
+    [-1.0, 0.0, 1.0, 1.0, 1.0]
     """
     z, zv, za = np.empty(len(x)), v.copy(), a.copy()
     way = 0.0

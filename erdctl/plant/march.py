@@ -1,7 +1,7 @@
 """The one ODE plant: from the rod's motion and the duty to the damper's force, in fine steps.
 
 Chain: rod -> play -> mount -> piston -> gas, seals, stops and the fluid column beside each other.
-Laws of a twin's own file come as arrays, worked out beforehand (`Given`).
+Laws of a twin's own file come as arrays, worked out beforehand (`OwnLaws`).
 At a record's start the states of the paper and the slow ones restart (Eq. 12 at the steady value of
 the first sample, no heat, no wear); play, springs and seals are as the motion before it left them.
 
@@ -27,7 +27,7 @@ from erdctl.plant.plant import Outside, Physics, Side
 Array = npt.NDArray[np.float64]
 
 
-class Given(NamedTuple):
+class OwnLaws(NamedTuple):
     """What twins' own files say of each fine node, (m,) or (0,) where they say nothing.
 
     command : duty that the supply is told;  on_viscous, on_yield : factors;  sign : for sign(xdot)
@@ -42,7 +42,7 @@ class Given(NamedTuple):
 @njit(cache=True)
 def march(
     x: Array, v: Array, a: Array, duty: Array, substeps: int, lead_in: int, h: float,
-    up: Side, down: Side, p: Physics, o: Outside, g: Given,
+    up: Side, down: Side, p: Physics, o: Outside, g: OwnLaws,
 ) -> Array:  # fmt: skip
     """(m,) force at the fine nodes [N].
 

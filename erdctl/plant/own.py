@@ -8,13 +8,13 @@ import numpy as np
 import numpy.typing as npt
 
 from erdctl.plant.hooks import FineGrid
-from erdctl.plant.march import Given
+from erdctl.plant.march import OwnLaws
 from erdctl.plant.plant import Own
 
 Array = npt.NDArray[np.float64]
 
 EMPTY = np.empty(0)
-NOTHING = Given(EMPTY, EMPTY, EMPTY, EMPTY)
+NOTHING = OwnLaws(EMPTY, EMPTY, EMPTY, EMPTY)
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,7 +24,7 @@ class Applied:
     own: tuple[Own, ...]
     grid: FineGrid
 
-    def given(self) -> Given:
+    def given(self) -> OwnLaws:
         """What the simulation is told of each node; factors of several twins multiply."""
         command, on_viscous, on_yield, sign = NOTHING
         for hooks, values in self.own:
@@ -42,7 +42,7 @@ class Applied:
                 if len(sign):
                     raise ValueError(f"{hooks.name}: another twin stands for sign(xdot) already")
                 sign = self._checked(hooks.name, hooks.sign(self.grid, p))
-        return Given(command, on_viscous, on_yield, sign)
+        return OwnLaws(command, on_viscous, on_yield, sign)
 
     def force(self, F: Array) -> Array:
         """(m,) force of the damper [N]."""

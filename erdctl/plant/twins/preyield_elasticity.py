@@ -6,6 +6,10 @@ Chains of N lengths carry equal parts of the yield force; each breaks at its own
 their mean is x_y = s times the stroke. Modulus and yield stress both follow the field, so that a
 stretch d_j is the same at all fields.
 Check: N = 1, x_y = 1 mm, a turn at q = 1 and 0.5 mm back gives 0.5.
+>>> x, v = np.array([0.0, 0.0, -0.0005]), np.array([1.0, 0.0, -1.0])
+>>> float(_stretched(x, v, 1.0, np.array([0.001]))[2])
+0.5
+
 Source: W. D. Iwan, A distributed-element model for hysteresis and its steady-state dynamic
 response, J. Applied Mechanics 33 (1966) 893-900.
 """
