@@ -42,7 +42,7 @@ import sys
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-__version__ = "0.1.0"
+from erdctl.core.version import __version__
 
 if TYPE_CHECKING:
     from erdctl.core.errors import ErdctlError
@@ -56,8 +56,8 @@ if TYPE_CHECKING:
     from erdctl.interface.validate import validate
 
 __all__ = [
-    "ErdctlError", "diagnose", "effects", "identify", "inspect", "mimic", "read", "simulate",
-    "validate",
+    "ErdctlError", "__version__", "diagnose", "effects", "identify", "inspect", "mimic", "read",
+    "simulate", "validate",
 ]  # fmt: skip
 
 _HOMES = {"ErdctlError": "erdctl.core.errors", "read": "erdctl.interface.log"}

@@ -16,9 +16,9 @@ from typer.core import TyperCommand, TyperGroup, TyperOption
 # cores: on 10 million rows they made `identify` ten times slower. NumPy reads this when it loads.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from erdctl import __version__
 from erdctl.cli.options import EXIT_CODES
 from erdctl.core.errors import ErdctlError, ExitCode
+from erdctl.core.version import __version__
 from erdctl.report.text import QUIET
 
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 
-from erdctl import __version__
 from erdctl.core.errors import UsageProblem
+from erdctl.core.version import __version__
 from erdctl.io.atomic import output
 from erdctl.io.formats import Format
 from erdctl.io.tables import append_column, output_format, write_table

@@ -7,8 +7,8 @@ from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from typing import Any
 
-from erdctl import __version__
 from erdctl.core.recording import Recording
+from erdctl.core.version import __version__
 from erdctl.model.composed import Model
 
 

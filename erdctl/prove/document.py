@@ -8,7 +8,7 @@ from typing import Any, TypedDict
 
 import msgspec
 
-from erdctl import __version__
+from erdctl.core.version import __version__
 from erdctl.prove.case import Wish
 from erdctl.prove.judge import Failed, Result
 from erdctl.prove.run import Outcome

@@ -13,8 +13,8 @@ from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from erdctl import __version__
 from erdctl.core.recording import Source
+from erdctl.core.version import __version__
 from erdctl.report.page.mathml import equation, symbol
 
 RAISED = str.maketrans("−0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
