@@ -43,7 +43,7 @@ class Explored(dict[frozenset[str], Hypothesis]):
 
 
 class Exploration(NamedTuple):
-    """A search under way: on what, beside which model, what it has fitted, and with what."""
+    """A search under way: its data, the model it begins with, what it has fitted, its executor."""
 
     problem: Problem
     base: Hypothesis

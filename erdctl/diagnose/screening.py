@@ -34,7 +34,7 @@ class Candidate:
 
 
 class Screen:
-    """Looks at effects beside one hypothesis; what they share is computed once."""
+    """Looks at effects to add to one hypothesis; what they share is computed once."""
 
     def __init__(self, problem: Problem, parent: Hypothesis) -> None:
         self.problem, self.parent = problem, parent
@@ -50,7 +50,7 @@ class Screen:
         self.force = parent.model.force(signals, parent.values)
 
     def candidate(self, effect: Effect) -> Candidate | None:
-        """What one effect promises; None if it cannot act beside the parent's."""
+        """What one effect promises; None if it cannot act together with the parent's."""
         found = []
         for guess in starts(effect, self.parent.problem, self.parent.residual):
             try:

@@ -54,7 +54,7 @@ def search(
     seed: int = 0,
     given: Parameters | None = None,
 ) -> Selection:
-    """Search for the effects, at most `most`, that the recording shows beside a given model."""
+    """Search for the effects, at most `most`, by which the recording differs from a given model."""
     base = _base(problem, given, executor)
     x = Exploration(problem, base, Explored([base]), executor)
     best, lack_of_fit, singles = _forward_selection(x, base, candidates, most, seed)
@@ -112,7 +112,7 @@ def refit(problem: Problem, found: Selection, executor: Executor) -> Selection:
 def _forward_selection(
     x: Exploration, best: Hypothesis, candidates: Sequence[Effect], most: int, seed: int
 ) -> tuple[Hypothesis, LackOfFit, list[Hypothesis]]:
-    """Up to `most` effects beside those of a hypothesis, one by one, in a beam.
+    """Up to `most` effects more than those of a hypothesis, one by one, in a beam.
 
     Returns the best hypothesis, its lack of fit, and the hypotheses with a single effect more.
     """
@@ -131,7 +131,7 @@ def _forward_selection(
             best, rest = better[0], None
         elif depth:
             break
-        # Also hypotheses that gain nothing alone: one may be worth something beside another.
+        # Also hypotheses that gain nothing alone: together with another one may.
         beam = thresholds.BEAM if depth + 1 < thresholds.BEAM_DEPTH else 1
         parents = (better or more)[:beam]
     return best, rest or lack_of_fit_test(best.problem, best.residual, seed), singles

@@ -102,7 +102,7 @@ SEARCH_SAMPLES = 12_000
 BEAM, BEAM_DEPTH = 3, 3
 
 # Part of the most promising effect's screened gain, and the number of effects in any case.
-# Decides: which effects are fitted beside a parent.
+# Decides: which effects are fitted together with a parent's.
 # Origin: budget; the screen is a linear estimate, right within about a factor of two.
 SCREENED_GAIN, SCREENED_LEAST = 0.4, 4
 

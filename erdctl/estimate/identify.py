@@ -48,7 +48,7 @@ def identify(
 ) -> Identification:
     """Identify the paper's model, or one with effects, from a recording.
 
-    robust : weigh outliers down (Huber);  progress : told what is being done
+    robust : weigh outliers down (Huber);  progress : called with what is being done
     Both directions are fitted together, since they share the state F_ER.
     """
     model = model or Model()

@@ -96,7 +96,7 @@ class Mimicked:
         return draw(subject, kind, records, span)
 
     def write(self, path: Place) -> None:
-        """Write the sequence and its manifest beside it, as `erdctl mimic -o` does.
+        """Write the sequence, and its manifest next to it, as `erdctl mimic -o` does.
 
         The suffix says the format; .mat is laid out for Simulink.
         """

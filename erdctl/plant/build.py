@@ -50,15 +50,15 @@ class Built:
     crowding: tuple[float, ...]
 
 
-def build(plan: CasePlan, over: tuple[Ride, ...], random: Random, trial: Variation) -> Built:
+def build(plan: CasePlan, over: tuple[Ride, ...], random: Random, variation: Variation) -> Built:
     """An attempt at a plan."""
-    base = draw_base(random, plan.campaign, trial.weights)
+    base = draw_base(random, plan.campaign, variation.weights)
     samples, plain = joined(over), forces(base, over)
     scales = scales_of(over, plain, samples, plan.campaign.rating.stroke)
-    noise = plan.force_noise.scaled(float(np.ptp(plain)), trial.noise)
+    noise = plan.force_noise.scaled(float(np.ptp(plain)), variation.noise)
     setting = Setting(over, samples, base, plain, scales, noise.rms)
     makers, alone, off, crowd = [], [], [], []
-    factors = trial.levels or (1.0,) * len(plan.effects)
+    factors = variation.levels or (1.0,) * len(plan.effects)
     for effect, level, factor in zip(plan.effects, plan.levels, factors, strict=True):
         maker = _maker(effect, effect.drawn(random), scales)
         wanted = level * factor

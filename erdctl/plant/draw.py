@@ -65,9 +65,9 @@ def draw(
         motion=motion, colour=colour, scatter=scatter,
     )  # fmt: skip
     over = rides(plan.campaign)
-    trial, best = Variation(), None
+    variation, best = Variation(), None
     for attempt in range(TRIES):
-        built = build(plan, over, stream(seed, "damper", attempt), trial)
+        built = build(plan, over, stream(seed, "damper", attempt), variation)
         for choice in range(CHOICES if concealment == "absorbed" else 1):
             other = draw_other(stream(seed, "fresh", attempt, choice), plan.campaign)
             case = _case(plan, built, other)
@@ -81,15 +81,15 @@ def draw(
         given_up = attempt >= PATIENCE and faults < NOT_AS_ASKED and calm
         if faults == 0.0 or given_up:
             break
-        trial = _next(trial, built, plan.effects, attempt)
+        variation = _next(variation, built, plan.effects, attempt)
     assert best is not None
     return best[1]
 
 
-def _next(trial: Variation, built: Built, effects: Sequence[Twin], attempt: int) -> Variation:
+def _next(variation: Variation, built: Built, effects: Sequence[Twin], attempt: int) -> Variation:
     """What to change after an attempt that did not give what was wanted."""
-    weights, noise = trial.weights, trial.noise
-    levels = trial.levels or (1.0,) * len(effects)
+    weights, noise = variation.weights, variation.noise
+    levels = variation.levels or (1.0,) * len(effects)
     fraction = built.noise.fraction
     crowding = max(built.crowding, default=1.0)
     weak = [off < -TOLERANCE for off in built.off]

@@ -17,7 +17,7 @@ def nameable() -> frozenset[str]:
 
 
 def right_names(hidden: str, equivalent: tuple[str, ...] = ()) -> tuple[str, ...]:
-    """Names beside its own that are right for a hidden effect.
+    """Names other than its own that are right for a hidden effect.
 
     equivalent : what the plant says no force channel tells from it; what the catalogue says of it,
     from either side, is added.

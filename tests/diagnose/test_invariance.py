@@ -45,7 +45,7 @@ def half_the_rate(r: Recording) -> Recording:
     return r.take(rows, np.searchsorted(rows, r.starts), r.names)
 
 
-def louder(r: Recording) -> Recording:
+def larger_force(r: Recording) -> Recording:
     assert r.force is not None
     return replace(r, force=TIMES * r.force)
 
@@ -54,7 +54,7 @@ def with_a_copy(r: Recording) -> Recording:
     return concatenate([r, replace(r.select([2]), names=("copy",))])
 
 
-@pytest.mark.parametrize("change", [shuffled, half_the_rate, louder, with_a_copy])
+@pytest.mark.parametrize("change", [shuffled, half_the_rate, larger_force, with_a_copy])
 def test_the_finding_is_the_same(change: Callable[[Recording], Recording]) -> None:
     before, after = reference(), diagnose(change(original()), catalogue())
     assert [f.effect.name for f in before.findings] == [EFFECT]
@@ -63,7 +63,7 @@ def test_the_finding_is_the_same(change: Callable[[Recording], Recording]) -> No
     for name, q in before.fit.model.quantities.items():
         if change is half_the_rate and name.endswith(".T_d"):
             continue  # a duty step is then logged up to a sample late, which the lag takes up
-        scale = TIMES if change is louder and q.linear else 1.0
+        scale = TIMES if change is larger_force and q.linear else 1.0
         errors = [f.fit.stderr.get(name, 0.0) / s for f, s in ((before, 1.0), (after, scale))]
         was, now = before.fit.values[name], after.fit.values[name] / scale
         print(f"{name}: {was:.5g} +- {errors[0]:.2g}, then {now:.5g} +- {errors[1]:.2g}")

@@ -1,4 +1,4 @@
-"""What the proof takes for catalogued is what the catalogue holds, with no list beside it."""
+"""What the proof takes for catalogued is what the catalogue holds, with no second list."""
 
 from __future__ import annotations
 

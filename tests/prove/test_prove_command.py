@@ -66,12 +66,12 @@ def test_two_cases_from_seed_to_scoreboard(tmp_path: Path) -> None:
 
 
 def test_a_case_that_fails_does_not_take_the_others_with_it(tmp_path: Path) -> None:
-    told: list[int] = []
+    numbers: list[int] = []
     outcomes = prove(
-        Wish(kind="triple"), [3, 4], tmp_path, jobs=1, on_outcome=lambda o: told.append(o.number)
+        Wish(kind="triple"), [3, 4], tmp_path, jobs=1, on_outcome=lambda o: numbers.append(o.number)
     )
     assert [(o.number, o.seed) for o in outcomes] == [(1, 3), (2, 4)]
-    assert told == [1, 2]
+    assert numbers == [1, 2]
     assert all(isinstance(o, Failed) and "kind is 'triple'" in o.message for o in outcomes)
 
 
