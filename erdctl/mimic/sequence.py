@@ -36,7 +36,7 @@ class PwmSequence:
     static: bool
 
     def columns(self) -> dict[str, Array]:
-        """Columns to add to the log's own motion; `duty` and forces are the first faulty damper's."""
+        """Columns for the log's own motion; `duty` and forces are the first faulty damper's."""
         channel, plan = next(iter(self.plans.items()))
         return {
             "duty": self.duties[channel],
