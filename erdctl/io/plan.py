@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Sequence
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem
-from erdctl.io.containers.align import Roles
+from erdctl.io.roles import Roles
 from erdctl.io.sources import TableSource, read_source
 from erdctl.io.stored import from_stored, si
 from erdctl.io.units import (

@@ -12,15 +12,14 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 import pyarrow as pa
 
 from erdctl.core.errors import ComputationProblem, InputProblem, UsageProblem
-from erdctl.io import csv_in
-from erdctl.io.csv_in import Data
 from erdctl.io.formats import ARROW_END, ARROW_FILE, CONTAINERS, Format, by_content
 from erdctl.io.stored import units_of
 
 if TYPE_CHECKING:
-    from erdctl.io.containers.align import Roles
     from erdctl.io.containers.channels import Layout
+    from erdctl.io.roles import Roles
 
+Data = str | bytearray  # the path of a file, or the bytes of a stream
 T = TypeVar("T")
 
 STDIN = "-"
@@ -53,6 +52,8 @@ class TableSource:
     def row_of(self, sample: int, samples: int) -> int:
         """Row of a sample (counted from 0) as InputProblem states rows; samples : how many."""
         if self.format is Format.CSV:
+            from erdctl.io import csv_in
+
             return csv_in.row_of(self.data, self.name, sample, samples)
         return sample + 1
 
@@ -85,6 +86,8 @@ def open_source(path: str, held: Data | None = None) -> TableSource:
             path, name, found, data, layout.columns, units=layout.units, layout=layout
         )
     if found is Format.CSV:
+        from erdctl.io import csv_in
+
         columns = csv_in.column_names(data, name)
     else:
         schema, columns, units = _guarded(name, found, lambda: _described(data, found))
@@ -119,12 +122,15 @@ def read_source(
 
     def read() -> pa.Table:
         if source.format is Format.CSV:
+            from erdctl.io import csv_in
+
             return csv_in.read(source.data, source.name, source.columns, names, numbers)
         if source.format is Format.PARQUET:
             return _read_parquet(source, names, labels)
         if source.layout is not None:
-            from erdctl.io.containers.align import Roles, aligned
+            from erdctl.io.containers.align import aligned
             from erdctl.io.containers.opening import guarded
+            from erdctl.io.roles import Roles
 
             layout, chosen = source.layout, roles or Roles()
             return guarded(

@@ -19,9 +19,8 @@ divided by `s.starts`, and must not let one see another.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Protocol
+from collections.abc import Callable, Mapping, Sequence
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
@@ -92,16 +91,38 @@ class StartsFunction(Protocol):
     def __call__(self, s: Signals, rest: Array, /) -> Sequence[Values]: ...
 
 
-@dataclass(frozen=True)
-class MotionSlot:
+F = TypeVar("F", bound=Callable[..., object])
+
+
+class FunctionSlot(Generic[F]):
+    """A slot with its function; two are equal if their functions are.
+
+    Plain classes: a dozen of dataclasses would cost each command 7 ms to make.
+    """
+
+    def __init__(self, function: F) -> None:
+        self.function = function
+
+    def __eq__(self, other: object) -> bool:
+        return type(self) is type(other) and vars(self) == vars(other)
+
+    def __hash__(self) -> int:
+        return hash((type(self), self.function))
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({getattr(self.function, '__name__', self.function)})"
+
+
+class MotionSlot(FunctionSlot[MotionFunction]):
     """The piston's motion, at the samples and on straight lines between them.
 
     free_play : (p) -> play [m] in the joint of a compliance in series with the whole damper, which
         takes it over from `function`: a play bears no force, so that what is stretched unloads
     """
 
-    function: MotionFunction
-    free_play: NumberFunction | None = None
+    def __init__(self, function: MotionFunction, free_play: NumberFunction | None = None) -> None:
+        super().__init__(function)
+        self.free_play = free_play
 
     def __call__(self, s: Signals, p: Values) -> Signals:
         out = called(self.function, s, p)
@@ -112,126 +133,94 @@ class MotionSlot:
         return out
 
 
-@dataclass(frozen=True)
-class ControlSlot:
-    """(n,) duty [1] that reaches the electrodes, held from its sample to the next."""
-
-    function: SamplesFunction
+class SampledSlot(FunctionSlot[SamplesFunction]):
+    """What takes a place among the model's signals: (n,) values."""
 
     def __call__(self, s: Signals, p: Values) -> Array:
         return samples(self.function, called(self.function, s, p), s)
 
 
-@dataclass(frozen=True)
-class FieldSlot:
+class ControlSlot(SampledSlot):
+    """(n,) duty [1] that reaches the electrodes, held from its sample to the next."""
+
+
+class LagSlot(SampledSlot):
+    """(n,) factor of T_d [1] in the step that begins here, while the yield force falls."""
+
+
+class SignSlot(SampledSlot):
+    """(n,) in -1..1, in place of sign(xdot), at the samples."""
+
+
+class ViscousSlot(SampledSlot):
+    """(n,) in place of xdot [m/s] in the viscous force, at the samples."""
+
+
+class GasSlot(SampledSlot):
+    """(n,) in place of x [m] in the gas force, at the samples."""
+
+
+class FieldSlot(FunctionSlot[FieldFunction]):
     """(n,) steady yield force over sigma [1], from v^beta: its mean over the step that begins here.
 
     way : "compression" or "release", the direction for which it is
     """
 
-    function: FieldFunction
-
     def __call__(self, field: Array, s: Signals, p: Values, way: str) -> Array:
         return samples(self.function, called(self.function, field, s, p, way), s)
 
 
-@dataclass(frozen=True)
-class LagSlot:
-    """(n,) factor of T_d [1] in the step that begins here, while the yield force falls."""
-
-    function: SamplesFunction
-
-    def __call__(self, s: Signals, p: Values) -> Array:
-        return samples(self.function, called(self.function, s, p), s)
-
-
-@dataclass(frozen=True)
-class SignSlot:
-    """(n,) in -1..1, in place of sign(xdot), at the samples."""
-
-    function: SamplesFunction
-
-    def __call__(self, s: Signals, p: Values) -> Array:
-        return samples(self.function, called(self.function, s, p), s)
-
-
-@dataclass(frozen=True)
-class YieldSlot:
-    """(n,) what becomes of the signed yield force [N], at the samples; may remember."""
-
-    function: ColumnFunction
+class ColumnSlot(FunctionSlot[ColumnFunction]):
+    """What becomes of a force (n,) [N]."""
 
     def __call__(self, column: Array, s: Signals, p: Values) -> Array:
         return samples(self.function, called(self.function, column, s, p), s)
 
 
-@dataclass(frozen=True)
-class ViscousSlot:
-    """(n,) in place of xdot [m/s] in the viscous force, at the samples."""
-
-    function: SamplesFunction
-
-    def __call__(self, s: Signals, p: Values) -> Array:
-        return samples(self.function, called(self.function, s, p), s)
+class YieldSlot(ColumnSlot):
+    """(n,) what becomes of the signed yield force [N], at the samples; may remember."""
 
 
-@dataclass(frozen=True)
-class GasSlot:
-    """(n,) in place of x [m] in the gas force, at the samples."""
-
-    function: SamplesFunction
-
-    def __call__(self, s: Signals, p: Values) -> Array:
-        return samples(self.function, called(self.function, s, p), s)
+class ChannelSlot(ColumnSlot):
+    """(n,) what the force channel records of a force [N], at the samples; linear in it."""
 
 
-@dataclass(frozen=True)
-class ScaleSlot:
+class ScaleSlot(FunctionSlot[ScaleFunction]):
     """(n,) factors [1] of the groups `gas`, `viscous`, `yield`, at the samples."""
-
-    function: ScaleFunction
 
     def __call__(self, s: Signals, p: Values) -> Groups:
         return groups(self.function, called(self.function, s, p), s)
 
 
-@dataclass(frozen=True)
-class TermSlot:
-    """Nothing but added forces: `Effect.columns`."""
-
-
-@dataclass(frozen=True)
-class FeedbackSlot:
+class FeedbackSlot(FunctionSlot[FeedbackFunction]):
     """(n,) factors [1] of groups that depend on the forces themselves, at the samples.
 
     It is to march free-running, with the forces that its own factors leave.
     """
 
-    function: FeedbackFunction
-
     def __call__(self, parts: Groups, s: Signals, p: Values) -> Groups:
         return groups(self.function, called(self.function, parts, s, p), s)
 
 
-@dataclass(frozen=True)
-class SeriesSlot:
+class SeriesSlot(FunctionSlot[NumberFunction]):
     """Compliance [m/N] in series with some groups, or with the whole damper (`carries` None)."""
 
-    function: NumberFunction
-    carries: tuple[str, ...] | None = None
+    def __init__(self, function: NumberFunction, carries: tuple[str, ...] | None = None) -> None:
+        super().__init__(function)
+        self.carries = carries
 
     def __call__(self, p: Values) -> float:
         return number(self.function, called(self.function, p))
 
 
-@dataclass(frozen=True)
-class ChannelSlot:
-    """(n,) what the force channel records of a force [N], at the samples; linear in it."""
+class TermSlot:
+    """Nothing but added forces: `Effect.columns`."""
 
-    function: ColumnFunction
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, TermSlot)
 
-    def __call__(self, column: Array, s: Signals, p: Values) -> Array:
-        return samples(self.function, called(self.function, column, s, p), s)
+    def __hash__(self) -> int:
+        return hash(TermSlot)
 
 
 Slot = (

@@ -14,7 +14,7 @@ samples.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -26,26 +26,13 @@ from erdctl.core.recording import Array
 from erdctl.io.arrays import arrow, runs_of_text
 from erdctl.io.containers.channels import TIME, Layout, Member
 from erdctl.io.containers.usable import checked, numbers, sound
+from erdctl.io.roles import Roles
 from erdctl.io.stored import with_units
-from erdctl.io.units import RECORD, Conversion
+from erdctl.io.units import RECORD
 
 GAP = 5.0  # steps without a sample that are no jitter
 _EARLY = 1e-6  # of a step: clocks that count the same samples differ by their rounding
 _FIRST = ("force", "x")
-
-
-@dataclass(frozen=True)
-class Roles:
-    """What columns are needed for.
-
-    targets : column -> contract column, `t` among them if it is a channel of its own
-    seconds : how the values of such a channel become seconds
-    say : takes a line about what was done
-    """
-
-    targets: Mapping[str, str] = field(default_factory=dict)
-    seconds: Conversion = field(default_factory=Conversion)
-    say: Callable[[str], None] = lambda line: None
 
 
 @dataclass(frozen=True, eq=False)

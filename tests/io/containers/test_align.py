@@ -12,8 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from erdctl.core.errors import InputProblem
-from erdctl.io.containers.align import Roles, aligned
+from erdctl.io.containers.align import aligned
 from erdctl.io.containers.channels import Channel, ChannelGroup, Samples, arrange
+from erdctl.io.roles import Roles
 
 Series = tuple[Any, Any]
 Say = Callable[[str], None]
