@@ -17,7 +17,7 @@ from erdctl.core.signals import Signals
 ENOUGH = 10  # samples of a kind below which there is no telling anything
 SAME_LEVEL = 1.05  # duties within this ratio are one level with a noisy record of it
 PIECE = 50_000  # samples of a stretch over which accelerations are taken
-MOST = 1_000_000  # samples for accelerations: stretches of a longer log stand for the whole
+ACCELERATION_SAMPLES = 1_000_000  # stretches of a longer log stand for the whole
 SHARE = 0.05  # of the acceleration; less that no spring makes is what the slope leaves of a sine
 
 
@@ -155,7 +155,7 @@ def _beyond_a_spring(s: Signals) -> float:
         (i, min(i + PIECE, b))
         for a, b in pairwise(s.starts.tolist()) for i in range(a, b, PIECE)
     ]  # fmt: skip
-    every = -(-len(s) // MOST)
+    every = -(-len(s) // ACCELERATION_SAMPLES)
     normal, samples = np.zeros((7, 7)), 0
     for a, b in bounds[::every]:
         rows = _against_acceleration(s.t[a:b], s.x[a:b], s.xdot[a:b])

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from erdctl.bench.inspection import Inspection
     from erdctl.io.inspection import InspectionFile
 
-MOST = 40  # records in a table; the JSON has all
+LISTED = 40  # records in a table; the JSON has all
 
 
 def command(
@@ -82,13 +82,13 @@ def _show(found: Inspection, document: InspectionFile) -> None:
             " to ".join(number(100 * d, 3) for d in r["duty"]),
             " to ".join(span(r["force"], 3)), *([span(r["temperature"])[1]] * hot),
         ]
-        for r in document["records"][:MOST]
+        for r in document["records"][:LISTED]
     ]  # fmt: skip
     header = ["record", "samples", "length [s]", "rate [Hz]", "gaps", "stroke [mm]",
               "top speed [m/s]", "duty [%]", "force [N]", *(["top [degC]"] * hot)]  # fmt: skip
     table("Records", header, rows)
-    if len(found.records) > MOST:
-        say(f"{len(found.records) - MOST} more records; --json lists all")
+    if len(found.records) > LISTED:
+        say(f"{len(found.records) - LISTED} more records; --json lists all")
     seconds = list(found.seconds_at.values())
     table(
         "Time at each duty level",

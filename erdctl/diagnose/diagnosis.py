@@ -13,10 +13,11 @@ from erdctl.bench.identifiability import untestable
 from erdctl.core.blocks import thinned
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array, Recording
+from erdctl.core.workers import Progress
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import Comparison, compare, ranked
 from erdctl.diagnose.discriminating_drive import DiscriminatingDrive, discriminating_drive
-from erdctl.diagnose.executor import Progress, executor
+from erdctl.diagnose.executor import executor
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem, prepare, with_given
 from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying, errors

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pickle
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -12,15 +12,14 @@ from typing import NamedTuple
 
 from erdctl.core.errors import ComputationProblem, EffectFailed, IncompatibleEffects
 from erdctl.core.recording import Array
-from erdctl.core.workers import pool
+from erdctl.core.workers import Progress, pool
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis, rank_starts
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.record_effects import RecordEffects
+from erdctl.estimate.least_squares import Fitted
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
-
-Progress = Callable[[str, str], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,10 +51,8 @@ class Answer(NamedTuple):
     weight : (n,) of the samples, where the hypothesis's channel makes some of them doubtful
     """
 
-    values: dict[str, float]
-    residual: Array
+    fitted: Fitted
     cross_validated: Array
-    evaluations: int
     weight: Array | None
     record_effects: RecordEffects | None
 
@@ -163,13 +160,11 @@ def _hypothesis(problem: Problem, task: Task, future: Future[Answer | None]) -> 
     answer = future.result()
     if answer is None:
         return None
-    values, residual, cross_validated, evaluations, weight, record_effects = answer
     part = problem
-    if weight is not None:
-        part = replace(problem, block=problem.block._replace(weight=weight))
-    return Hypothesis(
-        part, Model(task.effects), values, residual, cross_validated, evaluations, record_effects
-    )
+    if answer.weight is not None:
+        part = replace(problem, block=problem.block._replace(weight=answer.weight))
+    here = replace(answer.fitted, model=Model(task.effects))  # of this process's own effects
+    return Hypothesis(part, here, answer.cross_validated, answer.record_effects)
 
 
 _problems: tuple[Problem, ...] = ()  # of this process, if it is a worker
@@ -188,4 +183,4 @@ def _answer(number: int, task: Task) -> Answer | None:
     if h is None:
         return None
     weight = None if h.problem is problem else h.problem.block.weight
-    return Answer(h.values, h.residual, h.cross_validated, h.evaluations, weight, h.record_effects)
+    return Answer(h.fitted, h.cross_validated, weight, h.record_effects)

@@ -19,20 +19,33 @@ from erdctl.model.effect import Effect
 
 @dataclass(frozen=True, eq=False)
 class Hypothesis:
-    """A fitted model.
+    """A fitted model, and what it is worth on data that the fit has not used.
 
     problem : what it was fitted to, but for samples of which its channel makes nothing certain
-    residual : (n,) [N];  cross_validated : (n,) the same, by a fit without the sample's group
+    fitted : the fit, with the evaluations of all searches for it
+    cross_validated : (n,) residual by a fit without the sample's group [N]
     record_effects : where the problem leaves them free; residuals are then beyond them
     """
 
     problem: Problem
-    model: Model
-    values: dict[str, float]
-    residual: Array
+    fitted: Fitted
     cross_validated: Array
-    evaluations: int
     record_effects: RecordEffects | None = None
+
+    @property
+    def model(self) -> Model:
+        """The paper's model with the effects."""
+        return self.fitted.model
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Every parameter of the model."""
+        return self.fitted.values
+
+    @property
+    def residual(self) -> Array:
+        """(n,) measured less modelled force [N]."""
+        return self.fitted.residual
 
     @property
     def effects(self) -> tuple[Effect, ...]:
@@ -88,11 +101,9 @@ def fit_hypothesis(
             evaluations += found.evaluations
             if record_effects.settled(last):
                 break
-    none = np.empty(0)
-    fitted = Hypothesis(
-        part, model, found.values, found.residual, none, evaluations, record_effects
-    )
-    return replace(fitted, cross_validated=_cross_validated(fitted))
+    fitted = replace(found, evaluations=evaluations)
+    hypothesis = Hypothesis(part, fitted, found.residual, record_effects)
+    return replace(hypothesis, cross_validated=_cross_validated(hypothesis))
 
 
 def rank_starts(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +11,7 @@ from erdctl.bench.identifiability import held_values, unmet
 from erdctl.core.blocks import Block, pieces, sample
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import DIRECTIONS, Recording
+from erdctl.core.workers import Progress
 from erdctl.estimate.covariance import Fit, assess, estimates
 from erdctl.estimate.least_squares import Fitted, fit
 from erdctl.estimate.starts import fresh_start
@@ -21,7 +22,6 @@ from erdctl.model.parameters import Estimate
 SEARCH = 40_000  # samples for the search; the last step and the errors use all
 CORRELATED = 0.95
 FRESH = ((0.05, 0.3), (0.01, 1.0))  # T_d [s] and beta [1] of two guesses: slow and fast
-Progress = Callable[[str, str], None]
 
 
 @dataclass(frozen=True, kw_only=True)

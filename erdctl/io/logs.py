@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
@@ -18,12 +18,11 @@ from erdctl.io.checks import Place, check_time, check_values, remark_on_time
 from erdctl.io.columns import to_numbers, to_records
 from erdctl.io.consistency import check_consistency
 from erdctl.io.memory import check_fits
-from erdctl.io.plan import Plan, in_contract_names, plan_columns, read_planned
+from erdctl.io.plan import ColumnPlan, Report, in_contract_names, plan_columns, read_planned
 from erdctl.io.sources import STDIN, TableSource, open_source
 from erdctl.io.stored import si, with_unit
 from erdctl.io.units import RECORD, Conversion, parse_maps
 
-Report = Callable[[str], None]
 Held = Mapping[str, bytearray]
 
 FORCES = ("force", "force_model")
@@ -189,7 +188,7 @@ def _read(
     )
 
 
-def _records(table: pa.Table, plan: Plan, place: Place) -> tuple[Index, tuple[str, ...]]:
+def _records(table: pa.Table, plan: ColumnPlan, place: Place) -> tuple[Index, tuple[str, ...]]:
     """Offsets and names of the records; no names if the log does not tell records apart."""
     if RECORD not in plan:
         return np.array([0, table.num_rows], dtype=np.intp), ()
@@ -201,7 +200,7 @@ def _recording(
     starts: Index,
     names: tuple[str, ...],
     place: Place,
-    plan: Plan,
+    plan: ColumnPlan,
     *,
     narrow: bool,
     say: Report,
@@ -246,7 +245,7 @@ def _with_channel(table: pa.Table, target: str, values: Array, *, converted: boo
 
 
 def _with_own_label(
-    table: pa.Table, source: TableSource, plan: Plan, starts: Index, names: Sequence[str]
+    table: pa.Table, source: TableSource, plan: ColumnPlan, starts: Index, names: Sequence[str]
 ) -> pa.Table:
     """The table with `record` in the type that the log has it in."""
     if RECORD not in plan or source.schema is None:

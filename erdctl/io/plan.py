@@ -22,7 +22,7 @@ from erdctl.io.units import (
 
 Report = Callable[[str], None]
 # Which column of the log a contract column is, and how its values become SI.
-Plan = dict[str, tuple[str, Conversion]]
+ColumnPlan = dict[str, tuple[str, Conversion]]
 
 
 def plan_columns(
@@ -32,7 +32,7 @@ def plan_columns(
     needed: Sequence[str],
     left: Collection[str] = (),
     say: Report,
-) -> Plan:
+) -> ColumnPlan:
     """The columns that the log has, by `--map` and by their names.
 
     A unit given with `--map` holds; else the one that the file states for the column, in a unit
@@ -159,7 +159,7 @@ def _missing(missing: Sequence[str], free: Sequence[str], source: TableSource) -
     )
 
 
-def in_contract_names(table: pa.Table, plan: Plan, say: Report) -> pa.Table:
+def in_contract_names(table: pa.Table, plan: ColumnPlan, say: Report) -> pa.Table:
     """The log's table with mapped columns renamed; a column that had such a name steps aside."""
     targets = {column: target for target, (column, _) in plan.items()}
     names = []
@@ -174,14 +174,14 @@ def in_contract_names(table: pa.Table, plan: Plan, say: Report) -> pa.Table:
 
 def read_planned(
     source: TableSource,
-    plan: Plan,
+    plan: ColumnPlan,
     mappings: Sequence[Mapping],
     wanted: Sequence[str],
     *,
     others: Sequence[str] = (),
     want_hash: bool = False,
     say: Report,
-) -> tuple[pa.Table, Plan, str]:
+) -> tuple[pa.Table, ColumnPlan, str]:
     """The wanted columns, what is left to convert of them, and the hash of the file.
 
     others : columns other than the plan's that hold numbers
@@ -209,7 +209,7 @@ def read_planned(
 
 
 def _refuse_counts(
-    table: pa.Table, source: TableSource, plan: Plan, given: Collection[str]
+    table: pa.Table, source: TableSource, plan: ColumnPlan, given: Collection[str]
 ) -> None:
     """A force in whole numbers of no unit is what the converter counted, not newtons."""
     for target, (column, _) in plan.items():

@@ -20,13 +20,12 @@ from erdctl.estimate.least_squares import Fitted, fit
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 from erdctl.model.paper import QUANTITIES
+from erdctl.model.slots import Values
 
 SEARCH = 6_000  # samples of the search; the best starts are then fitted to all
 LOOK = 6  # evaluations that rank a start
 SHARPEN = 60  # evaluations for those that are kept
 KEPT = 3  # starts that are searched to the end
-
-Values = Mapping[str, float]
 
 
 def best_fit(

@@ -33,7 +33,8 @@ def no_steps(problem: Problem) -> Hypothesis:
     stuck = {**hypothesis.values, **fresh_start(SHORTEST, 0.4)}
     s = problem.block.signals
     error = problem.block.force - hypothesis.model.force(s, stuck)
-    return replace(hypothesis, values=stuck, residual=error, cross_validated=error)
+    fitted = replace(hypothesis.fitted, values=stuck, residual=error)
+    return replace(hypothesis, fitted=fitted, cross_validated=error)
 
 
 def test_a_parameter_at_its_bound_is_known() -> None:
@@ -48,7 +49,8 @@ def test_a_parameter_at_its_bound_is_known() -> None:
 def test_what_is_added_to_a_model_at_a_bound_also_starts_afresh(problem: Problem) -> None:
     candidate = Candidate(FRICTION, 0.1, ({},))
     cornered = no_steps(problem)
-    free = replace(cornered, values={**cornered.values, **fresh_start(0.03, 0.5)})
+    values = {**cornered.values, **fresh_start(0.03, 0.5)}
+    free = replace(cornered, fitted=replace(cornered.fitted, values=values))
     assert len(with_effect("", free, candidate).starts) == 1
     *_, last = with_effect("", cornered, candidate).starts
     assert not at_bound(QUANTITIES["T_d"], last["compression.T_d"])

@@ -16,7 +16,7 @@ from erdctl.model.effect import Variable
 from erdctl.report.page.thin import keep, lines, reversals
 from erdctl.score.nrmse import MAX_LEVELS, duty_levels
 
-MOST = 40_000  # samples that a page holds: more lie on top of each other, and are slow to zoom
+SAMPLES = 40_000  # samples that a page holds: more lie on top of each other, and are slow to zoom
 RECORDS = 200  # that can be chosen from one by one
 CELLS = 25  # of velocity in the misfit map; odd, so that one lies around reversal
 BINS = 60  # of a profile
@@ -62,7 +62,7 @@ def samples(recording: Recording, levels: Levels, models: Mapping[str, Array]) -
     r = recording
     assert r.force is not None
     misfits = [r.force - model for model in models.values()]
-    rows = keep([r.x, r.xdot, r.force, *misfits], MOST, reversals(r.xdot))
+    rows = keep([r.x, r.xdot, r.force, *misfits], SAMPLES, reversals(r.xdot))
     record = np.searchsorted(r.starts, rows, side="right") - 1
     joined = lines(rows, t=r.t, xdot=r.xdot, level=levels.at, starts=r.starts)
     columns = {"t": r.t, "x": 1e3 * r.x, "xdot": 1e3 * r.xdot, "force": r.force, **models}
@@ -239,7 +239,7 @@ def traces(
     zero: bool = False,
 ) -> Json:
     """Signals over time, thinned without losing their extremes."""
-    rows = keep([values for _, values in columns], MOST // 4)
+    rows = keep([values for _, values in columns], SAMPLES // 4)
     return {
         "kind": "lines",
         "x": {"label": "Time", "unit": "s", "values": encoded(t[rows])},

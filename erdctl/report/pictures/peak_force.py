@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from erdctl.core.recording import Array
     from erdctl.report.subject import Subject
 
-MOST = 2000  # strokes of a level that are drawn one by one
+DRAWN_ONE_BY_ONE = 2000  # strokes of a level that are drawn one by one
 
 
 def peak_force(figure: Figure, subject: Subject) -> None:
@@ -40,7 +40,7 @@ def peak_force(figure: Figure, subject: Subject) -> None:
             )  # fmt: skip
             if dots:
                 at = np.flatnonzero(found.code == code)
-                at = at[:: len(at) // MOST + 1]
+                at = at[:: len(at) // DRAWN_ONE_BY_ONE + 1]
                 ax.plot(
                     found.velocity[at] * scale, found.force[at], ls="none", marker=".", ms=3,
                     mew=0, color=style.tinted(colour, 0.5), zorder=1.5,
