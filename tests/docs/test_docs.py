@@ -145,6 +145,18 @@ def test_the_tutorial_in_python(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
             assert missing_lines(block.output, output) == [], f"line {block.line}:\n{output}"
 
 
+def test_the_readme_in_python(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With few effects to search for, as the commands of the README are shortened."""
+    (block,) = blocks(README, "python")
+    full, few = '.diagnose("bench.parquet")', '.diagnose("bench.parquet", effects=["backlash"])'
+    assert full in block.code
+    work = workplace(tmp_path)
+    place(work, block.code.replace('"', " "))
+    monkeypatch.chdir(work)
+    output = run_python(block.code.replace(full, few), {})
+    assert "nrmse" in output.lower()
+
+
 def test_python_runs_as_at_a_prompt() -> None:
     names: dict[str, Any] = {}
     assert run_python("a = 2\nprint('x')\na + 1", names) == "x\n3\n"
