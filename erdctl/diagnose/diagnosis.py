@@ -1,4 +1,4 @@
-"""The whole diagnosis: locate, screen, refit, choose, explain."""
+"""The whole diagnosis: search, refit, test the lack of fit, locate, explain."""
 
 from __future__ import annotations
 
@@ -121,7 +121,7 @@ def diagnose(
         selection = search(thin, testable, most, workers, seed, given)
         selection = refit(problem, selection, workers)
     best = selection.best
-    progress("what remains", "")
+    progress("lack of fit", "")
     lack_of_fit = lack_of_fit_test(best.problem, best.residual, seed)
     noise = lack_of_fit.noise_rms
     left = lack_of_fit.significant and _matters(problem, selection, lack_of_fit)

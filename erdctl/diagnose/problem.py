@@ -159,7 +159,7 @@ def groups(recording: Recording) -> Index:
 
 
 def stretches(recording: Recording, group: Index) -> Index:
-    """(n,) stretches of about 0.8 s, each within one group."""
+    """(n,) stretches of about `thresholds.STRETCH` seconds, each within one group."""
     out = np.empty(len(recording), dtype=np.intp)
     first = 0
     ends = np.flatnonzero(np.diff(group)) + 1

@@ -44,9 +44,11 @@ def forms(s: Signals) -> dict[str, Array]:
         "the acceleration": s.xddot,
         "the square of the deflection": s.x**2,
     }
-    turning = np.exp(-np.minimum(s.since_reversal, 1e3) / thresholds.RESEMBLANCE_FADING)
+    fading = thresholds.RESEMBLANCE_FADING
+    turning = np.exp(-np.minimum(s.since_reversal, 1e3) / fading)
     more = {
-        "the direction of motion, fading within 50 ms of a reversal": s.sign * turning,
+        f"the direction of motion, fading within {1e3 * fading:g} ms of a reversal": s.sign
+        * turning,
         "the duty": s.duty,
         "the time in a record": s.t - s.t[start],
     }
