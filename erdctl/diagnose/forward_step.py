@@ -11,7 +11,7 @@ from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.screening import Candidate, Screen
-from erdctl.estimate.least_squares import at_bound
+from erdctl.estimate.least_squares import NEAR, at_bound
 from erdctl.estimate.starts import fresh_start
 from erdctl.model.effect import Effect
 from erdctl.model.slots import FeedbackSlot, GasSlot, SeriesSlot, SignSlot, ViscousSlot
@@ -136,4 +136,4 @@ def _stuck(hypothesis: Hypothesis) -> bool:
     """
     ends = fresh_start(0.0, 0.0).keys() - hypothesis.problem.held.keys()
     quantities, values = hypothesis.model.quantities, hypothesis.values
-    return any(at_bound(quantities[name], values[name]) for name in ends)
+    return any(at_bound(quantities[name], values[name], near=NEAR) for name in ends)

@@ -176,19 +176,18 @@ class _Projected:
         return self.solve(found.x)[0], bool(found.status > 0)
 
 
-def at_bound(q: Quantity, value: float) -> bool:
-    """Whether a fit has driven a parameter to one of its bounds.
+def at_bound(q: Quantity, value: float, *, near: float = 0.0) -> bool:
+    """Whether a parameter has come to one of its bounds.
 
-    A search keeps off the bounds and ends next to one; an amplitude that is solved for lies on it
-    exactly. There a parameter has no standard error, and the others are given for it as it is.
+    near : part of the range of a search within which it counts. A search keeps off the bounds and
+        creeps towards one that it is driven to (NEAR); what lies on one exactly has no standard
+        error, and the others are given for it as it is (0).
     """
-    if q.linear:
+    if near == 0.0 or not q.low < value < q.high:
         return not q.low < value < q.high
-    if not q.low < value < q.high:
-        return True
     axis = _Axis.of(q, value)
-    near = NEAR * (axis.high - axis.low)
-    return not axis.low + near < axis.forth(value) < axis.high - near
+    margin = near * (axis.high - axis.low)
+    return not axis.low + margin < axis.forth(value) < axis.high - margin
 
 
 class _Axis(NamedTuple):

@@ -15,7 +15,7 @@ from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem, prepare
 from erdctl.diagnose.screening import Candidate
 from erdctl.effects import get
-from erdctl.estimate.least_squares import SHORTEST, at_bound
+from erdctl.estimate.least_squares import NEAR, SHORTEST, at_bound
 from erdctl.estimate.starts import fresh_start
 from erdctl.model.paper import QUANTITIES
 
@@ -39,11 +39,13 @@ def no_steps(problem: Problem) -> Hypothesis:
 
 def test_a_parameter_at_its_bound_is_known() -> None:
     T_d, beta = QUANTITIES["T_d"], QUANTITIES["beta"]
-    assert at_bound(T_d, SHORTEST)
-    assert at_bound(T_d, T_d.high)
-    assert not at_bound(T_d, 0.04)
+    assert at_bound(T_d, SHORTEST, near=NEAR)
+    assert at_bound(T_d, T_d.high, near=NEAR)
+    assert not at_bound(T_d, 0.04, near=NEAR)
+    assert at_bound(beta, beta.low, near=NEAR)
+    assert not at_bound(beta, 0.4, near=NEAR)
     assert at_bound(beta, beta.low)
-    assert not at_bound(beta, 0.4)
+    assert not at_bound(T_d, SHORTEST)  # which a search cannot pass, but a value can
 
 
 def test_what_is_added_to_a_model_at_a_bound_also_starts_afresh(problem: Problem) -> None:
@@ -53,7 +55,7 @@ def test_what_is_added_to_a_model_at_a_bound_also_starts_afresh(problem: Problem
     free = replace(cornered, fitted=replace(cornered.fitted, values=values))
     assert len(with_effect("", free, candidate).starts) == 1
     *_, last = with_effect("", cornered, candidate).starts
-    assert not at_bound(QUANTITIES["T_d"], last["compression.T_d"])
+    assert not at_bound(QUANTITIES["T_d"], last["compression.T_d"], near=NEAR)
 
 
 def test_a_smaller_model_is_searched_for_from_where_the_larger_ended(problem: Problem) -> None:
