@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import cmp_to_key
 
 import numpy as np
 
@@ -61,27 +60,23 @@ def compare(problem: Problem, worse: Hypothesis, better: Hypothesis) -> Comparis
 
 def is_better(one: Hypothesis, other: Hypothesis) -> bool:
     """Whether one hypothesis has the smaller cross-validated mean square of the two."""
-    return _order(one, other) < 0
-
-
-def best_of(hypotheses: Iterable[Hypothesis]) -> Hypothesis:
-    """The one with the smallest cross-validated mean square, held against each other in turn."""
-    first, *others = hypotheses
-    for other in others:
-        first = other if is_better(other, first) else first
-    return first
-
-
-def ranked(hypotheses: Iterable[Hypothesis]) -> list[Hypothesis]:
-    """The best first; of equal ones that with fewer parameters to search for."""
-    few = sorted(hypotheses, key=lambda h: len(h.model.shape))
-    return sorted(few, key=cmp_to_key(_order))
-
-
-def _order(one: Hypothesis, other: Hypothesis) -> int:
     weight = _common_weight(one, other)
-    a, b = _mean_square(one, weight), _mean_square(other, weight)
-    return (a > b) - (a < b)
+    return _mean_square(one, weight) < _mean_square(other, weight)
+
+
+def ranked(hypotheses: Iterable[Hypothesis], reference: Hypothesis) -> list[Hypothesis]:
+    """The best first; of equal ones that with fewer parameters to search for.
+
+    By the part of the reference's mean square that each leaves, on the samples of both: an order,
+    which comparing them with each other on other samples each time would not give.
+    """
+
+    def left(h: Hypothesis) -> float:
+        weight = _common_weight(reference, h)
+        before = _mean_square(reference, weight)
+        return _mean_square(h, weight) / before if before > 0.0 else 0.0
+
+    return sorted(hypotheses, key=lambda h: (left(h), len(h.model.shape)))
 
 
 def _common_weight(*hypotheses: Hypothesis) -> Array:

@@ -191,7 +191,7 @@ def _findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
     found = []
     with_all = best.model.force(problem.block.signals, best.values)
     chosen = {e.name for e in best.effects}
-    order = (h.effects[-1].name for h in ranked(selection.singles))
+    order = (h.effects[-1].name for h in ranked(selection.singles, selection.base))
     runner = next((name for name in order if name not in chosen), None)
     for effect in selection.named:
         without = selection.without[effect.name]

@@ -31,7 +31,7 @@ def look_alikes(
 ) -> list[tuple[str, Hypothesis]]:
     """Effects that do as well in the place of one, the best first, each with its hypothesis."""
     others = tuple(e for e in best.effects if e is not effect)
-    likely = [h.effects[-1] for h in ranked(singles)[: thresholds.LOOK_ALIKES]]
+    likely = [h.effects[-1] for h in ranked(singles, x.base)[: thresholds.LOOK_ALIKES]]
     likely += [c for c in candidates if c.name in effect.equivalents]
     names, rest = key_of(best.effects), key_of(others)
     keys = {e.name: rest | {e.name} for e in likely if e.name not in names}
@@ -54,4 +54,6 @@ def look_alikes(
             compare(x.problem, other, best).tied or is_preferred(x.problem, other, best)
         ):
             found[key] = name
-    return [(found[key_of(h.effects)], h) for h in ranked(x.explored[key] for key in found)]
+    return [
+        (found[key_of(h.effects)], h) for h in ranked((x.explored[key] for key in found), x.base)
+    ]
