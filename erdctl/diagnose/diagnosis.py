@@ -15,7 +15,7 @@ from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array, Recording
 from erdctl.core.workers import Progress
 from erdctl.diagnose import thresholds
-from erdctl.diagnose.comparison import Comparison, compare, ranked
+from erdctl.diagnose.comparison import Comparison, compare
 from erdctl.diagnose.discriminating_drive import DiscriminatingDrive, discriminating_drive
 from erdctl.diagnose.executor import executor
 from erdctl.diagnose.hypothesis import Hypothesis
@@ -191,7 +191,7 @@ def _findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
     found = []
     with_all = best.model.force(problem.block.signals, best.values)
     chosen = {e.name for e in best.effects}
-    order = (h.effects[-1].name for h in ranked(selection.singles, selection.base))
+    order = (h.effects[-1].name for h in selection.singles)
     runner = next((name for name in order if name not in chosen), None)
     for effect in selection.named:
         without = selection.without[effect.name]

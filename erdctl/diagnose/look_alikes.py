@@ -29,9 +29,12 @@ def look_alikes(
     candidates: Sequence[Effect],
     singles: Sequence[Hypothesis],
 ) -> list[tuple[str, Hypothesis]]:
-    """Effects that do as well in the place of one, the best first, each with its hypothesis."""
+    """Effects that do as well in the place of one, the best first, each with its hypothesis.
+
+    singles : hypotheses of one effect, the best first
+    """
     others = tuple(e for e in best.effects if e is not effect)
-    likely = [h.effects[-1] for h in ranked(singles, x.base)[: thresholds.LOOK_ALIKES]]
+    likely = [h.effects[-1] for h in singles[: thresholds.LOOK_ALIKES]]
     likely += [c for c in candidates if c.name in effect.equivalents]
     names, rest = key_of(best.effects), key_of(others)
     keys = {e.name: rest | {e.name} for e in likely if e.name not in names}

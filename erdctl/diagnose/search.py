@@ -29,7 +29,7 @@ class Selection:
     """What the search found.
 
     base : the paper's model, or that of given parameters;  best : with the chosen effects
-    singles : the base with every effect alone
+    singles : the base with every effect alone, the best first
     without : for each chosen effect, the best model that lacks it
     look_alikes : for each chosen effect, those that would do as well in its place, best first
     """
