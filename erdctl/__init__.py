@@ -42,10 +42,9 @@ import sys
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from erdctl.core.version import __version__
-
 if TYPE_CHECKING:
     from erdctl.core.errors import ErdctlError
+    from erdctl.core.version import __version__
     from erdctl.interface.diagnose import diagnose
     from erdctl.interface.effects import effects
     from erdctl.interface.identify import identify
@@ -60,7 +59,11 @@ __all__ = [
     "simulate", "validate",
 ]  # fmt: skip
 
-_HOMES = {"ErdctlError": "erdctl.core.errors", "read": "erdctl.interface.log"}
+_HOMES = {
+    "ErdctlError": "erdctl.core.errors",
+    "__version__": "erdctl.core.version",
+    "read": "erdctl.interface.log",
+}
 
 
 class _Face(ModuleType):

@@ -33,7 +33,7 @@ def eliminate(x: Exploration, best: Hypothesis) -> Hypothesis:
 
     Losses that are not significant one by one may be so together: then the last of them stays.
     """
-    top = ranked(x.explored.values(), x.base)[0]
+    top = ranked(x.explored.values())[0]
     while x.added(best):
         smaller = without_each(x, best)
         loss = [(compare(x.problem, h, best), h) for h in smaller]
@@ -57,7 +57,7 @@ def second_pass(x: Exploration, best: Hypothesis, most: int) -> Hypothesis:
         return best
     more = [h for k, h in x.explored.items() if k > key and len(k) == len(key) + 1]
     better = [h for h in more if compare(x.problem, best, h).significant]
-    return eliminate(x, ranked(better, x.base)[0]) if better else best
+    return eliminate(x, ranked(better)[0]) if better else best
 
 
 def as_good_as_explored(x: Exploration, best: Hypothesis) -> Hypothesis:
@@ -68,4 +68,4 @@ def as_good_as_explored(x: Exploration, best: Hypothesis) -> Hypothesis:
         better = [h for h in even if is_preferred(x.problem, h, best)]
         if not better:
             return best
-        best = eliminate(x, ranked(better, x.base)[0])
+        best = eliminate(x, ranked(better)[0])

@@ -57,6 +57,4 @@ def look_alikes(
             compare(x.problem, other, best).tied or is_preferred(x.problem, other, best)
         ):
             found[key] = name
-    return [
-        (found[key_of(h.effects)], h) for h in ranked((x.explored[key] for key in found), x.base)
-    ]
+    return [(found[key_of(h.effects)], h) for h in ranked(x.explored[key] for key in found)]

@@ -124,7 +124,7 @@ def _forward_selection(
             if not rest.hint:
                 break  # more effects would have nothing to explain
         stage = f"{depth + 1} effects" if depth else "each effect"
-        more = ranked(forward_step(x, parents, candidates, stage), x.base)
+        more = ranked(forward_step(x, parents, candidates, stage))
         singles = singles if depth else more
         better = [h for h in more if compare(x.problem, best, h).significant]
         if better:
