@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from erdctl.report.subject import Subject
 
-MOST = 24  # rows of a table in a notebook, and remarks at a prompt
+SHOWN = 24  # rows of a table in a notebook, and remarks at a prompt
 
 
 def text(title: str, lines: Sequence[str]) -> str:
@@ -28,7 +28,7 @@ def text(title: str, lines: Sequence[str]) -> str:
 def html(title: str, frame: pd.DataFrame, lines: Sequence[str] = ()) -> str:
     """A title, a table and lines below it; whatever comes from a log is escaped."""
     table = frame.to_html(
-        index=False, border=0, max_rows=MOST, na_rep="", float_format=_number, escape=True
+        index=False, border=0, max_rows=SHOWN, na_rep="", float_format=_number, escape=True
     )
     notes = "".join(f"<li>{escape(line)}</li>" for line in _some(lines))
     return f"<div><b>{escape(title)}</b>{table}{f'<ul>{notes}</ul>' if notes else ''}</div>"
@@ -91,8 +91,8 @@ def _png(figure: Figure) -> bytes:
 
 
 def _some(lines: Sequence[str]) -> list[str]:
-    more = len(lines) - MOST
-    return [*lines] if more <= 0 else [*lines[:MOST], f"and {more} more"]
+    more = len(lines) - SHOWN
+    return [*lines] if more <= 0 else [*lines[:SHOWN], f"and {more} more"]
 
 
 def _number(value: float) -> str:

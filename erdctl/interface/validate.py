@@ -106,7 +106,7 @@ def validate(
     *,
     normalise: Literal["range", "std", "mean", "rms"] = "range",
 ) -> Validated:
-    """Hold a model against a measured force: NRMSE per PWM level, direction and record.
+    """Compare a model with a measured force: NRMSE per PWM level, direction and record.
 
     parameters : a result of `identify` or `diagnose`, the path of a parameter file, or its dict;
         None for a log that has the modelled force already, as `simulate` gives it
