@@ -139,6 +139,12 @@ def test_tests_mirror_the_rooms() -> None:
     assert {Path(r) for r in ROOMS} <= folders
 
 
+def test_files_of_tests_have_names_of_their_own() -> None:
+    """Without packages pytest imports them by name."""
+    names = [p.name for p in (ROOT / "tests").rglob("*.py") if p.name != "conftest.py"]
+    assert {n for n in names if names.count(n) > 1} == set()
+
+
 def test_the_generator_of_fixtures_shares_no_code() -> None:
     for path in FIXTURES.glob("*.py"):
         assert not own(path), path
