@@ -25,7 +25,7 @@ def called(function: Callable[..., Any], *arguments: Any) -> Any:
         return function(*arguments)
     except (ErdctlError, MemoryError):
         raise
-    except Exception as error:
+    except Exception as error:  # an effect may come from anywhere, and fail in any way
         raise EffectFailed(function, f"{type(error).__name__}: {error}") from error
 
 

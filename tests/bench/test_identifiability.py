@@ -79,7 +79,7 @@ LOGS: dict[str, Callable[[], Recording]] = {
 
 def lacking(r: Recording) -> tuple[set[str], set[str]]:
     found = inspect(r, CATALOGUE)
-    return tuple(  # type: ignore[return-value]
+    return tuple(  # type: ignore[return-value]  # two sets
         {c.name for c in covers if c.lack is not None}
         for covers in (found.parameters, found.effects)
     )

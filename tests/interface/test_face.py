@@ -30,7 +30,7 @@ def test_the_face_is_what_it_says() -> None:
     for name in FUNCTIONS:
         assert inspect.isfunction(getattr(erdctl, name))
     with pytest.raises(AttributeError, match="no attribute 'identity'"):
-        erdctl.identity  # type: ignore[attr-defined]  # noqa: B018
+        erdctl.identity  # type: ignore[attr-defined]  # noqa: B018 - it must raise
 
 
 def test_rooms_do_not_hide_functions() -> None:

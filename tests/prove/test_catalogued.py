@@ -27,7 +27,7 @@ STRANGER, OTHER = [n for n in twins.names() if n not in nameable()][:2]
 
 def added(name: str, **more: object) -> Effect:
     """Some effect under another name, as a file or another package would add it."""
-    return replace(get("coulomb_friction"), name=name, **more)  # type: ignore[arg-type]
+    return replace(get("coulomb_friction"), name=name, **more)  # type: ignore[arg-type]  # fields by name
 
 
 @pytest.fixture

@@ -53,7 +53,7 @@ def _opened(file: Any) -> Any:
     hook = sys.unraisablehook
     try:
         return library().MDF(file)
-    except Exception as error:
+    except Exception as error:  # raised again once it is tidied up
         # A half-made MDF complains on stderr when it is collected. Let that happen here, unheard.
         sys.unraisablehook = lambda _: None
         traceback.clear_frames(error.__traceback__)
