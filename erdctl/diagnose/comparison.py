@@ -67,9 +67,9 @@ def ranked(hypotheses: Iterable[Hypothesis]) -> list[Hypothesis]:
     """The best first; of equal ones that with fewer parameters to search for.
 
     Each by its own samples, so that an effect of the force channel, which leaves doubtful samples
-    without weight, comes early into the beam: it acts on top of whatever else is found, and on a
-    real damper it was missed when all were ranked on common samples. Nothing is accepted by its
-    rank: that takes `compare`.
+    without weight, comes early into the beam. That favours it; on common samples (three ways were
+    tried) one real damper was predicted worse, or that effect was missed. The rank says which of
+    several significant hypotheses comes first; whether one is significant, `compare` says.
     """
     return sorted(hypotheses, key=lambda h: (h.score, len(h.model.shape)))
 
