@@ -35,6 +35,8 @@ def whole(recording: Recording) -> Block:
         # A short record keeps nine tenths of its samples: an unsettled start beats no data.
         settle = min(SETTLE, 0.1 * float(t[-1] - t[0]))
         weight[part][t - t[0] < settle] = 0.0
+    if recording.excluded is not None:
+        weight[recording.excluded] = 0.0
     return Block(Signals.of(recording), recording.force, weight)
 
 
@@ -113,9 +115,10 @@ def _cut(record: Recording, longest: int) -> list[Block]:
     for a in range(0, len(record), longest):
         b = min(a + longest, len(record))
         begin = int(np.searchsorted(record.t, record.t[a] - SETTLE * 2))
-        block = whole(record.window(slice(begin, b)))
+        window = record.window(slice(begin, b))
+        block = whole(window)
         if begin < a:
-            block.weight[:] = 1.0
+            block.weight[:] = 1.0 if window.excluded is None else ~window.excluded
             block.weight[: a - begin] = 0.0
         out.append(block)
     return out

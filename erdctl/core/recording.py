@@ -38,6 +38,7 @@ class Recording:
     starts : (r + 1,) offsets; record i is samples starts[i]:starts[i + 1]
     names : (r,) names of the records
     xdot_note : how xdot was obtained
+    excluded : (n,) samples that fits and scores leave out, None for none
     """
 
     t: Array
@@ -50,9 +51,10 @@ class Recording:
     temperature: Array | None = None
     xdot_note: str = "measured"
     sources: tuple[Source, ...] = ()
+    excluded: npt.NDArray[np.bool_] | None = None
 
     def __post_init__(self) -> None:
-        for channel in (getattr(self, name) for name in CHANNELS):
+        for channel in (getattr(self, name) for name in (*CHANNELS, "excluded")):
             if channel is not None:
                 if channel.shape != (self.starts[-1],):
                     raise ValueError("every channel must have starts[-1] samples")
@@ -94,10 +96,11 @@ class Recording:
     def take(self, rows: slice | Index, starts: Index, names: Sequence[str]) -> Recording:
         """Chosen samples, divided into records by the offsets `starts`."""
 
-        def pick(channel: Array | None) -> Array | None:
+        def pick(channel: Any) -> Any:
             return None if channel is None else channel[rows]
 
-        channels: dict[str, Any] = {name: pick(getattr(self, name)) for name in CHANNELS}
+        taken = (*CHANNELS, "excluded")
+        channels: dict[str, Any] = {name: pick(getattr(self, name)) for name in taken}
         return replace(self, starts=starts, names=tuple(names), **channels)
 
 
@@ -114,8 +117,11 @@ def concatenate(recordings: Sequence[Recording]) -> Recording:
     starts = [r.starts[:-1] + o for r, o in zip(recordings, offsets[:-1], strict=True)]
     notes = dict.fromkeys(r.xdot_note for r in recordings)
     channels: dict[str, Any] = {name: join(name) for name in CHANNELS}
+    parts = [np.zeros(len(r), np.bool_) if r.excluded is None else r.excluded for r in recordings]
+    marked = any(r.excluded is not None for r in recordings)
     return Recording(
         **channels,
+        excluded=np.concatenate(parts) if marked else None,
         starts=np.concatenate([*starts, offsets[-1:]]).astype(np.intp),
         names=tuple(name for r in recordings for name in r.names),
         xdot_note="; ".join(notes),

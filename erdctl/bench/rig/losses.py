@@ -1,0 +1,78 @@
+"""Samples that the recorder lost: gaps of the time, and jumps of x where the time has none."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from erdctl.bench.rig.fault import RigFault, marked
+from erdctl.bench.rig.pieces import Piece, resolution, widened
+
+GAP = 1.5  # steps
+SIGMAS = 10.0
+STEPS = 0.7  # of what the piston moves in a step at its effective speed
+RARE = 0.005
+
+
+def gaps(found: Sequence[Piece]) -> list[RigFault]:
+    """Records whose time has gaps."""
+    out = []
+    for p in found:
+        steps = np.diff(p.t)
+        long = np.flatnonzero(steps > GAP * p.step)
+        if not len(long) or len(long) > 0.02 * len(p):
+            continue
+        lost = int(np.round(steps[long] / p.step - 1.0).sum())
+        if not lost:
+            continue
+        at = int(long[steps[long].argmax()])
+        out.append(
+            RigFault(
+                "samples_missing",
+                p.record,
+                f"{lost} samples are missing in {len(long)} gaps of the time, the longest of"
+                f" {1e3 * steps[at]:.4g} ms at t = {p.t[at]:.6g} s",
+                "the time is right, so fits go on; record at a rate that the recorder can keep",
+            )
+        )
+    return out
+
+
+def jumps(found: Sequence[Piece], clipped: Sequence[RigFault] = ()) -> list[RigFault]:
+    """Places where x jumps by more than the speed allows, and stays; not where it is clipped."""
+    known = marked(found[0].recording, clipped)
+    out = []
+    for p in found:
+        dt = np.diff(p.t)
+        beyond = np.diff(p.x) - 0.5 * (p.xdot[1:] + p.xdot[:-1]) * dt
+        scale = 1.4826 * float(np.median(np.abs(beyond)))
+        least = max(SIGMAS * scale, STEPS * p.speed * p.step, 3.0 * resolution(p.x))
+        at = np.flatnonzero((np.abs(beyond) > least) & (dt < GAP * p.step))
+        at = at[~known[p.first + at]]
+        # A spike goes back at once.
+        at = at[[not _returns(beyond, int(i)) for i in at]] if len(at) <= RARE * len(p) else at[:0]
+        if not len(at):
+            continue
+        flags = np.zeros(len(p), dtype=np.bool_)
+        flags[at] = flags[at + 1] = True
+        worst = int(at[np.abs(beyond[at]).argmax()])
+        out.append(
+            RigFault(
+                "x_jumps",
+                p.record,
+                f"x jumps in {len(at)} place{'s' if len(at) > 1 else ''}, by"
+                f" {1e3 * beyond[worst]:+.3g} mm at t = {p.t[worst]:.6g} s, where it moves by"
+                f" {1e3 * np.abs(p.xdot[worst]) * p.step:.3g} mm in a step: samples were lost and"
+                " the time was written as if not, or two runs were joined",
+                "the samples around are left out of fits; take the time from the recorder, and give"
+                " joined runs a column 'record'",
+                samples=np.flatnonzero(widened(flags, max(3, round(0.015 / p.step)))) + p.first,
+            )
+        )
+    return out
+
+
+def _returns(beyond: np.ndarray, i: int) -> bool:
+    around = beyond[max(i - 4, 0) : i + 5]
+    return float(np.abs(around.sum())) < 0.5 * float(np.abs(beyond[i]))

@@ -1,0 +1,172 @@
+"""Stretches of a recording that the checks look at, each with its noise and its resolution."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from erdctl.core.recording import Array, Index, Recording
+
+FEWEST = 40  # samples of a stretch that can be told anything of
+MOST = 2_000_000  # samples that are looked at; of a longer log, even stretches
+STRETCHES = 200  # of a longer log
+RECORDS = 400  # records that are looked at, evenly
+NEAR = 8  # samples next to a reversal or a duty step, where a force may jump
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A stretch of one record, with views of its channels.
+
+    record : its number;  first : sample of the recording at which it begins
+    """
+
+    recording: Recording
+    record: int
+    first: int
+    end: int
+
+    def __len__(self) -> int:
+        return self.end - self.first
+
+    def of(self, channel: str) -> Array:
+        """(n,) a channel."""
+        values: Array = getattr(self.recording, channel)[self.first : self.end]
+        return values
+
+    @cached_property
+    def t(self) -> Array:
+        """(n,) [s]."""
+        return self.of("t")
+
+    @cached_property
+    def x(self) -> Array:
+        """(n,) [m]."""
+        return self.of("x")
+
+    @cached_property
+    def xdot(self) -> Array:
+        """(n,) [m/s]."""
+        return self.of("xdot")
+
+    @cached_property
+    def force(self) -> Array:
+        """(n,) [N]."""
+        return self.of("force")
+
+    @cached_property
+    def step(self) -> float:
+        """Usual time from sample to sample [s]."""
+        return float(np.median(np.diff(self.t[:: max(1, len(self) // 10_000)]))) / max(
+            1, len(self) // 10_000
+        )
+
+    @cached_property
+    def stroke(self) -> float:
+        """Range of x without its outermost thousandth on either side [m]."""
+        return spread(self.x)
+
+    @cached_property
+    def speed(self) -> float:
+        """Effective speed [m/s], of the middle 99.8 % of the samples."""
+        low, high = np.percentile(self.xdot, [0.1, 99.9])
+        return float(np.sqrt(np.mean(np.clip(self.xdot, low, high) ** 2)))
+
+    @cached_property
+    def near(self) -> npt.NDArray[np.bool_]:
+        """(n,) samples next to a reversal or a duty step, or at which the piston hardly moves."""
+        duty = self.of("duty")
+        up = self.xdot > 0
+        jump = np.zeros(len(self), dtype=np.bool_)
+        jump[1:] = (up[1:] != up[:-1]) | (duty[1:] != duty[:-1])
+        reach = max(NEAR, round(0.01 / self.step)) if self.step > 0 else NEAR
+        out = widened(jump, reach)
+        out |= np.abs(self.xdot) < 0.1 * self.speed
+        return out
+
+
+def spread(values: Array) -> float:
+    """Range of values (n,) without the outermost thousandth on either side."""
+    low, high = np.percentile(values, [0.1, 99.9])
+    return float(high - low)
+
+
+def widened(flags: npt.NDArray[np.bool_], reach: int) -> npt.NDArray[np.bool_]:
+    """(n,) flags, set also at so many samples before and behind.
+
+    Check: 0 0 1 0 0 with reach 1 gives 0 1 1 1 0.
+    >>> widened(np.array([0, 0, 1, 0, 0], dtype=bool), 1).astype(int).tolist()
+    [0, 1, 1, 1, 0]
+    """
+    if reach <= 0 or not flags.any():
+        return flags.copy()
+    count = np.concatenate([[0], np.cumsum(flags)])
+    n = len(flags)
+    high = np.minimum(np.arange(n) + reach + 1, n)
+    low = np.maximum(np.arange(n) - reach, 0)
+    return np.asarray(count[high] > count[low])
+
+
+def white_noise(values: Array) -> tuple[float, float]:
+    """Standard deviation of white noise on a smooth signal (n,), and how white its rest is.
+
+        s = median |d3| / (0.6745 sqrt(20)),   median |d3| / median |d2|
+
+    The second is sqrt(20 / 6) = 1.83 for white noise, and far less for a signal that is smooth.
+    Check: 0, 1, 0, 1, ... has |d3| = 4 and |d2| = 2: 1.3261 and 2.
+    >>> s, white = white_noise(np.arange(100) % 2 * 1.0)
+    >>> round(s, 4), white
+    (1.3261, 2.0)
+    """
+    d2 = np.diff(values, 2)
+    d3 = np.diff(d2)
+    second, third = float(np.median(np.abs(d2))), float(np.median(np.abs(d3)))
+    return third / (0.6745 * 20.0**0.5), third / second if second > 0 else 0.0
+
+
+def resolution(values: Array) -> float:
+    """Smallest step between two different values of (n,); 0 if all are the same."""
+    ordered = np.unique(values[:: max(1, len(values) // 20_000)])
+    between = np.diff(ordered)
+    scale = float(np.abs(ordered[[0, -1]]).max())
+    apart = between[between > 1e-9 * max(scale, 1e-300)]
+    return float(apart.min()) if apart.size else 0.0
+
+
+def runs_of_equals(values: Array) -> tuple[Index, Index]:
+    """First sample (k,) and length (k,) of runs of two or more equal values in (n,).
+
+    Check: 1, 2, 2, 2, 3, 3 gives 1, 4 and 3, 2.
+    >>> first, length = runs_of_equals(np.array([1.0, 2.0, 2.0, 2.0, 3.0, 3.0]))
+    >>> first.tolist(), length.tolist()
+    ([1, 4], [3, 2])
+    """
+    same = np.zeros(len(values) + 1, dtype=np.int8)
+    same[1:-1] = values[1:] == values[:-1]
+    edge = np.diff(same)
+    first, end = np.flatnonzero(edge == 1), np.flatnonzero(edge == -1)
+    return first, end - first + 1
+
+
+def pieces(recording: Recording) -> list[Piece]:
+    """The stretches that are looked at: all records, or an even part of a very long log."""
+    bounds = recording.starts.tolist()
+    chosen = np.unique(
+        np.linspace(0, len(recording.names) - 1, min(len(recording.names), RECORDS)).astype(int)
+    ).tolist()
+    total = sum(bounds[i + 1] - bounds[i] for i in chosen)
+    out = []
+    for i in chosen:
+        a, b = bounds[i], bounds[i + 1]
+        if total <= MOST or b - a <= MOST // STRETCHES:
+            parts = [(a, b)]
+        else:
+            length = MOST // STRETCHES
+            count = max(1, round((b - a) / total * STRETCHES))
+            firsts = np.linspace(a, b - length, count).astype(int).tolist()
+            parts = [(f, f + length) for f in firsts]
+        out += [Piece(recording, i, f, e) for f, e in parts if e - f >= FEWEST]
+    return out

@@ -1,0 +1,147 @@
+"""Single samples that stand out of both their sides, and bursts of noise."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from erdctl.bench.rig.fault import RigFault, marked
+from erdctl.bench.rig.pieces import Piece, spread, white_noise, widened
+from erdctl.core.recording import Array, Index
+
+HALF = 8  # samples on either side that a spike is held against
+WIDE = 2  # of those, the nearest, which it may take up itself
+SIGMAS = 8.0
+OVER = 3.0  # times what its surroundings vary by: noise with a memory has peaks, too
+RANGE = 0.04  # of the channel's range
+RANGE_X = 0.004  # the same of x, of which smaller ones harm
+RARE = 0.01  # of the samples, at most
+APART = 2.5  # times the next smaller one that is left
+UNITS = {"force": (1.0, "N"), "x": (1e3, "mm")}
+
+WINDOW = 48  # samples over which a burst is looked for
+LOUDER = 4.0  # times the noise of the record
+WHITE = 1.2  # see `white_noise`
+BURST_PART = 0.2  # of a record, at most
+BURST_CLIPPED = 0.05  # of a record at a limit, from which it is not looked at
+BURST_WINDOWS = 3  # on end; a knock of the damper itself dies away before
+PER_STROKE = 0.4  # bursts for each reversal, from which they belong to the motion
+
+
+def check(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault] = ()) -> list[RigFault]:
+    """Spikes of force or x, record by record; not where the channel is clipped."""
+    known = marked(found[0].recording, clipped)
+    out = []
+    for p in found:
+        values = p.of(channel)
+        width = spread(values)
+        if width == 0.0:
+            continue
+        at, height = _standing_out(values)
+        at, height = at[(free := ~known[p.first + at])], height[free]
+        noise = white_noise(values)[0]
+        if channel == "force":
+            # Where the piston turns, or touches rest, a sound force jumps there and back.
+            at, height = at[~p.near[at]], height[~p.near[at]]
+        least = (RANGE if channel == "force" else RANGE_X) * width
+        apart = _apart(height, round(RARE * len(p)))
+        kept = (height > SIGMAS * noise) & (height > least) & (height >= apart)
+        at, height = at[kept], height[kept]
+        if not len(at):
+            continue
+        flags = np.zeros(len(p), dtype=np.bool_)
+        flags[at] = True
+        reach = WIDE if channel == "force" else max(WIDE, round(0.015 / p.step))
+        factor, unit = UNITS[channel]
+        worst = int(height.argmax())
+        count = 1 + int(np.count_nonzero(np.diff(at) > WIDE))
+        spikes = "1 spike" if count == 1 else f"{count} spikes"
+        out.append(
+            RigFault(
+                f"{channel}_spikes",
+                p.record,
+                f"{spikes} of {channel}, the largest of {factor * height[worst]:.4g} {unit} at"
+                f" t = {p.t[at[worst]]:.6g} s",
+                "these samples are left out of fits; look at the cable, its shield and its plugs",
+                samples=np.flatnonzero(widened(flags, reach)) + p.first,
+            )
+        )
+    return out
+
+
+def bursts(found: Sequence[Piece], clipped: Sequence[RigFault] = ()) -> list[RigFault]:
+    """Stretches in which the force is several times noisier than its record, now and then."""
+    known = marked(found[0].recording, clipped)
+    out = []
+    for p in found:
+        count = len(p) // WINDOW
+        # At a limit there is no noise that others could be held against.
+        if count < 8 or known[p.first : p.end].mean() > BURST_CLIPPED:
+            continue
+        d2 = np.diff(p.force, 2)
+        d3 = np.abs(np.diff(d2))
+        cut = (count - 1) * WINDOW
+        third = np.median(d3[:cut].reshape(-1, WINDOW), axis=1)
+        second = np.median(np.abs(d2[:cut]).reshape(-1, WINDOW), axis=1)
+        usual = float(np.median(third))
+        loud = (third > LOUDER * max(usual, 1e-300)) & (third > WHITE * second) & (usual > 0)
+        if not loud.any() or loud.mean() > BURST_PART:
+            continue
+        edge = np.diff(loud.astype(np.int8), prepend=0, append=0)
+        first, end = np.flatnonzero(edge == 1), np.flatnonzero(edge == -1)
+        first, end = first[(stays := end - first >= BURST_WINDOWS)], end[stays]
+        if not len(first):
+            continue
+        turns = np.count_nonzero(np.diff(p.xdot > 0))
+        if len(first) > max(3.0, PER_STROKE * turns):
+            continue
+        flags = np.zeros(len(p), dtype=np.bool_)
+        for a, b in zip(first.tolist(), end.tolist(), strict=True):
+            flags[max(a - 1, 0) * WINDOW : (b + 1) * WINDOW] = True
+        a = int(first[(end - first).argmax()]) * WINDOW
+        b = min(int(end[(end - first).argmax()]) * WINDOW, len(p) - 1)
+        out.append(
+            RigFault(
+                "force_burst",
+                p.record,
+                f"{len(first)} burst{'s' if len(first) > 1 else ''} of noise in the force, up to"
+                f" {float(third[loud].max()) / usual:.2g} times the record's, the longest from"
+                f" t = {p.t[a]:.6g} to {p.t[b]:.6g} s",
+                "these samples are left out of fits; look for what was switched on then",
+                samples=np.flatnonzero(flags) + p.first,
+            )
+        )
+    return out
+
+
+def _apart(height: Array, most: int) -> float:
+    """Height from which some stand apart from all others, at most so many of them.
+
+    A damper's own chatter has all sizes up to its largest; what comes from a cable has not.
+    """
+    ordered = np.sort(np.append(height, 0.0))[::-1]
+    ordered = ordered[: most + 2]
+    smaller = np.maximum(ordered[1:], 1e-300)
+    gap = np.flatnonzero(ordered[:-1] > APART * smaller)
+    return float(ordered[gap[-1]]) if len(gap) else np.inf
+
+
+def _standing_out(values: Array) -> tuple[Index, Array]:
+    """Samples (k,) of (n,) beyond everything on either side of them, and (k,) by how much.
+
+    A step or an edge lies between its two sides; only what returns stands out.
+    """
+    n = len(values)
+    if n < 2 * HALF + 1:
+        return np.empty(0, dtype=np.intp), np.empty(0)
+    d2 = np.abs(np.diff(values, 2))
+    scale = float(np.median(d2))
+    centre = np.flatnonzero(d2 > 5.0 * scale) + 1
+    centre = centre[(centre >= HALF) & (centre < n - HALF)]
+    offsets = np.array([k for k in range(-HALF, HALF + 1) if abs(k) > WIDE])
+    around = values[centre[:, None] + offsets]
+    low, high = around.min(axis=1), around.max(axis=1)
+    height = np.maximum(values[centre] - high, low - values[centre])
+    kept = height > OVER * (high - low)
+    return centre[kept], height[kept]

@@ -1,0 +1,102 @@
+"""A velocity channel with a noise, a delay or a gain of its own, held against x."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from erdctl.bench.rig.fault import RigFault
+from erdctl.bench.rig.pieces import Piece, white_noise
+
+NOISE = 0.03  # of the effective speed
+QUIETER = 3.0  # times less noise than xdot, so that the derivative of x serves better
+LATE = 2e-3  # s
+LATE_STEPS = 1.0
+LATE_CYCLE = 0.004  # of a cycle: it then moves the speed by 2.5 % of its amplitude
+GAIN = 0.05
+SCATTER = 4.0  # standard errors between records
+REMEDY = "fits take the derivative of x in its place; leave the column out, or repair it"
+
+
+def check(found: Sequence[Piece]) -> list[RigFault]:
+    """Noise, lag and gain of a measured xdot.
+
+        x_{i+k} - x_i = (W + tau (xdot_{i+k} - xdot_i)) / g,   W = integral of xdot in between
+
+    by least squares, with k about a sixth of a cycle: x and xdot are each taken as they are, and
+    neither is filtered.
+    """
+    if not found or found[0].recording.xdot_note != "measured":
+        return []
+    rows = [row for p in found if (row := _against_x(p)) is not None]
+    if not rows:
+        return []
+    gain, late, noise, derived, cycle, step = (np.array(c) for c in zip(*rows, strict=True))
+    out = []
+    part, better = float(np.median(noise)), float(np.median(derived))
+    if part > NOISE and part > QUIETER * better:
+        out.append(
+            RigFault(
+                "velocity_noise",
+                None,
+                f"xdot has noise of {100 * part:.2g} % of the effective speed, and the derivative"
+                f" of x only {100 * better:.2g} %",
+                REMEDY,
+            )
+        )
+    tau, error = _middle(late)
+    least = max(LATE, LATE_STEPS * float(np.median(step)), LATE_CYCLE * float(np.median(cycle)))
+    if abs(tau) > least and abs(tau) > SCATTER * error:
+        way = "later" if tau > 0 else "earlier"
+        out.append(
+            RigFault("velocity_lag", None, f"xdot is {1e3 * abs(tau):.3g} ms {way} than x", REMEDY)
+        )
+    g, error = _middle(gain)
+    if abs(g - 1.0) > GAIN and abs(g - 1.0) > SCATTER * error:
+        out.append(
+            RigFault("velocity_gain", None, f"xdot is {g:.3f} times the derivative of x", REMEDY)
+        )
+    return out
+
+
+def _middle(values: np.ndarray) -> tuple[float, float]:
+    middle = float(np.median(values))
+    scatter = 1.4826 * float(np.median(np.abs(values - middle)))
+    return middle, 1.25 * scatter / len(values) ** 0.5
+
+
+def _against_x(p: Piece) -> tuple[float, float, float, float, float, float] | None:
+    """Gain, lag [s], noise of xdot and of the derivative of x over speed, cycle [s], step [s]."""
+    speed, swing = float(np.std(p.xdot)), float(np.std(p.x))
+    if speed == 0.0 or swing == 0.0 or p.step <= 0.0:
+        return None
+    cycle = 2.0 * np.pi * swing / speed
+    k = max(1, round(cycle / 6.0 / p.step))
+    if len(p) < 6 * k:
+        return None
+    dt = np.diff(p.t)
+    travelled = np.concatenate([[0.0], np.cumsum(0.5 * (p.xdot[1:] + p.xdot[:-1]) * dt)])
+    every = max(1, k // 20)
+    index = np.arange(0, len(p) - k, every)
+    whole = p.t[index + k] - p.t[index] < 1.2 * k * p.step
+    index = index[whole]
+    if len(index) < 50:
+        return None
+    u = p.x[index + k] - p.x[index]
+    columns = np.column_stack([
+        travelled[index + k] - travelled[index], p.xdot[index + k] - p.xdot[index],
+        p.t[index + k] - p.t[index],
+    ])  # fmt: skip
+    size = np.abs(columns).max(axis=0)
+    if not (size > 0).all():
+        return None
+    first, second, _ = np.linalg.lstsq(columns / size, u, rcond=None)[0] / size
+    if first <= 0.0:
+        return None
+    half = max(2, round(0.01 / p.step))
+    noise, white = white_noise(p.xdot)
+    x_noise = white_noise(p.x)[0]
+    derived = x_noise / p.step / (np.sum(np.arange(1, half + 1) ** 2) * 2.0) ** 0.5
+    noise = noise if white > 1.2 else 0.0
+    return 1.0 / first, second / first, noise / speed, derived / speed, cycle, p.step
