@@ -11,6 +11,7 @@ import numpy as np
 from erdctl.bench import identifiability as coverage
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import Cover
+from erdctl.bench.rig import Rig, look
 from erdctl.core.recording import Array, Recording
 from erdctl.model.effect import Effect
 from erdctl.score.nrmse import duty_levels
@@ -87,7 +88,7 @@ class Inspection:
 
     seconds_at : time at each duty level [s], the levels as `validate` groups them
     noise : None without a force;  mass : whose inertia would equal that noise [kg], None for any
-    parameters, effects : what the log can and cannot show
+    parameters, effects : what the log can and cannot show;  rig : what is wrong with it
     """
 
     samples: int
@@ -99,6 +100,7 @@ class Inspection:
     xdot: str
     parameters: tuple[Cover, ...]
     effects: tuple[Cover, ...]
+    rig: Rig
 
 
 def inspect(recording: Recording, candidates: Sequence[Effect]) -> Inspection:
@@ -117,6 +119,7 @@ def inspect(recording: Recording, candidates: Sequence[Effect]) -> Inspection:
         xdot=recording.xdot_note,
         parameters=tuple(coverage.parameters(survey)),
         effects=tuple(coverage.effects(survey, candidates)),
+        rig=look(recording),
     )
 
 

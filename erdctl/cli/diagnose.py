@@ -9,6 +9,7 @@ import typer
 from erdctl.cli.options import Logs, Maps, Out
 from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
+from erdctl.cli.rig import Accept, Strict
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -67,6 +68,8 @@ def command(
     report: Report = None,
     maps: Maps = [],
     plot: Plots = [],
+    accept: Accept = [],
+    strict: Strict = False,
 ) -> None:
     """Locate a misfit, name the effects that the model lacks, and write the corrected model.
 
@@ -74,6 +77,9 @@ def command(
     further effects; companion effects are also tested jointly. An effect is kept only if the error
     on data left out of the fit falls by more than its scatter (cross-validation). Samples whose
     direction of motion is lost in the noise of xdot have weight zero.
+
+    Faults of the rig are looked for first (see `inspect`): what they spoil is left out, listed
+    under `rig`, and never given the name of a physical effect.
 
     A lack-of-fit test of the residual then decides the verdict. adequate: the model given is
     enough. explained: with the effects found, the residual is noise. unexplained: a misfit is left
@@ -95,6 +101,7 @@ def command(
     """
     from erdctl.cli.pictures import draw, wanted
     from erdctl.cli.reading import read_logs
+    from erdctl.cli.rig import fail, show
     from erdctl.core.errors import CheckFailed
     from erdctl.diagnose.corrected import parameters
     from erdctl.diagnose.diagnosis import Verdict, diagnose
@@ -114,7 +121,7 @@ def command(
         found = diagnose(
             log.recording, tested, most=max_effects,
             given=given,
-            free=Varying(gain=record_gains, offset=record_offsets), seed=seed,
+            free=Varying(gain=record_gains, offset=record_offsets), accepted=accept, seed=seed,
             jobs=jobs or worthwhile(log.recording, tested), progress=step,
         )  # fmt: skip
     document = to_json(found, file)
@@ -125,7 +132,10 @@ def command(
         from erdctl.report.subjects import of_diagnosis
 
         draw(asked, of_diagnosis(found, parameters(found)))
+    show(found.rig)
     _show(found)
+    if strict:
+        fail(found.rig)
     if fail_on_mismatch and found.verdict is not Verdict.ADEQUATE:
         raise CheckFailed(f"the paper's model does not hold: {found.verdict.value}")
 

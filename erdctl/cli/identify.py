@@ -8,6 +8,7 @@ import typer
 
 from erdctl.cli.options import Logs, Maps, Out
 from erdctl.cli.pictures import Plots
+from erdctl.cli.rig import Accept, Strict
 from erdctl.estimate.method import Method
 
 if TYPE_CHECKING:
@@ -24,12 +25,17 @@ def command(
     ] = Method.JOINT,
     robust: Annotated[bool, typer.Option("--robust", help="Weigh outliers down (Huber).")] = False,
     plot: Plots = [],
+    accept: Accept = [],
+    strict: Strict = False,
 ) -> None:
     """Identify the paper's ER damper model from bench logs.
 
     Fits by the paper's procedure and then all parameters jointly, with standard errors that allow
     for correlated residuals. A parameter that the logs cannot identify has the value null and a
     reason: T_d without duty steps, sigma and beta with one duty level. `inspect` shows it before.
+
+    Faults of the rig are looked for first (see `inspect`): what they spoil is left out of the fit
+    and said, and a log that is spoiled as a whole, by a wrong sign or unit, is refused.
 
     \b
     Examples:
@@ -38,8 +44,10 @@ def command(
       erdctl identify bench.csv | erdctl validate - other.csv
       erdctl identify bench.csv -o damper.json --plot loops.png --plot yield-force:law.svg
     """
+    from erdctl.bench.rig import look
     from erdctl.cli.pictures import draw, wanted
     from erdctl.cli.reading import read_logs
+    from erdctl.cli.rig import fail, show
     from erdctl.estimate.identify import identify
     from erdctl.io.identification import parameters_of
     from erdctl.io.parameters import write_parameters
@@ -47,24 +55,30 @@ def command(
 
     asked = wanted(plot, "loops")
     log = read_logs(logs, maps=maps, need_force=True, want_hash=True, report=say)
+    rig = look(log.recording).accept(accept)
+    rig.refuse()
+    show(rig)
+    recording = rig.usable()
     with progress() as step:
-        found = identify(log.recording, robust=robust, progress=step)
-    parameters = parameters_of(found, method, log.recording)
+        found = identify(recording, robust=robust, progress=step)
+    parameters = parameters_of(found, method, recording, rig.to_json())
     write_parameters(parameters, output)
     if asked:
         from erdctl.model.simulate import simulate
         from erdctl.report.subject import Subject
         from erdctl.report.subjects import about
 
-        modelled = simulate(parameters, log.recording)
+        modelled = simulate(parameters, recording)
         draw(
             asked,
             Subject(
-                recording=log.recording, modelled=modelled, parameters=parameters,
-                about=about(log.recording),
+                recording=recording, modelled=modelled, parameters=parameters,
+                about=about(recording),
             ),
         )  # fmt: skip
     _show(found, parameters)
+    if strict:
+        fail(rig)
 
 
 def _show(found: Identification, parameters: Parameters) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from erdctl.cli.options import Logs, Maps
+from erdctl.cli.rig import Strict
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -22,6 +23,7 @@ def command(
     logs: Logs,
     as_json: Annotated[bool, typer.Option("--json", help="Everything as JSON on stdout.")] = False,
     maps: Maps = [],
+    strict: Strict = False,
 ) -> None:
     """Say what is in a log, and what it can and cannot show, before anything is fitted.
 
@@ -29,6 +31,10 @@ def command(
     reached, and an estimate of the force noise. Then it lists every parameter of the paper's model
     and every effect of the catalogue that the log cannot identify: what was found, what is needed,
     and a drive that would show it. identify and diagnose decide by the same rules.
+
+    Faults of the rig come before that, each with its place and a remedy: a wrong sign or unit,
+    clipped or frozen channels, spikes, bursts of noise, lost samples, records unlike the others in
+    gain, zero, lag or noise, and a velocity channel that does not follow x.
 
     A LOG has the columns t [s], x [m], xdot [m/s], duty (0 to 1) and force [N], x and xdot positive
     in compression; record and temperature [degC] are optional. --map takes other names and units.
@@ -42,6 +48,7 @@ def command(
     """
     from erdctl.bench.inspection import inspect
     from erdctl.cli.reading import read_logs
+    from erdctl.cli.rig import fail, show
     from erdctl.effects import catalogue
     from erdctl.io import documents
     from erdctl.io.inspection import to_json
@@ -54,10 +61,13 @@ def command(
         step("inspecting", f"{len(log.recording)} samples")
         found = inspect(log.recording, catalogue())
     document = to_json(found, log)
+    show(found.rig)
     if as_json:
         documents.write(document, "-")
     else:
         _show(found, document)
+    if strict:
+        fail(found.rig)
 
 
 def _show(found: Inspection, document: InspectionFile) -> None:

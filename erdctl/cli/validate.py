@@ -9,6 +9,7 @@ import typer
 from erdctl.cli.options import Maps
 from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
+from erdctl.cli.rig import Accept, Strict
 
 if TYPE_CHECKING:
     from erdctl.score.nrmse import Score, Validation
@@ -33,11 +34,14 @@ def command(
     report: Report = None,
     maps: Maps = [],
     plot: Plots = [],
+    accept: Accept = [],
+    strict: Strict = False,
 ) -> None:
     """Compare modelled and measured force: NRMSE per PWM level, direction and record.
 
     NRMSE per PWM level = RMSE / (max - min of the measured force at that level); the paper does
-    not state its own denominator.
+    not state its own denominator. Faults of the rig (see `inspect`) are said, and their samples
+    count like all others: the scores are those of the log as it is.
 
     \b
     Examples:
@@ -46,8 +50,10 @@ def command(
       erdctl simulate damper.json drive.csv | erdctl validate -
       erdctl validate damper.json other.csv --plot loops.png --plot time:force.png
     """
+    from erdctl.bench.rig import look
     from erdctl.cli.pictures import draw, wanted, wants
     from erdctl.cli.reading import read_logs
+    from erdctl.cli.rig import fail, show
     from erdctl.core.errors import CheckFailed, InputProblem, UsageProblem
     from erdctl.report.text import progress, say
     from erdctl.score.nrmse import Normalise, validate
@@ -56,7 +62,6 @@ def command(
         raise UsageProblem(f"--normalise takes {', '.join(Normalise)}, not '{normalise}'")
     check_report(report)
     want_hash = report is not None
-    noise = None
     asked, parameters = wanted(plot, "loops"), None
     if len(arguments) == 1:
         log = read_logs(arguments, maps=maps, need_force=True, want_hash=want_hash, report=say)
@@ -75,31 +80,34 @@ def command(
             raise UsageProblem("PARAMS and LOG cannot both be stdin")
         parameters = read_parameters(params)
         log = read_logs(logs, maps=maps, need_force=True, want_hash=want_hash, report=say)
-        noise = parameters.provenance.get("noise_rms")
         for line in remarks(parameters, log.recording):
             say(line)
         with progress() as step:
             step("simulating", f"{len(log.recording)} samples")
             modelled = simulate(parameters, log.recording)
+    rig = look(log.recording).accept(accept)
+    show(rig)
     found = validate(log.recording, modelled, Normalise(normalise))
     if as_json:
         from erdctl.io import documents
         from erdctl.io.validation import to_json
 
-        documents.write(to_json(found), "-")
+        documents.write(to_json(found, rig.to_json()), "-")
     else:
         _show(found)
     if report is not None:
         import sys
 
         from erdctl.cli.pages import write_report
+        from erdctl.estimate.measurement_noise import of_recording
         from erdctl.report.page.render import Run
         from erdctl.report.page.validation import validation_page
 
         run = Run(words=sys.argv[1:], logs=log.recording.sources)
         page = validation_page(
-            found, log.recording, modelled, noise=noise, limit=fail_above, run=run
-        )
+            found, log.recording, modelled, noise=of_recording(log.recording, modelled),
+            limit=fail_above, run=run, rig=rig.lines(),
+        )  # fmt: skip
         write_report(page, report)
     if asked:
         from erdctl.report.subject import Subject
@@ -117,6 +125,8 @@ def command(
         over = [f"{d:g}: {s.nrmse:.4f}" for d, s in found.by_duty.items() if s.nrmse > fail_above]
         if over:
             raise CheckFailed(f"NRMSE above {fail_above:g} at PWM level {', '.join(over)}")
+    if strict:
+        fail(rig)
 
 
 def _show(found: Validation) -> None:

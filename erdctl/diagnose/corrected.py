@@ -13,7 +13,7 @@ def parameters(found: Diagnosis) -> Parameters:
     return Parameters(
         model=found.fit.model,
         estimates=estimates(found.fit, reasons),
-        provenance=provenance(found.problem.recording, found.noise_rms),
+        provenance=provenance(found.problem.recording, found.noise_rms, found.rig.to_json()),
         fits={"method": "diagnose"},
     )
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import untestable
+from erdctl.bench.rig import Rig, look
 from erdctl.core.blocks import thinned
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array, Recording
@@ -21,7 +22,7 @@ from erdctl.diagnose.executor import executor
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem, prepare, with_given
 from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying, errors
-from erdctl.diagnose.residual.localisation import Region, locate
+from erdctl.diagnose.residual.localisation import Region, locate, record_region
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
 from erdctl.diagnose.search import Selection, refit, search
@@ -68,6 +69,7 @@ class Diagnosis:
         are the same where none is carried
     cross_validated : scores of the model to answer for and of the best, each sample by a fit
         without its group, beyond the record effects
+    rig : what is wrong with the recording; if all of it is, nothing was searched
     """
 
     verdict: Verdict
@@ -87,6 +89,7 @@ class Diagnosis:
     lack_of_fit: LackOfFit
     resemblance: Resemblance | None
     untestable: dict[str, str]
+    rig: Rig
 
 
 def diagnose(
@@ -97,6 +100,7 @@ def diagnose(
     seed: int = 0,
     given: Parameters | None = None,
     free: Varying = NONE_VARY,
+    accepted: Sequence[str] = (),
     jobs: int = 1,
     progress: Progress = lambda stage, what: None,
 ) -> Diagnosis:
@@ -105,8 +109,11 @@ def diagnose(
     given : parameters of the model to answer for, in place of the paper's; what they already
         contain is not found again
     free : record effects, which are estimated and not named
+    accepted : rig checks that the user says are right as they are
     jobs : processes that try hypotheses; the results are the same for any number
     """
+    rig = look(recording).accept(accepted)
+    recording = rig.usable()
     problem = prepare(recording, free)
     _enough(problem)
     thin = prepare(thinned(recording, thresholds.SEARCH_SAMPLES), free)
@@ -115,6 +122,8 @@ def diagnose(
         lacking = untestable(survey, given.model.effects)
         problem, thin = (with_given(s, given, lacking) for s in (problem, thin))
         candidates = [e for e in candidates if e not in given.model.effects]
+    if rig.blocking:
+        candidates = []  # what a wrong sign or unit does is no physics
     missing = untestable(survey, candidates)
     testable = [e for e in candidates if e.name not in missing]
     with executor((thin, problem), jobs, progress) as workers:
@@ -125,7 +134,7 @@ def diagnose(
     lack_of_fit = lack_of_fit_test(best.problem, best.residual, seed)
     noise = lack_of_fit.noise_rms
     left = lack_of_fit.significant and _matters(problem, selection, lack_of_fit)
-    if left:
+    if left or rig.blocking:
         verdict = Verdict.UNEXPLAINED
     else:
         verdict = Verdict.EXPLAINED if selection.named else Verdict.ADEQUATE
@@ -133,7 +142,11 @@ def diagnose(
     energy = (best.residual - selection.base.residual) ** 2
     if left:
         energy += lack_of_fit.excess
-    mismatch = locate(best.problem, energy) if verdict is not Verdict.ADEQUATE else []
+    mismatch: list[Region] = []
+    if verdict is not Verdict.ADEQUATE:
+        alone = record_region(best.problem, energy)
+        mismatch = locate(best.problem, energy)[: thresholds.REGIONS]
+        mismatch += [alone] if alone else []
     refitted = _validate(problem, selection.base)
     fit, record_effects = _errors(problem, best)
     return Diagnosis(
@@ -144,7 +157,7 @@ def diagnose(
         fit=fit,
         record_effects=record_effects,
         findings=findings,
-        mismatch=tuple(mismatch[: thresholds.REGIONS]),
+        mismatch=tuple(mismatch),
         given=given,
         baseline=refitted if given is None else _as_given(problem, given),
         refitted=refitted,
@@ -157,6 +170,7 @@ def diagnose(
         lack_of_fit=lack_of_fit,
         resemblance=resemblance(best.problem, lack_of_fit.predicted) if left else None,
         untestable=missing,
+        rig=rig,
     )
 
 

@@ -31,6 +31,11 @@ def finding_text(finding: Finding) -> str:
 def remaining_text(found: Diagnosis) -> str:
     """What is left, in words."""
     left = found.lack_of_fit
+    if found.rig.blocking:
+        return (
+            "nothing was searched, because the recording itself is at fault:"
+            f" {'; '.join(f.text for f in found.rig.blocking)}"
+        )
     if found.verdict is not Verdict.UNEXPLAINED:
         return (
             f"what remains, {found.carried.overall.rms:.3g} N rms, holds nothing that motion,"

@@ -14,6 +14,7 @@ from erdctl.core.recording import DIRECTIONS, Recording
 from erdctl.core.workers import Progress
 from erdctl.estimate.covariance import Fit, assess, estimates
 from erdctl.estimate.least_squares import Fitted, fit
+from erdctl.estimate.measurement_noise import measurement_noise
 from erdctl.estimate.starts import fresh_start
 from erdctl.estimate.two_step import two_step
 from erdctl.model.composed import Model, off_values
@@ -21,6 +22,7 @@ from erdctl.model.parameters import Estimate
 
 SEARCH = 40_000  # samples for the search; the last step and the errors use all
 CORRELATED = 0.95
+DISAGREE_ERRORS, DISAGREE_PART = 8.0, 0.3  # standard errors, and part of the value
 FRESH = ((0.05, 0.3), (0.01, 1.0))  # T_d [s] and beta [1] of two guesses: slow and fast
 
 
@@ -29,6 +31,7 @@ class Identification:
     """Both fits, and what to tell the user.
 
     joint : estimates of all parameters together;  two_step : the paper's procedure, by name
+    noise_rms : measurement noise [N], which the residual exceeds where the model lacks something
     """
 
     model: Model
@@ -36,6 +39,7 @@ class Identification:
     two_step: Mapping[str, float]
     fit: Fit
     two_step_rms: float | None
+    noise_rms: float
     warnings: tuple[str, ...]
 
 
@@ -74,12 +78,14 @@ def identify(
     rms = None
     if set(Model().quantities) <= set(complete):
         rms = _rms(Model(), blocks, complete)
+    residual = search.force - model.force(search.signals, found.values)
     return Identification(
         model=model,
         joint=estimates(found, reasons),
         two_step=steps,
         fit=found,
         two_step_rms=rms,
+        noise_rms=measurement_noise(search, residual),
         warnings=tuple(_warnings(found, steps, reasons)),
     )
 
@@ -108,6 +114,26 @@ def _search(
         return float(np.dot(np.sqrt(block.weight), np.abs(found.residual)))
 
     return min(results, key=cost), sum(found.evaluations for found in results)
+
+
+def _disagreements(found: Fit, steps: Mapping[str, float], reasons: Mapping[str, str]) -> list[str]:
+    """Parameters that the paper's steps and the joint fit give far beyond the errors of either.
+
+    The two weigh the same data otherwise; where the model holds they agree.
+    """
+    out = []
+    for name, error in found.stderr.items():
+        if name not in steps or name in reasons:
+            continue
+        value, other, unit = found.values[name], steps[name], found.model.quantities[name].unit
+        away = abs(value - other)
+        if away > DISAGREE_ERRORS * error and away > DISAGREE_PART * max(abs(value), abs(other)):
+            out.append(
+                f"{name}: {value:.4g} +- {error:.2g} {unit} by the joint fit and {other:.4g} by"
+                " the paper's steps, far beyond the error: the model lacks something or the"
+                " recording is at fault, so trust neither before erdctl diagnose"
+            )
+    return out
 
 
 def _flat(found: Fit) -> dict[str, str]:
@@ -157,6 +183,7 @@ def _warnings(found: Fit, steps: Mapping[str, float], reasons: Mapping[str, str]
                 f"{a} and {b} are correlated ({correlation[i, j]:+.2f}):"
                 " the data fix their combination better than either"
             )
+    out += _disagreements(found, steps, reasons)
     if not found.converged:
         out.append("the search stopped before it converged")
     return out

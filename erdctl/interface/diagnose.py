@@ -37,7 +37,7 @@ FINDINGS = (
 MISMATCH = ("variable", "low", "high", "unit", "share", "text")
 SI = {
     "xdot": "m/s", "x": "m", "duty": "1", "t": "s", "since_reversal": "s", "since_duty_step": "s",
-    "dissipated_energy": "J",
+    "dissipated_energy": "J", "record": "",
 }  # fmt: skip
 
 
@@ -70,8 +70,8 @@ class Diagnosed:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What was assumed of the log when it was read."""
-        return self.log.remarks
+        """What was assumed of the log when it was read, and what is wrong with it."""
+        return (*self.log.remarks, *self.found.rig.lines())
 
     def to_dict(self) -> dict[str, Any]:
         """The document of `erdctl diagnose`, "schema": "erdctl.diagnosis/1"."""
@@ -165,6 +165,7 @@ def diagnose(
     exclude: Sequence[str] | str | None = None,
     record_gains: bool = False,
     record_offsets: bool = False,
+    accept: Sequence[str] = (),
     max_effects: int = 5,
     seed: int = 0,
     jobs: int | None = None,
@@ -177,6 +178,7 @@ def diagnose(
         `identify` or `diagnose`, the path of a parameter file, or its dict
     effects, exclude : names of effects to test only, or not to test; see `erdctl.effects`
     record_gains, record_offsets : a free gain [1], or zero [N], of the force for each record
+    accept : codes of rig checks whose findings are right as they are, see `inspect`
     max_effects : name at most so many;  seed : of the regression that looks at what remains
     jobs : worker processes; the result is the same for any number. By default all cores where that
         is worth it, and 1 in a script, since workers import the script again: give a number there
@@ -203,7 +205,7 @@ def diagnose(
         found = diagnosed(
             read.recording, tested, most=max_effects, seed=seed,
             given=None if given is None else given.parameters,
-            free=Varying(gain=record_gains, offset=record_offsets),
+            free=Varying(gain=record_gains, offset=record_offsets), accepted=accept,
             jobs=jobs or (1 if _in_script() else worthwhile(read.recording, tested)),
             progress=progress or (lambda stage, what: None),
         )  # fmt: skip

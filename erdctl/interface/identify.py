@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
+from erdctl.bench.rig import look
 from erdctl.core.workers import one_thread
 from erdctl.estimate.identify import identify as identified
 from erdctl.estimate.method import Method
@@ -32,16 +33,18 @@ class Identified:
     """Parameters of a damper and how they were found; what `erdctl.identify` gives.
 
     parameters : values by full name in `.values`, e.g. "compression.T_d" [s]
-    log : that they were identified from
+    log : that they were identified from;  rig : what is wrong with it, a line each
     """
 
     parameters: Parameters
     log: BenchLog
+    rig: tuple[str, ...] = ()
 
     @property
     def remarks(self) -> tuple[str, ...]:
         """What was assumed of the log, parameters without a value, and warnings of the fit."""
-        return (*self.log.remarks, *self.parameters.caveats(), *self.parameters.warnings)
+        p = self.parameters
+        return (*self.log.remarks, *self.rig, *p.caveats(), *p.warnings)
 
     def to_dict(self) -> dict[str, Any]:
         """The parameter file, "schema": "erdctl.parameters/1"."""
@@ -112,6 +115,7 @@ def identify(
     *,
     method: Literal["joint", "two-step"] = "joint",
     robust: bool = False,
+    accept: Sequence[str] = (),
     progress: Callable[[str, str], None] | None = None,
 ) -> Identified:
     """Identify the paper's damper model from a bench log, with standard errors.
@@ -119,6 +123,7 @@ def identify(
     log : what `erdctl.read` gave, or anything that `read` takes; with a measured force
     method : "joint" fits all parameters together, "two-step" as the paper does
     robust : weigh outliers down
+    accept : codes of rig checks whose findings are right as they are, see `inspect`
     progress : called with (stage, what) as the work goes on
 
     Returns an Identified: `.table()` parameters, errors and SI units; `.parameters.values` numbers
@@ -126,7 +131,7 @@ def identify(
     also "yield-force". It goes as it is into simulate, validate, diagnose and mimic. What the log
     does not identify has no value but a reason, see `.remarks`.
 
-    Raises InputProblem if the log identifies nothing at all.
+    Raises InputProblem if the log identifies nothing at all, or is wrong as a whole.
 
     Example:
         damper = erdctl.identify("bench.parquet")
@@ -134,8 +139,12 @@ def identify(
     """
     chosen = Method(option(method, list(Method), "method"))
     given = log_of(log, need_force=True)
+    rig = look(given.recording).accept(accept)
+    rig.refuse()
+    recording = rig.usable()
     with one_thread():
         found = identified(
-            given.recording, robust=robust, progress=progress or (lambda stage, what: None)
+            recording, robust=robust, progress=progress or (lambda stage, what: None)
         )
-    return Identified(parameters_of(found, chosen, given.recording), given)
+    parameters = parameters_of(found, chosen, recording, rig.to_json())
+    return Identified(parameters, given, tuple(rig.lines()))

@@ -32,8 +32,8 @@ class Inspected:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What was assumed of the log when it was read."""
-        return self.log.remarks
+        """What was assumed of the log when it was read, and what is wrong with it."""
+        return (*self.log.remarks, *self.found.rig.lines())
 
     def to_dict(self) -> dict[str, Any]:
         """The document of `erdctl inspect --json`, "schema": "erdctl.inspection/1"."""

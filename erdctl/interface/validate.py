@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
+from erdctl.bench.rig import Rig, look
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array
 from erdctl.interface.arguments import ParametersLike, given_parameters
@@ -32,7 +33,7 @@ class Validated:
 
     scores : NRMSE [1], rms [N] and samples, overall and by duty, direction and record
     log : that it was held against;  modelled : (n,) [N];  parameters : None if the log had the
-        modelled force;  remarks : what was assumed
+        modelled force;  remarks : what was assumed;  rig : what is wrong with the log
     """
 
     scores: Validation
@@ -40,6 +41,7 @@ class Validated:
     modelled: Array
     parameters: Parameters | None
     remarks: tuple[str, ...]
+    rig: Rig
 
     @property
     def nrmse(self) -> float:
@@ -48,7 +50,7 @@ class Validated:
 
     def to_dict(self) -> dict[str, Any]:
         """The document of `erdctl validate --json`, "schema": "erdctl.validation/1"."""
-        found: dict[str, Any] = documents.plain(to_json(self.scores))
+        found: dict[str, Any] = documents.plain(to_json(self.scores, self.rig.to_json()))
         return found
 
     def table(self) -> pd.DataFrame:
@@ -86,7 +88,7 @@ class Validated:
 
     def write(self, path: Place) -> None:
         """Write the document as JSON, as `erdctl validate --json` prints it."""
-        documents.write(to_json(self.scores), os.fspath(path))
+        documents.write(to_json(self.scores, self.rig.to_json()), os.fspath(path))
 
     def __repr__(self) -> str:
         rows = [f"{100 * d:3g} %  {s.nrmse:.4f}" for d, s in self.scores.by_duty.items()]
@@ -134,4 +136,6 @@ def validate(
             "the log has no column force_model; give parameters before it",
             file=r.sources[0].name if r.sources else None,
         )
-    return Validated(scores_of(r, modelled, over), given, modelled, found, said)
+    rig = look(r)
+    said = (*said, *rig.lines())
+    return Validated(scores_of(r, modelled, over), given, modelled, found, said, rig)

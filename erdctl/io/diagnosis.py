@@ -59,6 +59,7 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
             "text": remaining_text(found),
         },
         **_records(found),
+        "rig": found.rig.to_json(),
         "not_testable": found.untestable,
         "provenance": origin,
     }

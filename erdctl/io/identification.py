@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Recording
@@ -11,8 +13,15 @@ from erdctl.estimate.method import Method
 from erdctl.model.parameters import Parameters, provenance
 
 
-def parameters_of(found: Identification, method: Method, recording: Recording) -> Parameters:
+def parameters_of(
+    found: Identification,
+    method: Method,
+    recording: Recording,
+    rig: Sequence[Mapping[str, Any]] = (),
+) -> Parameters:
     """The parameters of one of the two fits, with both as a record of where they come from.
+
+    rig : what was found wrong with the recording, as `Rig.to_json` gives it
 
     Raises InputProblem if the paper's procedure cannot give them all from these logs.
     """
@@ -39,7 +48,7 @@ def parameters_of(found: Identification, method: Method, recording: Recording) -
     return Parameters(
         model=found.model,
         estimates=estimates,
-        provenance=provenance(recording, found.fit.rms),
+        provenance=provenance(recording, found.noise_rms, rig),
         fits=fits,
         warnings=found.warnings,
     )

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, TypedDict
+from typing import Any, TypedDict, cast
 
 import msgspec
 
 from erdctl.bench.identifiability import Cover
 from erdctl.bench.inspection import Inspection, NoiseFloor, RecordSummary, Span
 from erdctl.io.logs import Log
+from erdctl.io.shapes import RigFaultDocument
 from erdctl.io.units import UNITS
 
 SCHEMA = "erdctl.inspection/1"
@@ -103,6 +104,7 @@ class InspectionFile(TypedDict):
     mass_at_noise: float | None
     parameters: list[CoverEntry]
     effects: list[CoverEntry]
+    rig: list[RigFaultDocument]
 
 
 def to_json(found: Inspection, log: Log) -> InspectionFile:
@@ -133,6 +135,7 @@ def to_json(found: Inspection, log: Log) -> InspectionFile:
         "mass_at_noise": found.mass,
         "parameters": covers(found.parameters),
         "effects": covers(found.effects),
+        "rig": cast(list[RigFaultDocument], found.rig.to_json()),
     }
 
 

@@ -31,11 +31,29 @@ class Measured(TypedDict):
 
 
 class IntervalDocument(TypedDict):
-    """Where: xdot, x, duty, t, since_reversal, since_duty_step or dissipated_energy, in SI."""
+    """Where: xdot, x, duty, t, since_reversal, since_duty_step or dissipated_energy, in SI; or
+    record, by its number from 1."""
 
     variable: str
     low: float
     high: float
+
+
+class RigFaultDocument(TypedDict):
+    """Something wrong with the recording: code, record by name or null for the log, what to do.
+
+    blocks : nothing of the record (of the log) was used;  samples, first, last : what was left out,
+    and the time of the first and the last [s]
+    """
+
+    code: str
+    record: str | None
+    text: str
+    remedy: str
+    blocks: bool
+    samples: NotRequired[int]
+    first: NotRequired[float]
+    last: NotRequired[float]
 
 
 class AtDuty(TypedDict):
@@ -154,6 +172,7 @@ class DiagnosisFile(TypedDict):
     remaining: Remaining
     records: NotRequired[list[PerRecord]]
     with_records: NotRequired[Scores]
+    rig: NotRequired[list[RigFaultDocument]]
     not_testable: dict[str, str]
     provenance: dict[str, Any]
 
@@ -192,6 +211,7 @@ class ValidationFile(ScoreDocument):
     nrmse_by_duty: list[DutyScore]
     nrmse_by_direction: list[DirectionScore]
     nrmse_by_record: list[RecordScore]
+    rig: NotRequired[list[RigFaultDocument]]
 
 
 class LimitsDocument(TypedDict):

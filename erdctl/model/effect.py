@@ -61,6 +61,7 @@ class Variable(Enum):
     SINCE_REVERSAL = "since_reversal"
     SINCE_DUTY_STEP = "since_duty_step"
     ENERGY = "dissipated_energy"
+    RECORD = "record"  # by its number, from 1
 
 
 @dataclass(frozen=True, kw_only=True)

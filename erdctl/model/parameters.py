@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from typing import Any
@@ -62,9 +62,14 @@ class Parameters:
         return [f"not identified: {', '.join(names)}: {why}" for why, names in by_reason.items()]
 
 
-def provenance(recording: Recording, noise_rms: float) -> dict[str, Any]:
+def provenance(
+    recording: Recording, noise_rms: float, rig: Sequence[Mapping[str, Any]] = ()
+) -> dict[str, Any]:
     """Where an estimate comes from: version, logs, what they covered, noise. No date, so that
-    the same logs give the same file."""
+    the same logs give the same file.
+
+    rig : what is wrong with the recording, as documents say it
+    """
 
     def ends(channel: str) -> list[float]:
         values = getattr(recording, channel)
@@ -78,4 +83,5 @@ def provenance(recording: Recording, noise_rms: float) -> dict[str, Any]:
         "ranges": {name: ends(name) for name in ("x", "xdot", "duty")},
         "xdot": recording.xdot_note,
         "noise_rms": noise_rms,
+        **({"rig": [*rig]} if rig else {}),
     }

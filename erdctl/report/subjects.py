@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from erdctl.core.recording import Array, Recording
+from erdctl.model.effect import Variable
 from erdctl.model.faults import effectiveness
 from erdctl.model.simulate import simulate
 from erdctl.report.subject import Programme, Subject
@@ -48,7 +49,7 @@ def of_diagnosis(found: Diagnosis, parameters: Parameters) -> Subject:
         modelled=best.model.force(signals, best.values),
         before=before,
         parameters=parameters,
-        regions=found.mismatch,
+        regions=tuple(r for r in found.mismatch if r.variable is not Variable.RECORD),
         names=("measured", f"with {effects}" if effects else "corrected model", name),
         about=about(recording),
     )

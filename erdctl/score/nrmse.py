@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -105,10 +105,17 @@ def duty_levels(duty: Array) -> tuple[Codes, Array]:
 def validate(
     recording: Recording, modelled: Array, normalise: Normalise = Normalise.RANGE
 ) -> Validation:
-    """Scores of a modelled force on a recording with a measured one."""
-    force = recording.force
-    if force is None:
+    """Scores of a modelled force on a recording with a measured one, where samples are usable."""
+    if recording.force is None:
         raise ValueError("the recording has no measured force")
+    if recording.excluded is not None:
+        rows = np.flatnonzero(~recording.excluded)
+        ends = np.searchsorted(rows, recording.starts)
+        kept = np.flatnonzero(np.diff(ends))
+        names = [recording.names[i] for i in kept]
+        usable = recording.take(rows, np.append(ends[kept], ends[-1]), names)
+        return validate(replace(usable, excluded=None), modelled[rows], normalise)
+    force = recording.force
 
     def score(chosen: npt.NDArray[np.bool_] | slice) -> Score:
         return nrmse(force[chosen], modelled[chosen], normalise)

@@ -4,12 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.core.recording import Index, Recording
 
+CODES = (
+    "force_sign", "time_unit", "speed_unit", "stroke_unit", "force_unit", "duty_unit",
+    "force_clipped", "x_clipped", "force_frozen", "x_frozen", "force_spikes", "x_spikes",
+    "force_burst", "samples_missing", "x_jumps", "velocity_noise", "velocity_lag", "velocity_gain",
+    "record_gain", "record_offset", "record_lag", "record_noise",
+)  # fmt: skip
+REFUSED = 3  # faults that one message tells
 VELOCITY_CODES = ("velocity_noise", "velocity_lag", "velocity_gain")
 
 
@@ -45,7 +54,10 @@ class Rig:
     accepted: tuple[str, ...] = ()
 
     def accept(self, codes: Collection[str]) -> Rig:
-        """Without what the user says is right."""
+        """Without what the user says is right; UsageProblem for a code that there is not."""
+        unknown = [c for c in codes if c not in CODES]
+        if unknown:
+            raise UsageProblem(f"no rig check '{unknown[0]}'; there are {', '.join(CODES)}")
         kept = tuple(f for f in self.faults if f.code not in codes)
         return replace(self, faults=kept, accepted=tuple(sorted(codes)))
 
@@ -72,6 +84,30 @@ class Rig:
         if self.looked < 1.0 and self.faults:
             out.append(f"looked at {100 * self.looked:.0f} % of the samples, in even stretches")
         return out
+
+    def to_json(self) -> list[dict[str, Any]]:
+        """The faults as documents hold them."""
+        out = []
+        for f in self.faults:
+            entry: dict[str, Any] = {
+                "code": f.code, "record": self.name_of(f), "text": f.text, "remedy": f.remedy,
+                "blocks": f.blocks,
+            }  # fmt: skip
+            if f.samples is not None and len(f.samples):
+                t = self.recording.t[f.samples]
+                entry |= {"samples": len(f.samples), "first": float(t[0]), "last": float(t[-1])}
+            out.append(entry)
+        return out
+
+    def refuse(self) -> None:
+        """Raise InputProblem if nothing of the recording can be fitted."""
+        if self.blocking:
+            sources = self.recording.sources
+            raise InputProblem(
+                "nothing can be fitted to it: "
+                + "; ".join(f"{f.text}; {f.remedy}" for f in self.blocking[:REFUSED]),
+                file=sources[0].name if len(sources) == 1 else None,
+            )
 
     def usable(self) -> Recording:
         """What of the recording a fit may use.

@@ -20,6 +20,7 @@ UNITS = {
     Variable.SINCE_REVERSAL: (1e3, "ms"),
     Variable.SINCE_DUTY_STEP: (1e3, "ms"),
     Variable.ENERGY: (1.0, "J"),
+    Variable.RECORD: (1.0, ""),
 }
 
 
@@ -39,7 +40,10 @@ class Region:
 
 
 def variables(signals: Signals, force: Array) -> dict[Variable, Array]:
-    """(n,) values of every variable over which a misfit can gather; inf where there is none."""
+    """(n,) values of every variable over which a misfit can gather; inf where there is none.
+
+    Not the record, which no physics knows.
+    """
     start = np.repeat(signals.starts[:-1], np.diff(signals.starts))
     power = np.maximum(force * signals.xdot, 0.0) * signals.step
     energy = np.cumsum(power)
@@ -68,6 +72,26 @@ def locate(problem: Problem, square: Array) -> list[Region]:
         if region is not None and region.time < thresholds.REGION_WIDEST:
             found.append(region)
     return sorted(found, key=lambda r: r.time - r.share)
+
+
+def record_region(problem: Problem, square: Array) -> Region | None:
+    """The record in which a squared misfit (n,) [N^2] gathers; None if in no single one."""
+    names = problem.recording.names
+    if len(names) == 1:
+        return None
+    number = np.repeat(np.arange(len(names)), np.diff(problem.recording.starts))
+    weight = problem.block.weight
+    energy = np.bincount(number, weight * square, len(names))
+    time = np.bincount(number, weight, len(names))
+    if energy.sum() <= 0.0:
+        return None
+    energy, time = energy / energy.sum(), time / time.sum()
+    at = int((energy - time).argmax())
+    share, spent = float(energy[at]), float(time[at])
+    if share < thresholds.REGION_SHARE or share - spent < thresholds.REGION_EXCESS:
+        return None
+    text = f"{100 * share:.0f} % of the misfit lies in record '{names[at]}'"
+    return Region(Variable.RECORD, at + 1.0, at + 1.0, share, spent, text)
 
 
 def _interval(variable: Variable, values: Array, energy: Array, time: Array) -> Region | None:

@@ -18,7 +18,7 @@ from erdctl.model.paper import EQUATIONS, QUANTITIES
 from erdctl.report.page import data
 from erdctl.report.page.data import Json, Levels
 from erdctl.report.page.render import Run, digits, render
-from erdctl.report.page.words import extent, joined, logs_text, plain
+from erdctl.report.page.words import extent, joined, logs_text, plain, rig_line
 
 MOOD = {"adequate": "good", "explained": "mid", "unexplained": "bad"}
 
@@ -56,6 +56,7 @@ def diagnosis_page(
         maps=[key for key in figures if key.startswith("map")],
         profiles=[key for key in figures if key.startswith("profile")],
         **_answers(doc, name),
+        rig=[rig_line(f) for f in doc["rig"]],
         levels=_levels(doc, recording, levels, "refitted" if given else plain_name),
         misfit_words=_misfit_words(doc),
         findings=[_finding(f) for f in doc["findings"]],
@@ -90,6 +91,8 @@ def _figures(
     regions: dict[str, tuple[float, float, str] | None] = {"xdot": None}
     for m in reversed(doc["mismatch"]):
         where = m["where"]
+        if where["variable"] == Variable.RECORD.value:
+            continue  # a number of a record is no axis
         regions[where["variable"]] = where["low"], where["high"], f"{100 * m['share']:.0f} %"
     for variable, region in reversed(regions.items()):  # the sharpest first
         v = Variable(variable)
@@ -108,6 +111,8 @@ def _answers(doc: Json, name: str) -> Json:
     start = name[0].upper() + name[1:]
     many = "explain" if len(named) > 1 else "explains"
     match verdict:
+        case _ if any(f["blocks"] and f["record"] is None for f in doc["rig"]):
+            head = "The recording is at fault, so nothing can be said of the damper."
         case "adequate":
             head = f"{start} holds: the residual is measurement noise."
         case "explained":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import sqrt
 from typing import TypeVar
 
@@ -15,7 +15,7 @@ from erdctl.report.page.words import extent, joined, logs_text
 from erdctl.score.nrmse import Score, Validation
 
 K = TypeVar("K")
-AT_NOISE = 0.3  # misfit over noise up to which an error counts as noise, as in a diagnosis
+AT_NOISE = 0.45  # misfit over noise up to which an error counts as noise, itself known to a tenth
 
 
 def validation_page(
@@ -26,11 +26,13 @@ def validation_page(
     noise: float | None,
     limit: float | None,
     run: Run,
+    rig: Sequence[str] = (),
 ) -> str:
     """The page.
 
-    modelled : (n,) [N];  noise : of the logs that the parameters come from [N], where known
+    modelled : (n,) [N];  noise : of the force of this recording [N], where known
     limit : highest NRMSE that a PWM level may have, where one was asked for
+    rig : what is wrong with the recording, a line each
     """
     assert recording.force is not None
     levels = Levels.of(recording)
@@ -61,6 +63,7 @@ def validation_page(
         extent=extent(recording, len(levels.duty)),
         **_answers(found, over, noise, limit),
         levels=_levels(found, noise, limit),
+        rig=[*rig],
         tables=_tables(found),
     )
 
@@ -92,7 +95,7 @@ def _answers(
         holds = f"Yes: all of {len(found.by_duty)} PWM levels are within {bar}."
     compared = ""
     if noise:
-        compared = f" = {whole.rms / noise:.2f} × the noise of the logs it was identified on"
+        compared = f" = {whole.rms / noise:.2f} × the noise of the force, {digits(noise, 3)} N"
     duty, level = _worst(found.by_duty)
     side, direction = _worst(found.by_direction) if found.by_direction else ("", whole)
     where = f"At {data.percent(duty)} PWM: NRMSE {level.nrmse:.4f}"

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from erdctl.core.recording import Recording
 
@@ -36,3 +37,9 @@ def extent(recording: Recording, levels: int) -> str:
         f"{len(recording):,} samples, {seconds:.3g} s, {records} record{'s' * (records != 1)},"
         f" {levels} PWM level{'s' * (levels != 1)}"
     ).replace(",", "\u202f", f"{len(recording):,}".count(","))
+
+
+def rig_line(fault: Mapping[str, Any]) -> str:
+    """A fault of the rig, as a document holds it, in one line."""
+    where = f"record {fault['record']}: " if fault["record"] else ""
+    return f"{where}{fault['text']}; {fault['remedy']}"
