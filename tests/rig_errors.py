@@ -164,6 +164,11 @@ def _lag(r: Recording, random: Random) -> Recording:
     return _with(r, force=force)
 
 
+def _noisier(force: Array, r: Recording, random: Random) -> Array:
+    level = max(_noise_of(force), 1e-3 * float(np.ptp(force)))
+    return force + random.normal(0.0, 5.0 * level, len(force))
+
+
 def _velocity_noise(r: Recording, random: Random) -> Recording:
     speed = float(np.std(r.xdot))
     return replace(r, xdot=r.xdot + random.normal(0.0, 0.15 * speed, len(r)), xdot_note="measured")
@@ -204,8 +209,8 @@ ERRORS = {
     "one record in kN": _error(_in_record(lambda f, r, _: 1e-3 * f), "record_gain", "record"),
     "one record in lbf": _error(_in_record(lambda f, r, _: f / 4.4482216), "record_gain", "record"),
     "duty in per cent within 0..1": _error(_everywhere(duty=0.01), "duty_unit", "log"),
-    "force clipped": _error(_clipped, "force_clipped", "samples"),
-    "x clipped": _error(_x_clipped, "x_clipped", "samples"),
+    "force clipped": _error(_clipped, "force_clipped", "log"),
+    "x clipped": _error(_x_clipped, "x_clipped", "log"),
     "force frozen": _error(_force_frozen, "force_frozen", "samples"),
     "x frozen": _error(_x_frozen, "x_frozen", "samples"),
     "spikes of force": _error(_spikes, "force_spikes", "samples"),
@@ -219,7 +224,7 @@ ERRORS = {
     ),
     "one record late": _error(_lag, "record_lag", "record"),
     "one record with five times the noise": _error(
-        _in_record(lambda f, r, g: f + g.normal(0.0, 5.0 * max(_noise_of(f), 1e-3 * np.ptp(f)), len(f))),
+        _in_record(_noisier),
         "record_noise", "record",
     ),
     "noise of the velocity channel": _error(_velocity_noise, "velocity_noise", "log"),

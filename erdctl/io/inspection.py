@@ -10,7 +10,7 @@ import msgspec
 from erdctl.bench.identifiability import Cover
 from erdctl.bench.inspection import Inspection, NoiseFloor, RecordSummary, Span
 from erdctl.io.logs import Log
-from erdctl.io.shapes import RigFaultDocument
+from erdctl.io.rig import RigFaultDocument
 from erdctl.io.units import UNITS
 
 SCHEMA = "erdctl.inspection/1"

@@ -13,6 +13,7 @@ import msgspec
 from erdctl.io import geometry, inspection, parameters
 from erdctl.io.inspection import LogEntry
 from erdctl.io.parameters import ParameterFile
+from erdctl.io.rig import RigFaultDocument
 
 
 class QuantityDocument(TypedDict):
@@ -37,23 +38,6 @@ class IntervalDocument(TypedDict):
     variable: str
     low: float
     high: float
-
-
-class RigFaultDocument(TypedDict):
-    """Something wrong with the recording: code, record by name or null for the log, what to do.
-
-    blocks : nothing of the record (of the log) was used;  samples, first, last : what was left out,
-    and the time of the first and the last [s]
-    """
-
-    code: str
-    record: str | None
-    text: str
-    remedy: str
-    blocks: bool
-    samples: NotRequired[int]
-    first: NotRequired[float]
-    last: NotRequired[float]
 
 
 class AtDuty(TypedDict):

@@ -1,0 +1,115 @@
+"""Every error of a rig that is put into a good log is seen, with its place and a remedy."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from places import FIXTURES, SHARED
+from rig import real
+from rig_errors import ERRORS, RigError, chosen
+
+from erdctl.bench.rig import Rig, look
+from erdctl.bench.rig.fault import CODES
+from erdctl.core.errors import InputProblem, UsageProblem
+from erdctl.core.recording import Recording
+from erdctl.io.logs import read_logs
+
+# What real logs cannot show: a constant setting has no duty, and 15 kN in kilonewtons is 15 N, which
+# a small damper has; 76 mm a thousand times too small is a stroke of 76 um, which a test may have.
+UNSEEN = {
+    "friction_sine": {
+        "duty in per cent within 0..1", "force in kN taken for N", "x in m taken for mm",
+        "one record late",
+    },
+}  # fmt: skip
+
+
+def read(path: object) -> Recording:
+    return read_logs([str(path)], need_force=True, report=lambda line: None).recording
+
+
+@pytest.fixture(scope="module")
+def good() -> Recording:
+    return read(FIXTURES / "healthy_campaign.parquet")
+
+
+def seen(error: RigError, spoiled: Recording, rig: Rig) -> bool:
+    """Whether what was found is the error that was put in, where it was put in."""
+    at = chosen(spoiled)
+    part = spoiled.slices[at]
+    for f in rig.faults:
+        if f.code not in error.codes or not f.remedy:
+            continue
+        if error.place == "log" or f.record == at:
+            return True
+        if f.record is None and f.samples is not None:
+            return bool(((f.samples >= part.start) & (f.samples < part.stop)).any())
+    return False
+
+
+def test_a_good_log_has_no_fault(good: Recording) -> None:
+    assert look(good).lines() == []
+
+
+@pytest.mark.parametrize("name", ERRORS)
+def test_error_is_seen(good: Recording, name: str) -> None:
+    for seed in range(3):
+        spoiled = ERRORS[name].spoil(good, np.random.default_rng(seed))
+        rig = look(spoiled)
+        assert seen(ERRORS[name], spoiled, rig), rig.lines()
+        assert {f.code for f in rig.faults} <= ERRORS[name].codes, rig.lines()
+
+
+@pytest.mark.real_data
+@pytest.mark.parametrize("log", ["mr_sine", "friction_sine"])
+def test_errors_in_real_recordings(log: str) -> None:
+    recording = read(real(f"{log}.parquet", SHARED))
+    assert look(recording).lines() == []
+    missed = set()
+    for name, error in ERRORS.items():
+        spoiled = error.spoil(recording, np.random.default_rng(5))
+        if not seen(error, spoiled, look(spoiled)):
+            missed.add(name)
+    assert missed == UNSEEN.get(log, set())
+
+
+def test_codes_are_known(good: Recording) -> None:
+    assert {code for e in ERRORS.values() for code in e.codes} <= set(CODES)
+    with pytest.raises(UsageProblem, match="no rig check 'nonsense'"):
+        look(good).accept(["nonsense"])
+
+
+def test_what_is_accepted_is_used(good: Recording) -> None:
+    spoiled = ERRORS["force in kN taken for N"].spoil(good, np.random.default_rng(0))
+    with pytest.raises(InputProblem, match="kilonewtons"):
+        look(spoiled).refuse()
+    rig = look(spoiled).accept(["force_unit"])
+    rig.refuse()
+    assert rig.usable() is spoiled
+
+
+def test_a_spoiled_record_is_left_out(good: Recording) -> None:
+    spoiled = ERRORS["one record with a gain"].spoil(good, np.random.default_rng(0))
+    kept = look(spoiled).usable()
+    assert set(good.names) - set(kept.names) == {good.names[chosen(good)]}
+
+
+def test_spoiled_samples_have_no_weight(good: Recording) -> None:
+    from erdctl.core.blocks import pieces, whole
+
+    spoiled = ERRORS["force frozen"].spoil(good, np.random.default_rng(0))
+    kept = look(spoiled).usable()
+    assert kept.excluded is not None
+    frozen = kept.excluded
+    assert 0 < np.count_nonzero(frozen) < 0.05 * len(kept)
+    assert not whole(kept).weight[frozen].any()
+    total = sum(float(b.weight.sum()) for b in pieces(kept, longest=500))
+    plain = sum(float(b.weight.sum()) for b in pieces(good, longest=500))
+    assert plain - 1.1 * np.count_nonzero(frozen) <= total < plain
+
+
+def test_a_velocity_at_fault_is_left_out(good: Recording) -> None:
+    spoiled = ERRORS["noise of the velocity channel"].spoil(good, np.random.default_rng(0))
+    kept = look(spoiled).usable()
+    assert "the column xdot being left out" in kept.xdot_note
+    assert np.std(kept.xdot - good.xdot) < 0.3 * np.std(spoiled.xdot - good.xdot)
