@@ -1,0 +1,95 @@
+"""The rig before the physics, on the command line: what is said, what is written, how it ends."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import Result
+from places import FIXTURES
+from rig_errors import ERRORS
+from typer.testing import CliRunner
+
+from erdctl.cli.app import build
+from erdctl.core.blocks import thinned
+from erdctl.io.logs import read_logs
+from erdctl.io.tables import table_of, write_table
+
+
+def run(*words: str | Path) -> Result:
+    return CliRunner().invoke(build(), [str(w) for w in words])
+
+
+def spoiled(name: str, folder: Path, most: int = 12_000) -> Path:
+    """A short copy of the good campaign with one error in it."""
+    path = str(FIXTURES / "healthy_campaign.parquet")
+    good = read_logs([path], need_force=True, report=lambda line: None).recording
+    short = thinned(good.select(list(range(0, len(good.names), 2))), most)
+    log = folder / "spoiled.parquet"
+    write_table(table_of(ERRORS[name].spoil(short, np.random.default_rng(1))), str(log))
+    return log
+
+
+def test_identify_refuses_what_is_wrong_as_a_whole(tmp_path: Path) -> None:
+    log, out = spoiled("force reversed", tmp_path), tmp_path / "p.json"
+    result = run("identify", log, "-o", out)
+    assert result.exit_code == 3
+    assert "gives energy back" in result.stderr
+    assert '--map "force=-force"' in result.stderr
+    assert not out.exists()
+    # The remedy that it names is one.
+    assert run("identify", log, "-o", out, "--map", "force=-force").exit_code == 0
+    assert "rig" not in json.loads(out.read_text())["provenance"]
+
+
+def test_identify_says_what_it_left_out(tmp_path: Path) -> None:
+    log, out = spoiled("one record with a gain", tmp_path), tmp_path / "p.json"
+    result = run("identify", log, "-o", out, "--strict")
+    assert result.exit_code == 1  # the file is there all the same
+    assert "record_gain" in result.stderr
+    found = json.loads(out.read_text())["provenance"]["rig"]
+    assert [f["code"] for f in found] == ["record_gain"]
+    accepted = run("identify", log, "-o", out, "--strict", "--accept", "record_gain")
+    assert accepted.exit_code == 0
+    assert "rig" not in json.loads(out.read_text())["provenance"]
+
+
+def test_accept_knows_its_codes(tmp_path: Path) -> None:
+    result = run("identify", FIXTURES / "late_amplifier.parquet", "--accept", "nonsense")
+    assert result.exit_code == 2
+    assert "force_sign" in result.stderr
+
+
+@pytest.mark.parametrize("name", ["force reversed", "spikes of force", "one record late"])
+def test_diagnose_names_no_physics_for_it(name: str, tmp_path: Path) -> None:
+    log, out = spoiled(name, tmp_path, 8_000), tmp_path / "d.json"
+    result = run("diagnose", log, "-o", out, "--strict", "--report", tmp_path / "d.html")
+    assert result.exit_code == 1, result.output
+    found = json.loads(out.read_text())
+    assert {f["code"] for f in found["rig"]} == set(ERRORS[name].codes)
+    assert all(f["remedy"] for f in found["rig"])
+    assert found["findings"] == []
+    assert found["verdict"] == ("unexplained" if name == "force reversed" else "adequate")
+    assert found["rig"][0]["text"] in (tmp_path / "d.html").read_text()
+
+
+def test_validate_marks_and_counts_all(tmp_path: Path) -> None:
+    log, out = spoiled("spikes of force", tmp_path), tmp_path / "p.json"
+    assert run("identify", log, "-o", out).exit_code == 0
+    result = run("validate", out, log, "--json")
+    assert result.exit_code == 0
+    found = json.loads(result.stdout)
+    assert [f["code"] for f in found["rig"]] == ["force_spikes"]
+    rows = len(read_logs([str(log)], need_force=True, report=lambda line: None).recording)
+    assert found["samples"] == rows
+    assert run("validate", out, log, "--strict").exit_code == 1
+
+
+def test_inspect_lists_them(tmp_path: Path) -> None:
+    log = spoiled("x clipped", tmp_path)
+    result = run("inspect", log, "--json", "--strict")
+    assert result.exit_code == 1
+    assert {f["code"] for f in json.loads(result.stdout)["rig"]} == {"x_clipped"}
+    assert run("inspect", FIXTURES / "healthy_campaign.parquet", "--strict").exit_code == 0
