@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -105,6 +106,12 @@ class Inspection:
 
 def inspect(recording: Recording, candidates: Sequence[Effect]) -> Inspection:
     """Inspect a recording, with force or without, against a catalogue of effects."""
+    with ThreadPoolExecutor(1) as pool:  # beside the rest, since most of either is in NumPy
+        rig = pool.submit(look, recording)
+        return _inspected(recording, candidates, rig)
+
+
+def _inspected(recording: Recording, candidates: Sequence[Effect], rig: Future[Rig]) -> Inspection:
     survey = Survey.of(recording)
     records = tuple(_record(recording, i) for i in range(len(recording.names)))
     noise = None if recording.force is None else force_noise(recording)
@@ -119,7 +126,7 @@ def inspect(recording: Recording, candidates: Sequence[Effect]) -> Inspection:
         xdot=recording.xdot_note,
         parameters=tuple(coverage.parameters(survey)),
         effects=tuple(coverage.effects(survey, candidates)),
-        rig=look(recording),
+        rig=rig.result(),
     )
 
 

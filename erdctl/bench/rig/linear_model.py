@@ -13,7 +13,7 @@ from erdctl.core.blocks import SETTLE
 from erdctl.core.recording import Array
 
 LEAST_RECORDS = 4
-SAMPLES, TRIED = 60_000, 12_000  # that the model is fitted to, and tried on
+SAMPLES, TRIED = 60_000, 8_000  # that the model is fitted to, and tried on
 LAGS, EXPONENTS = (0.01, 0.0, 0.03, 0.1), (0.5, 0.35, 0.7, 1.0, 1.4)  # T_d [s] and beta [1]
 
 
@@ -79,16 +79,17 @@ def best_rows(found: Sequence[Piece]) -> list[Rows]:
     every = -(-sum(len(p) for p in found) // TRIED)
     control = any(np.ptp(p.of("duty")) > 0 for p in found)
     field = any(p.of("duty").any() for p in found)
-    best: tuple[float, float, float] | None = None
-    for T_d in LAGS if control else LAGS[:1]:
-        for beta in EXPONENTS if field else EXPONENTS[:1]:
-            rows = [_rows(p, T_d, beta, every) for p in found]
-            theta = model(rows)
-            misfits = [np.std(r.force - r.columns @ theta) for r in rows]
-            cost = float(np.sum(np.log(np.maximum(misfits, 1e-12))))
-            if best is None or cost < best[0]:
-                best = (cost, T_d, beta)
-    return [_rows(p, best[1], best[2]) for p in found] if best else []
+
+    def cost(T_d: float, beta: float) -> float:
+        rows = [_rows(p, T_d, beta, every) for p in found]
+        theta = model(rows)
+        misfits = [np.std(r.force - r.columns @ theta) for r in rows]
+        return float(np.sum(np.log(np.maximum(misfits, 1e-12))))
+
+    # One after the other: the lag shows after duty steps, the exponent between the levels.
+    beta = min(EXPONENTS, key=lambda b: cost(LAGS[0], b)) if field else EXPONENTS[0]
+    T_d = min(LAGS, key=lambda T: cost(T, beta)) if control else LAGS[0]
+    return [_rows(p, T_d, beta) for p in found]
 
 
 def model(rows: Sequence[Rows]) -> Array:

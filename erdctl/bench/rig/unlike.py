@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from erdctl.bench.rig.fault import RigFault
 from erdctl.bench.rig.linear_model import LEAST_RECORDS, Rows, best_rows, first_of_each, model
-from erdctl.bench.rig.pieces import Piece, spread, white_noise
+from erdctl.bench.rig.pieces import THIN, Piece, spread, white_noise
 from erdctl.bench.rig.trend import Away, studentised
 from erdctl.core.recording import Array
 
@@ -95,8 +95,9 @@ def _gained(rows: Sequence[Rows]) -> RigFault | None:
     """By the logarithm of the size of its force, over duty, speed and stroke."""
     values = []
     for r in rows:
-        low, high = np.percentile(r.piece.force, [2.0, 98.0])
-        size = float(np.std(np.clip(r.piece.force, low, high)))
+        thin = r.piece.force[:: 1 + len(r.piece) // THIN]
+        low, high = np.percentile(thin, [2.0, 98.0])
+        size = float(np.std(np.clip(thin, low, high)))
         values.append(float(np.log(max(size, 1e-12))))
     for i, value in enumerate(values):
         others = [v for k, v in enumerate(values) if k != i]
