@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 from erdctl.core.errors import ErdctlError, InputProblem
-from erdctl.core.memory import available
+from erdctl.core.memory import available, check_claim
 from erdctl.io.containers.channels import Layout, arrange
 from erdctl.io.formats import Format
 
@@ -41,6 +41,24 @@ def open_container(data: str | bytearray, format: Format, name: str) -> Layout:
         name, format, lambda: read(data if isinstance(data, str) else io.BytesIO(data), name)
     )
     return arrange(groups, name, notes)
+
+
+def check_samples(layout: Layout, wanted: Sequence[str], size: int, name: str) -> int:
+    """Bytes of the wanted columns of a file of `size` bytes, as far as it states them.
+
+    Raises InputProblem if they do not fit into memory, or nobody can have measured them.
+    """
+    chosen = [
+        member.channel
+        for _, members in layout.records
+        for column, member in members.items()
+        if column in wanted
+    ]
+    decoded = sum(8 * (c.count or 0) for c in chosen)
+    if any(c.timed for c in chosen):
+        decoded += 8 * max((c.count or 0) for c in chosen)
+    check_claim(decoded, size, name, f"its {len(chosen)} channels")
+    return decoded
 
 
 def guarded(name: str, format: Format, read: Callable[[], T]) -> T:
