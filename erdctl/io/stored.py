@@ -1,7 +1,8 @@
 """Units that a file states itself: where each format keeps them, and what becomes of them.
 
 CSV: contract columns in SI have plain names, all others with a unit are called `NAME [UNIT]`.
-Parquet, Arrow: metadata `unit` of the field, or `attrs` of the pandas frame. MAT, MDF4, TDMS: see `erdctl.io.containers`.
+Parquet, Arrow: metadata `unit` of the field, or `attrs` of the pandas frame. MAT, HDF5, MDF4, TDMS:
+see `erdctl.io.containers`.
 """
 
 from __future__ import annotations

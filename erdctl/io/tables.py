@@ -76,6 +76,8 @@ def container(table: pa.Table, kind: Format) -> memoryview:
         from erdctl.io.containers.mat_out import write
     elif kind is Format.MDF:
         from erdctl.io.containers.mdf import write
+    elif kind is Format.HDF5:
+        from erdctl.io.containers.hdf5 import write
     else:
         from erdctl.io.containers.tdms import write
     # Their libraries go back and forth in the file, which a pipe cannot do.

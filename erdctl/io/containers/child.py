@@ -32,7 +32,7 @@ def serve() -> None:
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)  # whatever a library prints is no table
     sys.stdout = open(os.devnull, "w")  # noqa: SIM115  # for as long as the process lives
-    server = _Server()
+    server = _Answering()
     while line := questions.readline():
         question = json.loads(line)
         try:
@@ -51,7 +51,7 @@ def serve() -> None:
         answers.flush()
 
 
-class _Server:
+class _Answering:
     """layout : of the container that was opened last, until its table is sent."""
 
     def __init__(self) -> None:

@@ -23,7 +23,10 @@ from typing import IO, Any
 import pyarrow as pa
 
 from erdctl.core.errors import ComputationProblem, InputProblem, UsageProblem
+from erdctl.io.containers.align import aligned
+from erdctl.io.containers.channels import Layout
 from erdctl.io.containers.limits import seconds_for
+from erdctl.io.containers.opening import guarded, is_plain, open_container
 from erdctl.io.extras import present
 from erdctl.io.formats import Format
 from erdctl.io.roles import Roles
@@ -31,6 +34,7 @@ from erdctl.io.roles import Roles
 _START = "import sys; sys.path[:] = {path!r}; from erdctl.io.containers.child import serve; serve()"
 _LIBRARIES = {
     Format.MDF: ("asammdf", "mdf", "ASAM MDF files"),
+    Format.HDF5: ("h5py", "hdf5", "HDF5 files"),
     Format.TDMS: ("nptdms", "tdms", "NI TDMS files"),
 }
 _PROBLEMS = {p.__name__: p for p in (UsageProblem, ComputationProblem)}
@@ -41,6 +45,7 @@ class Container:
     """A container as one table, whose samples are still in the file.
 
     columns, units, clocks, notes : see `channels.Layout`
+    here : the layout itself, where the file is read in this process
     """
 
     data: str | bytearray
@@ -51,12 +56,17 @@ class Container:
     units: Mapping[str, str]
     clocks: frozenset[str]
     notes: tuple[str, ...]
+    here: Layout | None = None
 
     def table(self, wanted: Sequence[str], roles: Roles) -> pa.Table:
         """The wanted columns as `align.aligned` gives them.
 
         Raises InputProblem as it does, ComputationProblem if reading takes too long or too much.
         """
+        if (layout := self.here) is not None:
+            return guarded(
+                self.name, self.format, lambda: aligned(layout, wanted, roles, self.name)
+            )
         reader = _reader(os.getpid())
         with reader.lock:
             if reader.opened != self.key:  # another file came between
@@ -87,6 +97,13 @@ def open_isolated(data: str | bytearray, format: Format, name: str) -> Container
     Raises InputProblem if it is damaged or too large, ComputationProblem if the library that reads
     it is missing, or does not come to an end.
     """
+    if format is Format.MAT and is_plain(data, name):
+        # SciPy does not follow what it has not been told, and a second process would take
+        # longer to start than the file to read.
+        layout = open_container(data, format, name)
+        return Container(
+            data, format, name, 0, layout.columns, layout.units, layout.clocks, layout.notes, layout
+        )
     if format in _LIBRARIES:
         module, extra, purpose = _LIBRARIES[format]
         present(module, extra=extra, purpose=purpose)
@@ -107,7 +124,7 @@ def open_isolated(data: str | bytearray, format: Format, name: str) -> Container
 
 
 def _open(
-    reader: _Reader, data: str | bytearray, format: Format, name: str, key: int
+    reader: _ReadingProcess, data: str | bytearray, format: Format, name: str, key: int
 ) -> dict[str, Any]:
     held = None if isinstance(data, str) else data
     place = Container(data, format, name, key, (), {}, frozenset(), ())
@@ -125,12 +142,12 @@ def _open(
 
 
 @cache
-def _reader(process: int) -> _Reader:
+def _reader(process: int) -> _ReadingProcess:
     """The reader of this process; a fork may not share that of its parent."""
-    return _Reader()
+    return _ReadingProcess()
 
 
-class _Reader:
+class _ReadingProcess:
     """The second process; opened : the key of the container that it holds."""
 
     def __init__(self) -> None:
