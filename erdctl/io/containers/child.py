@@ -15,7 +15,7 @@ from erdctl.core.errors import ComputationProblem, ErdctlError, InputProblem, Us
 from erdctl.core.memory import gigabytes
 from erdctl.io.containers.align import aligned
 from erdctl.io.containers.channels import Layout
-from erdctl.io.containers.limits import limited
+from erdctl.io.containers.limits import limit
 from erdctl.io.containers.opening import check_samples, guarded, open_container
 from erdctl.io.formats import Format
 from erdctl.io.roles import Roles
@@ -71,10 +71,8 @@ class _Answering:
         roles = Roles(question["targets"], Conversion(factor, offset), said.append)
         wanted = question["wanted"]
         columns = check_samples(layout, wanted, self.size, self.name)
-        with limited(self.size, columns):
-            table = guarded(
-                self.name, self.format, lambda: aligned(layout, wanted, roles, self.name)
-            )
+        limit(self.size, columns)
+        table = guarded(self.name, self.format, lambda: aligned(layout, wanted, roles, self.name))
         return {"said": said, "table": True}, table
 
     def opened(self, question: dict[str, Any], questions: BinaryIO) -> dict[str, Any]:
@@ -85,8 +83,8 @@ class _Answering:
             data = bytearray(question["bytes"])
             questions.readinto(data)  # type: ignore[attr-defined]  # of a BufferedReader
         self.size = os.path.getsize(data) if isinstance(data, str) else len(data)
-        with limited(self.size):
-            self.layout = open_container(data, self.format, self.name)
+        limit(self.size)
+        self.layout = open_container(data, self.format, self.name)
         return {
             "columns": self.layout.columns,
             "units": self.layout.units,

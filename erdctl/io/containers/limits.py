@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
 
-_SECONDS = 25.0  # of computing, for any file; libraries import in two
+_SECONDS = 20.0  # of computing, for any file; libraries import in two
 _SPEED = 5e6  # bytes a second that every library reads
 _BYTES = 1 << 30  # for any file, the libraries among them
 _OF_FILE = 20  # times the file: bytes of the file, its records unpacked, samples as float64
@@ -18,34 +16,31 @@ def seconds_for(size: int) -> float:
     return _SECONDS + size / _SPEED
 
 
-@contextmanager
-def limited(size: int, columns: int = 0) -> Iterator[None]:
-    """No more time and memory than a sound file of `size` bytes needs, where the system can.
+def limit(size: int, columns: int = 0) -> None:
+    """From now on, no more time and memory than a sound file of `size` bytes needs.
 
     columns : bytes of the columns to be read
-    Too much memory is a MemoryError; too much time ends the process.
+    Too much memory is a MemoryError; too much time ends the process. Nothing is limited where the
+    system cannot: then the time is, by who waits for the table.
     """
     try:
         import resource
-    except ImportError:  # not a Unix: the time is limited by who waits for the table
-        yield
+    except ImportError:  # not a Unix
         return
     used = resource.getrusage(resource.RUSAGE_SELF)
-    seconds = used.ru_utime + used.ru_stime + seconds_for(size)
-    limits = [(resource.RLIMIT_CPU, int(seconds) + 1)]
+    _at_most(resource.RLIMIT_CPU, int(used.ru_utime + used.ru_stime + seconds_for(size)) + 1)
     taken = _data()
     if taken is not None:
-        memory = taken + _BYTES + _OF_FILE * size + _OF_COLUMNS * columns
-        limits.append((resource.RLIMIT_DATA, memory))
-    before = [resource.getrlimit(kind) for kind, _ in limits]
-    for (kind, value), (soft, hard) in zip(limits, before, strict=True):
-        given = [v for v in (soft, hard) if v != resource.RLIM_INFINITY]
-        resource.setrlimit(kind, (min([value, *given]), hard))
-    try:
-        yield
-    finally:
-        for (kind, _), limit in zip(limits, before, strict=True):
-            resource.setrlimit(kind, limit)
+        _at_most(resource.RLIMIT_DATA, taken + _BYTES + _OF_FILE * size + _OF_COLUMNS * columns)
+
+
+def _at_most(kind: int, value: int) -> None:
+    import resource
+
+    _, hard = resource.getrlimit(kind)
+    if hard != resource.RLIM_INFINITY:
+        value = min(value, hard)
+    resource.setrlimit(kind, (value, hard))
 
 
 def _data() -> int | None:

@@ -88,6 +88,14 @@ def _channel(
                 file=file,
                 column=channel.name,
             )
+        there = len(signal.samples)
+        if there != count:
+            raise InputProblem(
+                f"its group is said to have {count} samples, and {there} are there: the recording"
+                " was cut off; write it again, or export it as CSV",
+                file=file,
+                column=channel.name,
+            )
         time = np.asarray(signal.timestamps, np.float64) if timed else None
         return Samples(np.asarray(signal.samples), time)
 
