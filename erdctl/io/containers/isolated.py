@@ -232,8 +232,9 @@ class _ReadingProcess:
         self.stop()
         if late or code == -getattr(signal, "SIGXCPU", 0):
             return ComputationProblem(
-                f"{file.name}: reading it did not come to an end in {seconds:.0f} s of"
-                f" computing; it is damaged or very unusual {file.format.value}: write or copy it again, or export it as CSV"
+                f"{file.name}: reading it did not come to an end in {seconds:.0f} s of computing;"
+                f" it is damaged or very unusual {file.format.value}: write or copy it again, or"
+                " export it as CSV"
             )
         return InputProblem(
             f"damaged {file.format.value}: the library that reads it crashes on it; write or copy"

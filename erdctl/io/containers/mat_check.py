@@ -35,7 +35,9 @@ class Damaged(Exception):
 
 
 def check(file: BinaryIO, size: int, name: str) -> bool:
-    """Whether the file holds objects, which only the library for them reads.
+    """Whether the file holds objects, handles of functions or sparse matrices.
+
+    Of those SciPy believes what they state, or cannot read them at all.
 
     file : at its beginning, of `size` bytes
     Raises InputProblem if it opens to more than memory holds or a log can have, Damaged.
@@ -44,7 +46,7 @@ def check(file: BinaryIO, size: int, name: str) -> bool:
     if len(head) < HEAD or head[126:] not in (b"IM", b"MI"):
         raise Damaged("it has no head")
     order = "<" if head[126:] == b"IM" else ">"
-    at, total, objects = HEAD, 0, False
+    at, total, strange = HEAD, 0, False
 
     def grant(more: int) -> None:
         check_claim(total + more, size, name, "its variables")
@@ -67,9 +69,9 @@ def check(file: BinaryIO, size: int, name: str) -> bool:
             raise Damaged(f"an element of type {kind} in place of a variable")
         total += walk.matrix(inner, 0, outermost=True)
         grant(0)
-        objects |= walk.objects
+        strange |= walk.strange
         at += length if walk.source.packed else -(-length // 8) * 8
-    return objects
+    return strange
 
 
 class _Plain:
@@ -135,11 +137,14 @@ class _Inflated:
 
 
 class _Walk:
-    """Through one variable; objects : whether it holds any;  grant : is asked for memory."""
+    """Through one variable.
+
+    strange : whether it is more than numbers and text;  grant : is asked for memory
+    """
 
     def __init__(self, source: _Plain | _Inflated, order: str, grant: Grant) -> None:
         self.source, self.order, self.grant = source, order, grant
-        self.objects, self.walked = False, 0
+        self.strange, self.walked = False, 0
 
     def tag(self, end: int) -> tuple[int, int, bytes | None]:
         """Type, length, and the data where they stand in the tag itself."""
@@ -179,7 +184,7 @@ class _Walk:
         (first,) = struct.unpack(f"{self.order}I", flags[:4])
         kind, complex_ = first & 0xFF, bool(first & 0x800)
         if kind == _OPAQUE:
-            self.objects = True
+            self.strange = True
             self.finish(end, outermost)
             return 8 * length
         shape = self.small(end, 4 * _MOST_DIMENSIONS)
@@ -199,19 +204,22 @@ class _Walk:
 
     def content(self, kind: int, count: int, end: int, depth: int, *, complex_: bool) -> int:
         left = end - self.source.at
+        self.strange |= kind in (_OBJECT, _FUNCTION, _SPARSE)
         if kind in (_STRUCT, _OBJECT):
             if kind == _OBJECT:
                 self.small(end, 1 << 12)  # its class
             width = int.from_bytes(self.small(end, 4), "little" if self.order == "<" else "big")
             names = self.small(end, 1 << 22)
-            count *= len(names) // max(width, 1)
+            if not 0 < width <= 1 << 10 or len(names) % width:
+                raise Damaged(f"{len(names)} bytes of names of {width} each")
+            count *= len(names) // width
             return self.elements(count, end, depth)
         if kind == _CELL:
             return self.elements(count, end, depth)
         if kind in (_FUNCTION, _SPARSE):
             return 4 * left
         item, length, _ = self.tag(end)
-        if item not in _ITEM or (kind != _CHAR and length // _ITEM[item] != count):
+        if kind > 15 or item not in _ITEM or (kind != _CHAR and length // _ITEM[item] != count):
             raise Damaged(f"{count} values, of which {length} bytes of type {item} are stored")
         if kind == _CHAR and count > max(length, 1 << 12):
             raise Damaged(f"{count} letters, of which {length} bytes are stored")

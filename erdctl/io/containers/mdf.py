@@ -76,12 +76,15 @@ def _channel(
 ) -> Channel:
     def load() -> Samples:
         _FAILED.clear()
-        signal = mdf.get(group=group, index=index)
-        if not _FAILED and _lost(signal.samples) and channel.conversion is not None:
+        try:
+            signal = mdf.get(group=group, index=index)
+        except WrongFormula:
+            signal = None
+        if signal is not None and _lost(signal.samples) and channel.conversion is not None:
             raw = mdf.get(group=group, index=index, raw=True).samples
             if raw.shape == signal.samples.shape and not _lost(raw):
                 _FAILED.append("it gives no number for some stored values")
-        if _FAILED:
+        if _FAILED or signal is None:
             raise InputProblem(
                 f"its conversion cannot be evaluated: {_FAILED[0]}; without it there are only"
                 " the counts of a converter: export physical values",
@@ -135,7 +138,7 @@ def _with_formula(theirs: Callable[..., Any], kind: int) -> Callable[..., Any]:
         except (WrongFormula, TypeError, ValueError) as error:
             # Remembered as well, since asammdf may catch what is raised here.
             _FAILED.append(f"formula '{formula[:80]}': {error}")
-            raise
+            raise WrongFormula(str(error)) from None
         return found if np.ndim(values) else found[0]
 
     convert.formula = True  # type: ignore[attr-defined]
