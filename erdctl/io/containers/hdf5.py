@@ -21,7 +21,7 @@ import numpy as np
 
 from erdctl.core.errors import InputProblem
 from erdctl.io.containers.channels import CLOCKS, Channel, ChannelGroup, Samples, with_clock
-from erdctl.io.containers.hdf5_walk import Found, attribute, attributes, walked
+from erdctl.io.containers.hdf5_walk import Hdf5Group, attribute, attributes, walked
 from erdctl.io.containers.outgoing import Columns
 from erdctl.io.extras import need
 from erdctl.io.units import name_and_unit
@@ -69,7 +69,7 @@ def read(file: Any, name: str) -> tuple[list[ChannelGroup], list[str]]:
 class _Part:
     """A group with the channels that were made of its datasets."""
 
-    found: Found
+    found: Hdf5Group
     channels: tuple[Channel, ...]
     of_data: bool  # its only vector beside the time is called like `data`
 
@@ -82,7 +82,7 @@ def _is_clock(channel: Channel) -> bool:
     return name_and_unit(channel.name)[0].casefold() in CLOCKS
 
 
-def _channels(found: Found, notes: list[str], file: str) -> tuple[tuple[Channel, ...], bool]:
+def _channels(found: Hdf5Group, notes: list[str], file: str) -> tuple[tuple[Channel, ...], bool]:
     out: list[Channel] = []
     for key, data in found.datasets:
         about = attributes(data)
@@ -117,7 +117,7 @@ def _channels(found: Found, notes: list[str], file: str) -> tuple[tuple[Channel,
     return tuple(out), len(series) == 1 and series[0].name.casefold() in _DATA
 
 
-def _beside(found: Found, key: str) -> list[str]:
+def _beside(found: Hdf5Group, key: str) -> list[str]:
     """Names of columns in a dataset of texts next to theirs."""
     wanted = (*_HEADS, key.removesuffix("_values") + "_items")
     return next((_texts(d[...]) for k, d in found.datasets if k.casefold() in wanted), [])

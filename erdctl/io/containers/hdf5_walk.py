@@ -13,7 +13,7 @@ _MOST = 100_000  # groups and datasets
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class Hdf5Group:
     """A group: path with a stroke at its end, the datasets in it by name, its attributes."""
 
     path: str
@@ -29,10 +29,10 @@ class Found:
         return self.path.rstrip("/").rpartition("/")[0] + "/"
 
 
-def walked(file: Any) -> tuple[list[Found], list[str]]:
+def walked(file: Any) -> tuple[list[Hdf5Group], list[str]]:
     """The groups of an open file, and remarks on what was not followed."""
     notes: list[str] = []
-    out: list[Found] = []
+    out: list[Hdf5Group] = []
     _into(file["/"], "/", out, notes, set(), 0)
     return out, notes
 
@@ -63,7 +63,7 @@ def attribute(about: dict[str, Any], kinds: Sequence[str]) -> Any:
 
 
 def _into(
-    group: Any, path: str, out: list[Found], notes: list[str], seen: set[Any], depth: int
+    group: Any, path: str, out: list[Hdf5Group], notes: list[str], seen: set[Any], depth: int
 ) -> None:
     import h5py
 
@@ -90,4 +90,4 @@ def _into(
             datasets.append((key, item))
     for key, item in inside:
         _into(item, f"{path}{key}/", out, notes, seen, depth + 1)
-    out.insert(at, Found(path, tuple(datasets), attributes(group)))
+    out.insert(at, Hdf5Group(path, tuple(datasets), attributes(group)))

@@ -11,6 +11,8 @@ import gc
 import sys
 import traceback
 from collections.abc import Callable, Sequence
+from contextlib import redirect_stdout
+from io import StringIO
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -150,6 +152,12 @@ def write(records: Sequence[tuple[str | None, Columns]], stream: BinaryIO) -> No
 
     Raises UsageProblem if there is no numeric column `t`.
     """
+    # It prints what it does not expect, and standard output may be where the file goes.
+    with redirect_stdout(StringIO()):
+        _write(records, stream)
+
+
+def _write(records: Sequence[tuple[str | None, Columns]], stream: BinaryIO) -> None:
     asammdf = library()
     mdf = asammdf.MDF(version=_VERSION)
     for name, columns in records:
