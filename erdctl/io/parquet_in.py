@@ -23,7 +23,12 @@ def described(file: Any) -> tuple[pa.Schema, int]:
 
 
 def read(
-    file: Any, size: int, names: Sequence[str], labels: Collection[str], name: str
+    file: Any,
+    size: int,
+    schema: pa.Schema,
+    names: Sequence[str],
+    labels: Collection[str],
+    name: str,
 ) -> pa.Table:
     """The columns; file : a NativeFile of `size` bytes;  labels : text to stay dictionary-encoded.
 
@@ -31,8 +36,11 @@ def read(
     """
     import pyarrow.parquet as pq
 
-    about = pq.ParquetFile(file)
-    schema, metadata = about.schema_arrow, about.metadata
+    texts = [n for n in names if is_text(schema.field(n).type)]
+    # As dictionary indices: text takes longer to read than five columns of numbers.
+    coded = [n for n in texts if n in labels]
+    opened = pq.ParquetFile(file, read_dictionary=coded, page_checksum_verification=True)
+    metadata = opened.metadata
     leaves = _leaves(metadata, names)
     decoded = sum(
         chunk.num_values * _width(schema.field(column).type)
@@ -40,19 +48,20 @@ def read(
         for chunk in chunks
     )
     check_claim(decoded, size, name, f"its {len(names)} columns")
-    texts = [n for n in names if is_text(schema.field(n).type)]
-    # As dictionary indices: text takes longer to read than five columns of numbers.
-    coded = [n for n in texts if n in labels or _may_open(leaves[n])]
-    _refuse_prefixes({n: leaves[n] for n in coded}, name)
-    with pq.ParquetFile(
-        file, metadata=metadata, read_dictionary=coded, page_checksum_verification=True
-    ) as opened:
+    _refuse_prefixes({n: leaves[n] for n in texts}, name)
+    risky = [n for n in texts if n not in coded and _may_open(leaves[n])]
+    if risky:
+        coded += risky
+        opened = pq.ParquetFile(
+            file, metadata=metadata, read_dictionary=coded, page_checksum_verification=True
+        )
+    with opened:
         table = opened.read(columns=list(names)).select(list(names))
     # Reading builds all buffers anew, so that the quick check finds what there is to find.
     table.validate()
     check_texts(table, size, name)
     for index, field in enumerate(table.schema):
-        if field.name in coded and field.name not in labels:
+        if field.name in risky:
             own = schema.field(field.name)
             table = table.set_column(index, own, table.column(index).cast(own.type))
     return table

@@ -133,7 +133,8 @@ def read_source(
             from erdctl.io import parquet_in
 
             file = _native(source.data)
-            return parquet_in.read(file, source.size, names, labels, source.name)
+            assert source.schema is not None
+            return parquet_in.read(file, source.size, source.schema, names, labels, source.name)
         if source.layout is not None:
             from erdctl.io.roles import Roles
 

@@ -1,4 +1,4 @@
-"""What MAT, HDF5, MDF4 and TDMS files hold: channels with samples, unit and time base of their own."""
+"""What MAT, HDF5, MDF4 and TDMS files hold: channels with samples, unit and time base each."""
 
 from __future__ import annotations
 
