@@ -168,7 +168,7 @@ class _ReadingProcess:
             late.append(True)
             process.kill()
 
-        timer = Timer(2.0 * seconds, stop)
+        timer = Timer(3.0 * seconds, stop)  # of the clock, on a busy machine
         timer.daemon = True
         timer.start()
         try:

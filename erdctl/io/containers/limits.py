@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 
-_SECONDS = 20.0  # of computing, for any file; libraries import in two
+_SECONDS = 10.0  # of computing, for any file; the libraries import in one or two
 _SPEED = 5e6  # bytes a second that every library reads
 _BYTES = 1 << 30  # for any file, the libraries among them
 _OF_FILE = 20  # times the file: bytes of the file, its records unpacked, samples as float64
