@@ -19,7 +19,7 @@ def command(
         OutputFormat | None, typer.Option(help="Format of OUT, whatever its suffix; stdout: CSV.")
     ] = None,
 ) -> None:
-    """Convert a log between CSV, Parquet, Arrow, MAT, MDF4 and TDMS.
+    """Convert a log between CSV, Parquet, Arrow, MAT, HDF5, MDF4 and TDMS.
 
     Columns of a bench log (t, x, xdot, duty, force, temperature) are written in SI under these
     names; all others keep values, names and units. A column `record` makes records: a struct array

@@ -22,7 +22,7 @@ class OutputFormat(StrEnum):
 Logs = Annotated[
     list[str],
     typer.Argument(
-        metavar="LOG...", help="Bench logs: CSV, Parquet, Arrow, MAT, MDF or TDMS; - is stdin."
+        metavar="LOG...", help="Bench logs: CSV, Parquet, Arrow, MAT, HDF5, MDF, TDMS; - is stdin."
     ),
 ]
 Params = Annotated[str, typer.Argument(metavar="PARAMS", help="Parameter file; - is stdin.")]

@@ -1,10 +1,45 @@
-"""Memory that this process may still take, from what the system tells."""
+"""Memory that this process may still take, and what a file claims of it before it is read."""
 
 from __future__ import annotations
 
 import os
 
+from erdctl.core.errors import InputProblem
+
+# The columns, those derived from them by a model, and one more while something is computed.
+COPIES = 3
+SMALL = 1 << 31  # bytes that are granted whatever the file looks like
+# Measured channels have noise in every sample; no compression makes less than half a bit of 64.
+DENSEST = 200
 _CGROUP = "/sys/fs/cgroup"
+
+
+def check_claim(
+    decoded: int, size: int, file: str, what: str, *, copies: int = COPIES, about: bool = False
+) -> None:
+    """Raise InputProblem if what a file holds will not fit into memory, or cannot be measured.
+
+    decoded : bytes of `what` in memory, as the file states them;  size : bytes of the file
+    copies : of `decoded` that will be in memory;  about : `decoded` is an estimate
+    """
+    need, have = decoded * copies, available()
+    if have is not None and need > have:
+        raise InputProblem(
+            f"too large: {what} need {'about ' if about else ''}{gigabytes(need)} of memory and"
+            f" {gigabytes(have)} are free; split it into several logs",
+            file=file,
+        )
+    if need > SMALL and decoded > DENSEST * size:
+        raise InputProblem(
+            f"{gigabytes(size)} that open to {gigabytes(decoded)} ({what}): no measured log is"
+            f" more than {DENSEST} times its file; it is damaged, or made to fill the memory",
+            file=file,
+        )
+
+
+def gigabytes(size: int) -> str:
+    """A number of bytes for a message."""
+    return f"{size / 1e9:.3g} GB"
 
 
 def available() -> int | None:

@@ -92,10 +92,11 @@ def _slope(t: Array, x: Array, xdot: Array, parts: Sequence[slice]) -> tuple[flo
         u, v = u - u.mean(), v - v.mean()
         # Not u @ v: waking the threads of BLAS takes longer than these sums.
         uu, vv, uv = (float(np.sum(a * b)) for a, b in ((u, u), (v, v), (u, v)))
-        if uv**2 < CERTAIN**2 * uu * vv or not uu * vv > 0.0:
+        # Products, not powers: those of Python's floats raise where these become infinite.
+        if not 0.0 < uu * vv < np.inf or uv * uv < CERTAIN**2 * uu * vv:
             continue
         # How many velocities share the motion: one glitch in x and xdot alike proves nothing.
-        if vv**2 >= FEWEST * float(np.sum(np.square(v * v))):
+        if vv * vv >= FEWEST * float(np.sum(np.square(v * v))):
             return uv / vv, uv / (uu * vv) ** 0.5
     return 1.0, 0.0
 

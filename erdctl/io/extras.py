@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from importlib import import_module
+from importlib.util import find_spec
 from typing import Any
 
 from erdctl.core.errors import ComputationProblem
@@ -23,6 +24,15 @@ def need(module: str, *, extra: str, purpose: str) -> Any:
     except ModuleNotFoundError as error:
         if error.name != module.partition(".")[0]:
             raise  # the library is there, but broken
-        raise MissingLibrary(
-            f"{purpose} need the library {error.name}: pip install 'erdctl[{extra}]'"
-        ) from None
+        raise _missing(module, extra, purpose) from None
+
+
+def present(module: str, *, extra: str, purpose: str) -> None:
+    """Raise MissingLibrary if an optional library is not installed; it is not imported."""
+    if find_spec(module) is None:
+        raise _missing(module, extra, purpose)
+
+
+def _missing(module: str, extra: str, purpose: str) -> MissingLibrary:
+    name = module.partition(".")[0]
+    return MissingLibrary(f"{purpose} need the library {name}: pip install 'erdctl[{extra}]'")

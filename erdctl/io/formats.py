@@ -15,12 +15,13 @@ class Format(Enum):
     PARQUET = "parquet"
     ARROW = "arrow"
     MAT = "mat"
+    HDF5 = "hdf5"
     MDF = "mdf"
     TDMS = "tdms"
 
 
 # Files that hold channels with their own time bases and units, rather than one table.
-CONTAINERS = (Format.MAT, Format.MDF, Format.TDMS)
+CONTAINERS = (Format.MAT, Format.HDF5, Format.MDF, Format.TDMS)
 
 SUFFIXES = {
     ".csv": Format.CSV,
@@ -31,6 +32,9 @@ SUFFIXES = {
     ".ipc": Format.ARROW,
     ".feather": Format.ARROW,
     ".mat": Format.MAT,
+    ".h5": Format.HDF5,
+    ".hdf5": Format.HDF5,
+    ".hdf": Format.HDF5,
     ".mf4": Format.MDF,
     ".mdf": Format.MDF,
     ".tdms": Format.TDMS,
@@ -39,11 +43,14 @@ ARROW_FILE = b"ARROW1"
 ARROW_STREAM = b"\xff\xff\xff\xff"
 # The last word of an Arrow stream; without it, its writer was cut off.
 ARROW_END = ARROW_STREAM + bytes(4)
+HDF5 = b"\x89HDF\r\n\x1a\n"
+HDF5_AT = 512  # where it stands behind MATLAB's own head
 _MAGIC = {
     b"PAR1": Format.PARQUET,
     ARROW_STREAM: Format.ARROW,
     ARROW_FILE: Format.ARROW,
     b"MATLAB": Format.MAT,
+    HDF5: Format.HDF5,
     b"MDF ": Format.MDF,
     b"UnFinMF": Format.MDF,
     b"TDSm": Format.TDMS,
@@ -53,7 +60,6 @@ _FOREIGN = {
     b"\x1f\x8b": "compressed with gzip; use gzip -dc FILE | erdctl ... -",
     b"\x28\xb5\x2f\xfd": "compressed with zstd; use zstd -dc FILE | erdctl ... -",
     b"PK\x03\x04": "an Excel or zip file; export it as CSV",
-    b"\x89HDF": "an HDF5 file of no kind that is known; export it as CSV or Parquet",
     b"TDSh": "the index of a TDMS file; give the .tdms file itself",
     b"FEA1": "an old Feather file; write it anew as Parquet",
     b"\xff\xfe": "UTF-16 text; export it as UTF-8",
@@ -81,6 +87,8 @@ def by_content(head: bytes, path: str, name: str) -> Format:
                 raise InputProblem(f"this is {what}", file=name)
     found = found or Format.CSV
     promised = by_suffix(path) or found
+    if {promised, found} == {Format.MAT, Format.HDF5}:
+        return found  # .mat of another program than MATLAB, or the other way round
     if promised is not found:
         raise InputProblem(
             f"not {promised.value}, though its name says so: it begins like {found.value}; if it is"

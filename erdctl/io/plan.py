@@ -7,9 +7,10 @@ from collections.abc import Callable, Collection, Sequence
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem
+from erdctl.io.instants import in_seconds
 from erdctl.io.roles import Roles
 from erdctl.io.sources import TableSource, read_source
-from erdctl.io.stored import from_stored, si
+from erdctl.io.stored import from_stored, si, with_unit
 from erdctl.io.units import (
     RECORD,
     TARGETS,
@@ -201,6 +202,11 @@ def read_planned(
         roles=Roles({column: target for target, (column, _) in plan.items()}, seconds, say),
         want_hash=want_hash,
     )
+    if clock in table.column_names and (found := in_seconds(table.column(clock), clock)):
+        at = table.column_names.index(clock)
+        table = table.set_column(at, with_unit(pa.field(clock, pa.float64()), si("t")), found[0])
+        plan = plan | {"t": (clock, Conversion())}
+        say(found[1])
     if source.layout is not None:
         _refuse_counts(table, source, plan, {m.target for m in mappings if m.unit is not None})
         if clock != "t":

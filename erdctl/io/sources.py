@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 import pyarrow as pa
 
 from erdctl.core.errors import ComputationProblem, InputProblem, UsageProblem
-from erdctl.io.formats import ARROW_END, ARROW_FILE, CONTAINERS, Format, by_content
+from erdctl.io.formats import CONTAINERS, Format, by_content
 from erdctl.io.stored import units_of
 
 if TYPE_CHECKING:
-    from erdctl.io.containers.channels import Layout
+    from erdctl.io.containers.isolated import Container
     from erdctl.io.roles import Roles
 
 Data = str | bytearray  # the path of a file, or the bytes of a stream
@@ -33,6 +33,7 @@ class TableSource:
     path : as given;  name : for messages;  data : the path of a file, or the bytes of a stream
     schema : None for CSV and containers;  layout : of a container (MAT, MDF4, TDMS), else None
     units : as the file states them for columns, apart from those in names like `x [mm]`
+    rows : as the file states them, None if it does not
     """
 
     path: str
@@ -42,7 +43,8 @@ class TableSource:
     columns: tuple[str, ...]
     schema: pa.Schema | None = None
     units: Mapping[str, str] = field(default_factory=dict)
-    layout: Layout | None = None
+    layout: Container | None = None
+    rows: int | None = None
 
     @property
     def clocks(self) -> Collection[str]:
@@ -77,11 +79,11 @@ def open_source(path: str, held: Data | None = None) -> TableSource:
     else:
         head = bytes(data[:64])
     found = by_content(head, path, name)
-    schema, units = None, dict[str, str]()
+    schema, rows, units = None, None, dict[str, str]()
     if found in CONTAINERS:
-        from erdctl.io.containers.opening import open_container
+        from erdctl.io.containers.isolated import open_isolated
 
-        layout = open_container(data, found, name)
+        layout = open_isolated(data, found, name)
         return TableSource(
             path, name, found, data, layout.columns, units=layout.units, layout=layout
         )
@@ -90,7 +92,9 @@ def open_source(path: str, held: Data | None = None) -> TableSource:
 
         columns = csv_in.column_names(data, name)
     else:
-        schema, columns, units = _guarded(name, found, lambda: _described(data, found))
+        schema, columns, units, rows = _guarded(name, found, lambda: _described(data, found, name))
+    if not columns:
+        raise InputProblem("a table without columns; expected a bench log", file=name)
     for i, column in enumerate(columns):
         if column in columns[:i]:
             raise InputProblem(
@@ -98,7 +102,7 @@ def open_source(path: str, held: Data | None = None) -> TableSource:
                 " rename one",
                 file=name,
             )
-    return TableSource(path, name, found, data, tuple(columns), schema, units)
+    return TableSource(path, name, found, data, tuple(columns), schema, units, rows=rows)
 
 
 def read_source(
@@ -126,17 +130,19 @@ def read_source(
 
             return csv_in.read(source.data, source.name, source.columns, names, numbers)
         if source.format is Format.PARQUET:
-            return _read_parquet(source, names, labels)
+            from erdctl.io import parquet_in
+
+            file = _native(source.data)
+            assert source.schema is not None
+            return parquet_in.read(file, source.size, source.schema, names, labels, source.name)
         if source.layout is not None:
-            from erdctl.io.containers.align import aligned
-            from erdctl.io.containers.opening import guarded
             from erdctl.io.roles import Roles
 
-            layout, chosen = source.layout, roles or Roles()
-            return guarded(
-                source.name, source.format, lambda: aligned(layout, names, chosen, source.name)
-            )
-        return _read_arrow(source, names)
+            return source.layout.table(names, roles or Roles())
+        from erdctl.io import arrow_in
+
+        with _native(source.data) as file:
+            return arrow_in.read(file, source.size, source.columns, names, source.name)
 
     try:
         if not want_hash:
@@ -213,52 +219,17 @@ def _native(data: Data) -> Any:
     return pa.OSFile(data) if isinstance(data, str) else pa.BufferReader(pa.py_buffer(data))
 
 
-def _described(data: Data, format: Format) -> tuple[pa.Schema, list[str], dict[str, str]]:
-    schema = _schema(data, format)
-    return schema, list(schema.names), units_of(schema)
-
-
-def _schema(data: Data, format: Format) -> pa.Schema:
+def _described(
+    data: Data, format: Format, name: str
+) -> tuple[pa.Schema, list[str], dict[str, str], int]:
+    """Schema, columns, units that the file states for them, and how many rows it says it has."""
     if format is Format.PARQUET:
-        import pyarrow.parquet as pq
+        from erdctl.io import parquet_in
 
-        return pq.ParquetFile(_native(data)).schema_arrow
-    with _native(data) as file:
-        return _arrow_reader(file).schema
+        schema, rows = parquet_in.described(_native(data))
+    else:
+        from erdctl.io import arrow_in
 
-
-def _read_parquet(source: TableSource, names: Sequence[str], labels: Collection[str]) -> pa.Table:
-    import pyarrow.parquet as pq
-
-    assert source.schema is not None
-    text = (pa.string(), pa.large_string())
-    with pq.ParquetFile(
-        _native(source.data),
-        # As dictionary indices: text takes longer to read than five columns of numbers.
-        read_dictionary=[n for n in labels if source.schema.field(n).type in text],
-        page_checksum_verification=True,
-    ) as file:
-        return file.read(columns=list(names)).select(list(names))
-
-
-def _arrow_reader(file: Any, columns: Sequence[int] | None = None) -> Any:
-    options = pa.ipc.IpcReadOptions(included_fields=None if columns is None else list(columns))
-    head = file.read(len(ARROW_FILE))
-    file.seek(0)
-    opened = pa.ipc.open_file if head == ARROW_FILE else pa.ipc.open_stream
-    return opened(file, options=options)
-
-
-def _read_arrow(source: TableSource, names: Sequence[str]) -> pa.Table:
-    with _native(source.data) as file:
-        reader = _arrow_reader(file, [source.columns.index(n) for n in names])
-        table = reader.read_all().select(list(names))
-        table.validate()
-        if isinstance(reader, pa.RecordBatchStreamReader):
-            file.seek(file.tell() - len(ARROW_END))
-            if file.read(len(ARROW_END)) != ARROW_END:
-                raise InputProblem(
-                    "the Arrow stream stops without its end mark: its writer was cut off",
-                    file=source.name,
-                )
-    return table
+        with _native(data) as file:
+            schema, rows = arrow_in.described(file, name)
+    return schema, list(schema.names), units_of(schema), rows

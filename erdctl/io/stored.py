@@ -1,12 +1,14 @@
 """Units that a file states itself: where each format keeps them, and what becomes of them.
 
 CSV: contract columns in SI have plain names, all others with a unit are called `NAME [UNIT]`.
-Parquet, Arrow: metadata `unit` of the field. MAT, MDF4, TDMS: see `erdctl.io.containers`.
+Parquet, Arrow: metadata `unit` of the field, or `attrs` of the pandas frame. MAT, HDF5, MDF4, TDMS:
+see `erdctl.io.containers`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import pyarrow as pa
 
@@ -15,6 +17,7 @@ from erdctl.io.units import UNITS, Conversion, WrongUnit, between, examples, nam
 
 _KEY = b"unit"
 _KEYS = (_KEY, b"units")
+_WORDS = ("units", "unit", "column_units", "einheiten", "einheit")  # in `attrs` of pandas
 _NONE = {"", "none", "unitless", "n/a", "unknown"}  # what bench software writes for "not set"
 PLAIN = "1"
 
@@ -51,9 +54,58 @@ def unit_of(field: pa.Field) -> str | None:
 
 
 def units_of(schema: pa.Schema) -> dict[str, str]:
-    """The units that the fields of a schema state."""
-    units = {field.name: unit_of(field) for field in schema}
-    return {name: unit for name, unit in units.items() if unit is not None}
+    """The units that the fields of a schema state, or else `attrs` of the pandas frame it was."""
+    stated = {field.name: unit_of(field) for field in schema}
+    own = {name: unit for name, unit in stated.items() if unit is not None}
+    return units_of_pandas(schema) | own
+
+
+def units_of_pandas(schema: pa.Schema) -> dict[str, str]:
+    """The units in `DataFrame.attrs`, of columns that the schema has.
+
+    Labs write {"units": {"x": "mm"}}, {"units": ["s", "mm"]} in the order of the columns, or
+    {"x": "mm"}, {"x": {"unit": "mm"}}, {"x_unit": "mm"}.
+    """
+    attrs = _attrs(schema)
+    if not attrs:
+        return {}
+    names = schema.names
+    out: dict[str, str] = {}
+    for name in names:
+        own = attrs.get(name, attrs.get(f"{name}_unit", attrs.get(f"{name}_units")))
+        if isinstance(own, dict):
+            own = next((v for k, v in own.items() if str(k).casefold() in _WORDS), None)
+        if isinstance(own, str):
+            out[name] = own
+    for key, value in attrs.items():
+        if key.casefold() not in _WORDS:
+            continue
+        if isinstance(value, list) and len(value) == len(names):
+            value = dict(zip(names, value, strict=True))
+        if isinstance(value, dict):
+            out |= {k: v for k, v in value.items() if k in names and isinstance(v, str)}
+    found = {name: stored_unit(unit) for name, unit in out.items()}
+    return {name: unit for name, unit in found.items() if unit is not None}
+
+
+def _attrs(schema: pa.Schema) -> dict[str, Any]:
+    """`DataFrame.attrs` as pandas and pyarrow store it, {} if there are none."""
+    import json
+
+    metadata = schema.metadata or {}
+    for key, inner in ((b"PANDAS_ATTRS", None), (b"pandas", "attributes")):
+        text = metadata.get(key)
+        if text is None:
+            continue
+        try:
+            found = json.loads(text)
+        except (ValueError, RecursionError):
+            continue  # metadata of somebody else under that name; no unit comes from it
+        if inner is not None and isinstance(found, dict):
+            found = found.get(inner)
+        if isinstance(found, dict) and found:
+            return found
+    return {}
 
 
 def si(target: str) -> str:

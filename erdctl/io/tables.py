@@ -60,9 +60,7 @@ def write_table(table: pa.Table, path: str, format: str | None = None) -> None:
         elif kind is Format.PARQUET:
             _write_parquet(table, stream)
         else:
-            new = pa.ipc.new_file if path.lower().endswith(".feather") else pa.ipc.new_stream
-            with new(stream, table.schema) as writer:
-                writer.write_table(table, max_chunksize=BATCH)
+            _write_arrow(table, stream, file=path.lower().endswith(".feather"))
 
 
 def container(table: pa.Table, kind: Format) -> memoryview:
@@ -76,6 +74,8 @@ def container(table: pa.Table, kind: Format) -> memoryview:
         from erdctl.io.containers.mat_out import write
     elif kind is Format.MDF:
         from erdctl.io.containers.mdf import write
+    elif kind is Format.HDF5:
+        from erdctl.io.containers.hdf5 import write
     else:
         from erdctl.io.containers.tdms import write
     # Their libraries go back and forth in the file, which a pipe cannot do.
@@ -100,6 +100,24 @@ def table_of(recording: Recording) -> pa.Table:
     return pa.table(columns)
 
 
+def _write_arrow(table: pa.Table, stream: BinaryIO, *, file: bool) -> None:
+    try:
+        if any(pa.types.is_dictionary(f.type) for f in table.schema):
+            table = table.unify_dictionaries()  # a file holds one for each column, Parquet several
+        with (pa.ipc.new_file if file else pa.ipc.new_stream)(stream, table.schema) as writer:
+            writer.write_table(table, max_chunksize=BATCH)
+    except (pa.ArrowInvalid, pa.ArrowNotImplementedError) as error:
+        raise _cannot(table, "Arrow", ".parquet", error) from None
+
+
+def _cannot(table: pa.Table, kind: str, other: str, error: Exception) -> UsageProblem:
+    """What to say of a table that a format cannot hold; a nested column is why, as a rule."""
+    nested = [f.name for f in table.schema if pa.types.is_nested(f.type)]
+    reason = str(error).splitlines()[0][:200]
+    which = f"columns {', '.join(nested[:5])} hold lists or structs; " if nested else ""
+    return UsageProblem(f"{kind} cannot hold this table ({reason}); {which}write {other}")
+
+
 def _write_parquet(table: pa.Table, stream: BinaryIO) -> None:
     import pyarrow.parquet as pq
 
@@ -107,10 +125,13 @@ def _write_parquet(table: pa.Table, stream: BinaryIO) -> None:
     # Statistics pay only where a reader selects by them.
     few = [f.name for f in table.schema if f.name == "duty" or not pa.types.is_floating(f.type)]
     selected = [name for name in ("t", "record") if name in table.column_names]
-    pq.write_table(
-        table,
-        stream,
-        use_dictionary=few or False,
-        write_statistics=selected or False,
-        compression="snappy",
-    )
+    try:
+        pq.write_table(
+            table,
+            stream,
+            use_dictionary=few or False,
+            write_statistics=selected or False,
+            compression="snappy",
+        )
+    except (pa.ArrowInvalid, pa.ArrowNotImplementedError) as error:
+        raise _cannot(table, "Parquet", ".arrow", error) from None

@@ -39,7 +39,7 @@ def test_expected_rows(log: Callable[[str], str], suffix: str, tolerance: float)
 @pytest.mark.parametrize("suffix", [".csv", ".parquet", ".arrow"])
 def test_too_large(log: Callable[[str], str], suffix: str, monkeypatch: pytest.MonkeyPatch) -> None:
     source = open_source(log(suffix))
-    monkeypatch.setattr(memory, "available", lambda: 3_000_000)
+    monkeypatch.setattr("erdctl.core.memory.available", lambda: 3_000_000)
     memory.check_fits(source, 2)  # 2.4 MB
     with pytest.raises(InputProblem) as caught:
         memory.check_fits(source, 4)
@@ -51,8 +51,8 @@ def test_too_large(log: Callable[[str], str], suffix: str, monkeypatch: pytest.M
 def test_nothing_is_refused_where_the_system_does_not_tell(
     log: Callable[[str], str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(memory, "available", lambda: None)
-    memory.check_fits(open_source(log(".csv")), 10**9)
+    monkeypatch.setattr("erdctl.core.memory.available", lambda: None)
+    memory.check_fits(open_source(log(".csv")), 1000)
 
 
 def test_a_limit_of_the_process_counts(log: Callable[[str], str]) -> None:

@@ -125,7 +125,7 @@ def test_line_ends(tmp_path: Path, ends: str) -> None:
         ("a.mf4", b"MDF     4.10    ", "damaged, cut off or unusual mdf"),
         ("a.tdms", b"TDSm\x0e\0\0\0h\x12\0\0", "no channels with samples in it"),
         ("a.tdms_index", b"TDSh\x0e\0\0\0", "the index of a TDMS file; give the .tdms file"),
-        ("a.h5", b"\x89HDF\r\n\x1a\nrest", "an HDF5 file of no kind that is known"),
+        ("a.h5", b"\x89HDF\r\n\x1a\nrest", "damaged, cut off or unusual hdf5"),
         ("a.mat", b"TDSmrest", "begins like tdms; if it is sound, give it the suffix .tdms"),
         ("a.csv", "t,x\n0,1\n".encode("utf-16"), "UTF-16 text; export it as UTF-8"),
         ("a.parquet", b"t,x\n0,1\n", "not parquet, though its name says so: it begins like csv"),

@@ -1,4 +1,4 @@
-"""What MAT, MDF4 and TDMS files hold: channels with samples, unit and time base of their own."""
+"""What MAT, HDF5, MDF4 and TDMS files hold: channels with samples, unit and time base each."""
 
 from __future__ import annotations
 
@@ -33,12 +33,14 @@ class Channel:
     """One measured quantity.
 
     unit : as the file spells it, None if it states none;  timed : its samples come with a time
+    count : how many samples the file says it has, None if it is not known before loading
     """
 
     name: str
     unit: str | None
     load: Callable[[], Samples]
     timed: bool = False
+    count: int | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,16 +6,17 @@ v5 to v7 through scipy; v7.3 (HDF5), and MATLAB objects of any version, through 
 from __future__ import annotations
 
 import io
+import os
 import warnings
 from tempfile import NamedTemporaryFile
 from typing import Any
 
 import numpy as np
 
+from erdctl.io.containers.hdf5_walk import check_sizes
 from erdctl.io.extras import MissingLibrary, need
+from erdctl.io.formats import HDF5, HDF5_AT
 
-_HDF5 = b"\x89HDF\r\n\x1a\n"
-_HDF5_AT = 512  # after MATLAB's own header
 _UNREAD = {"MatlabOpaque", "MatlabFunction", "MatlabObject"}  # scipy's names for what it leaves
 
 # dict: struct or object; list: struct array or cell array; str; (n,) or (n, m) array of numbers
@@ -48,18 +49,27 @@ def variables(file: str | io.BytesIO) -> tuple[dict[str, Node], list[str]]:
 def _is_hdf5(file: str | io.BytesIO) -> bool:
     if isinstance(file, str):
         with open(file, "rb") as stream:
-            return stream.read(_HDF5_AT + len(_HDF5)).endswith(_HDF5)
-    return file.getbuffer()[_HDF5_AT : _HDF5_AT + len(_HDF5)] == _HDF5
+            return stream.read(HDF5_AT + len(HDF5)).endswith(HDF5)
+    return file.getbuffer()[HDF5_AT : HDF5_AT + len(HDF5)] == HDF5
 
 
 def _through_mat_io(file: str | io.BytesIO, purpose: str) -> dict[str, Node]:
     matio = need("matio", extra="mat73", purpose=purpose)
     if isinstance(file, str):
-        return _tidied(matio.load_from_mat(file, add_table_attrs=True))
+        return _loaded(matio, file)
     with NamedTemporaryFile(suffix=".mat") as copy:  # it reads files by name only
         copy.write(file.getbuffer())
         copy.flush()
-        return _tidied(matio.load_from_mat(copy.name, add_table_attrs=True))
+        return _loaded(matio, copy.name)
+
+
+def _loaded(matio: Any, path: str) -> dict[str, Node]:
+    if _is_hdf5(path):
+        import h5py
+
+        with h5py.File(path, "r", locking=False) as opened:
+            check_sizes(opened, os.path.getsize(path), path)
+    return _tidied(matio.load_from_mat(path, add_table_attrs=True))
 
 
 def _tidied(found: dict[str, Any]) -> dict[str, Node]:

@@ -10,18 +10,23 @@ from __future__ import annotations
 import gc
 import sys
 import traceback
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import redirect_stdout
+from io import StringIO
 from typing import Any, BinaryIO
 
 import numpy as np
 
-from erdctl.core.errors import UsageProblem
+from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.io.containers.channels import TIME, Channel, ChannelGroup, Samples
+from erdctl.io.containers.formula import WrongFormula, evaluated
 from erdctl.io.containers.outgoing import Columns
 from erdctl.io.extras import need
 
 _MARK = "erdctl record"  # comment of a group that is a record even if it is the only one
 _VERSION = "4.10"
+_TIMES = (0, 1)  # master channels: none said, time; then angle, distance, index
+_FAILED: list[str] = []  # why a formula of the channel being loaded could not be evaluated
 
 
 def library() -> Any:
@@ -38,10 +43,12 @@ def read(file: Any, name: str) -> tuple[list[ChannelGroup], list[str]]:
         about = group.channel_group
         if not about.cycles_nr:
             continue
+        # A master may also be an angle, a distance or a count.
+        timed = master is not None and getattr(group.channels[master], "sync_type", 1) in _TIMES
         channels = [
-            _channel(mdf, index, i, channel, timed=master is not None)
+            _channel(mdf, index, i, channel, timed=timed, count=about.cycles_nr, file=name)
             for i, channel in enumerate(group.channels)
-            if i != master
+            if i != master or not timed
         ]
         label = getattr(about, "acq_name", "") or f"group {index + 1}"
         record = about.comment == _MARK
@@ -50,9 +57,12 @@ def read(file: Any, name: str) -> tuple[list[ChannelGroup], list[str]]:
 
 
 def _opened(file: Any) -> Any:
+    asammdf = library()
+    _own_formulas()
     hook = sys.unraisablehook
     try:
-        return library().MDF(file)
+        # The frames of buses are no channels of a bench, and unpacking them takes long.
+        return asammdf.MDF(file, process_bus_logging=False)
     except Exception as error:  # raised again once it is tidied up
         # A half-made MDF complains on stderr when it is collected. Let that happen here, unheard.
         sys.unraisablehook = lambda _: None
@@ -63,15 +73,78 @@ def _opened(file: Any) -> Any:
         sys.unraisablehook = hook
 
 
-def _channel(mdf: Any, group: int, index: int, channel: Any, *, timed: bool) -> Channel:
+def _channel(
+    mdf: Any, group: int, index: int, channel: Any, *, timed: bool, count: int, file: str
+) -> Channel:
     def load() -> Samples:
-        signal = mdf.get(group=group, index=index)
+        _FAILED.clear()
+        try:
+            signal = mdf.get(group=group, index=index)
+        except WrongFormula:
+            signal = None
+        if signal is not None and _lost(signal.samples) and channel.conversion is not None:
+            raw = mdf.get(group=group, index=index, raw=True).samples
+            if raw.shape == signal.samples.shape and not _lost(raw):
+                _FAILED.append("it gives no number for some stored values")
+        if _FAILED or signal is None:
+            raise InputProblem(
+                f"its conversion cannot be evaluated: {_FAILED[0]}; without it there are only"
+                " the counts of a converter: export physical values",
+                file=file,
+                column=channel.name,
+            )
+        there = len(signal.samples)
+        if there != count:
+            raise InputProblem(
+                f"its group is said to have {count} samples, and {there} are there: the recording"
+                " was cut off; write it again, or export it as CSV",
+                file=file,
+                column=channel.name,
+            )
         time = np.asarray(signal.timestamps, np.float64) if timed else None
         return Samples(np.asarray(signal.samples), time)
 
     # MDF 3 keeps the unit with the conversion.
     unit = channel.unit or getattr(channel.conversion, "unit", None)
-    return Channel(channel.name, unit or None, load, timed=timed)
+    return Channel(channel.name, unit or None, load, timed=timed, count=count)
+
+
+def _lost(values: Any) -> bool:
+    return values.dtype.kind == "f" and not bool(np.isfinite(values).all())
+
+
+def _own_formulas() -> None:
+    """Let asammdf evaluate formulas by `formula.evaluated`.
+
+    It gives them to numexpr as they are (code, powers without end, brackets until the interpreter
+    crashes), and hands out the counts of the converter, as if they were values, where that fails.
+    """
+    from asammdf.blocks import v2_v3_blocks, v2_v3_constants, v4_blocks, v4_constants
+
+    for blocks, kind in (
+        (v4_blocks, v4_constants.CONVERSION_TYPE_ALG),
+        (v2_v3_blocks, v2_v3_constants.CONVERSION_TYPE_FORMULA),
+    ):
+        theirs = blocks.ChannelConversion.convert
+        if not hasattr(theirs, "formula"):
+            blocks.ChannelConversion.convert = _with_formula(theirs, kind)
+
+
+def _with_formula(theirs: Callable[..., Any], kind: int) -> Callable[..., Any]:
+    def convert(self: Any, values: Any, *options: Any, **more: Any) -> Any:
+        if self.conversion_type != kind:
+            return theirs(self, values, *options, **more)
+        formula = self.formula.strip("\0 ")
+        try:
+            found = evaluated(formula, np.atleast_1d(np.asarray(values)))
+        except (WrongFormula, TypeError, ValueError) as error:
+            # Remembered as well, since asammdf may catch what is raised here.
+            _FAILED.append(f"formula '{formula[:80]}': {error}")
+            raise WrongFormula(str(error)) from None
+        return found if np.ndim(values) else found[0]
+
+    convert.formula = True  # type: ignore[attr-defined]
+    return convert
 
 
 def write(records: Sequence[tuple[str | None, Columns]], stream: BinaryIO) -> None:
@@ -79,6 +152,12 @@ def write(records: Sequence[tuple[str | None, Columns]], stream: BinaryIO) -> No
 
     Raises UsageProblem if there is no numeric column `t`.
     """
+    # It prints what it does not expect, and standard output may be where the file goes.
+    with redirect_stdout(StringIO()):
+        _write(records, stream)
+
+
+def _write(records: Sequence[tuple[str | None, Columns]], stream: BinaryIO) -> None:
     asammdf = library()
     mdf = asammdf.MDF(version=_VERSION)
     for name, columns in records:

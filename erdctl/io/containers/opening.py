@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 from erdctl.core.errors import ErdctlError, InputProblem
-from erdctl.core.memory import available
+from erdctl.core.memory import available, check_claim
 from erdctl.io.containers.channels import Layout, arrange
-from erdctl.io.formats import Format
+from erdctl.io.formats import HDF5, HDF5_AT, Format
 
 T = TypeVar("T")
 
@@ -34,6 +34,8 @@ def open_container(data: str | bytearray, format: Format, name: str) -> Layout:
         from erdctl.io.containers.mdf import read
     elif format is Format.TDMS:
         from erdctl.io.containers.tdms import read
+    elif format is Format.HDF5:
+        from erdctl.io.containers.hdf5 import read
     else:
         from erdctl.io.containers.mat_in import read
 
@@ -41,6 +43,41 @@ def open_container(data: str | bytearray, format: Format, name: str) -> Layout:
         name, format, lambda: read(data if isinstance(data, str) else io.BytesIO(data), name)
     )
     return arrange(groups, name, notes)
+
+
+def is_plain(data: str | bytearray, name: str) -> bool:
+    """Whether a MAT file is of version 5 and holds no objects, so that SciPy alone reads it.
+
+    Raises InputProblem if it is damaged, or opens to more than memory holds or a log can have.
+    """
+    from erdctl.io.containers import mat_check
+
+    file = open(data, "rb") if isinstance(data, str) else io.BytesIO(data)  # noqa: SIM115
+    with file:
+        head = file.read(HDF5_AT + len(HDF5))
+        if HDF5 in (head[: len(HDF5)], head[HDF5_AT:]):
+            return False
+        size = file.seek(0, os.SEEK_END)
+        file.seek(0)
+        return not guarded(name, Format.MAT, lambda: mat_check.check(file, size, name))
+
+
+def check_samples(layout: Layout, wanted: Sequence[str], size: int, name: str) -> int:
+    """Bytes of the wanted columns of a file of `size` bytes, as far as it states them.
+
+    Raises InputProblem if they do not fit into memory, or nobody can have measured them.
+    """
+    chosen = [
+        member.channel
+        for _, members in layout.records
+        for column, member in members.items()
+        if column in wanted
+    ]
+    decoded = sum(8 * (c.count or 0) for c in chosen)
+    if any(c.timed for c in chosen):
+        decoded += 8 * max((c.count or 0) for c in chosen)
+    check_claim(decoded, size, name, f"its {len(chosen)} channels")
+    return decoded
 
 
 def guarded(name: str, format: Format, read: Callable[[], T]) -> T:

@@ -41,11 +41,15 @@ def sound(values: npt.NDArray[Any]) -> npt.NDArray[Any] | None:
         return values.astype(object)
     if values.dtype.kind in "iuf" and values.dtype.itemsize <= 8:
         return values.astype(values.dtype.newbyteorder("="), copy=False)
-    return values if values.dtype.kind in "bM" else None
+    return values if values.dtype.kind in "bMm" else None
 
 
 def numbers(values: npt.NDArray[Any] | None) -> Array | None:
-    """(n,) float64, None if they are not numbers."""
+    """(n,) float64, None if they are not numbers; points of time in seconds from the first."""
+    if values is not None and values.dtype.kind == "M" and values.size:
+        values = values - values[0]
+    if values is not None and values.dtype.kind == "m":
+        return np.asarray(values / np.timedelta64(1, "ns") * 1e-9, np.float64)
     if values is None or values.dtype.kind not in "iuf":
         return None
     return values.astype(np.float64)

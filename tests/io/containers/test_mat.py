@@ -13,7 +13,9 @@ import pytest
 from shapes import F, T, X
 
 from erdctl.core.errors import ExitCode, InputProblem
+from erdctl.io.containers.opening import open_container
 from erdctl.io.extras import MissingLibrary
+from erdctl.io.formats import Format
 from erdctl.io.stored import units_of
 
 Write = Callable[..., Path]
@@ -240,24 +242,23 @@ def test_a_matrix_without_names_is_refused(mat: Write, converted: Read) -> None:
     ("version", "what"), [("v7.3", "MATLAB 7.3 files need"), ("v7", "MATLAB objects")]
 )
 def test_without_the_library(
-    mat: Write, converted: Read, monkeypatch: pytest.MonkeyPatch, version: str, what: str
+    mat: Write, monkeypatch: pytest.MonkeyPatch, version: str, what: str
 ) -> None:
     path = mat({"logsout": dataset()}, version)
     monkeypatch.setitem(sys.modules, "matio", None)
     kind = MissingLibrary if version == "v7.3" else InputProblem
     with pytest.raises(kind, match=what) as caught:
-        converted(path)
+        open_container(str(path), Format.MAT, "log.mat")
     assert "pip install 'erdctl[mat73]'" in str(caught.value)
     assert caught.value.exit_code in (ExitCode.NOT_COMPLETED, ExitCode.BAD_INPUT)
 
 
-def test_plain_variables_beside_unread_objects(
-    mat: Write, converted: Read, said: list[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_plain_variables_beside_unread_objects(mat: Write, monkeypatch: pytest.MonkeyPatch) -> None:
     path = mat({"t": T, "x": X, "force": F, "extra": uniform(X, "m")}, "v7")
     monkeypatch.setitem(sys.modules, "matio", None)
-    check(converted(path))
-    assert "its MATLAB objects (timeseries, string, ...) are not read" in said[-1]
+    layout = open_container(str(path), Format.MAT, "log.mat")
+    assert layout.columns == ("t", "x", "force")
+    assert "its MATLAB objects (timeseries, string, ...) are not read" in layout.notes[-1]
 
 
 def test_from_a_pipe(mat: Write, read: Any, stdin: Callable[[bytes], None]) -> None:

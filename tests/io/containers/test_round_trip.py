@@ -121,7 +121,7 @@ NUMBERS = {
 }
 
 
-@pytest.mark.parametrize("suffix", [".mat", ".mf4", ".tdms"])
+@pytest.mark.parametrize("suffix", [".mat", ".h5", ".mf4", ".tdms"])
 @given(st.data())
 @settings(max_examples=25, deadline=None)
 def test_numbers_of_all_kinds_keep_value_and_kind(suffix: str, data: Any) -> None:
@@ -202,7 +202,7 @@ def test_text_where_numbers_are_converted(tmp_path: Path) -> None:
         read_converted(str(path), say=lambda line: None)
 
 
-@pytest.mark.parametrize("suffix", [".mat", ".mf4", ".tdms"])
+@pytest.mark.parametrize("suffix", [".mat", ".h5", ".mf4", ".tdms"])
 def test_cut_files_end_in_a_message(tmp_path: Path, log: Path, suffix: str) -> None:
     path = tmp_path / f"cut{suffix}"
     convert(log, path)
