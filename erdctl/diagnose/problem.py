@@ -151,8 +151,8 @@ def groups(recording: Recording) -> Index:
     first, most = 0, thresholds.CV_GROUPS
     for part, length in zip(slices, lengths.tolist(), strict=True):
         share = round(most * length / total) if len(slices) < most else 1
-        pieces = max(1, min(share, int(length / thresholds.STRETCH)))
         n = part.stop - part.start
+        pieces = max(1, min(share, int(length / thresholds.STRETCH), n))
         out[part] = first + np.arange(n) * pieces // n
         first += pieces
     return out
@@ -165,7 +165,8 @@ def stretches(recording: Recording, group: Index) -> Index:
     ends = np.flatnonzero(np.diff(group)) + 1
     for a, b in pairwise([0, *ends.tolist(), len(recording)]):
         span = float(recording.t[b - 1] - recording.t[a])
-        pieces = max(1, int(span / thresholds.STRETCH))
+        # Of a log with few samples a second each is a stretch: none may be empty.
+        pieces = max(1, min(int(span / thresholds.STRETCH), b - a))
         out[a:b] = first + np.arange(b - a) * pieces // (b - a)
         first += pieces
     return out

@@ -80,11 +80,14 @@ class Piece:
     @cached_property
     def near(self) -> npt.NDArray[np.bool_]:
         """(n,) samples next to a reversal or a duty step, or at which the piston hardly moves."""
+        return self.turning(max(NEAR, round(0.01 / self.step)) if self.step > 0 else NEAR)
+
+    def turning(self, reach: int) -> npt.NDArray[np.bool_]:
+        """The same, with so many samples on either side of a reversal or a duty step."""
         duty = self.of("duty")
         up = self.xdot > 0
         jump = np.zeros(len(self), dtype=np.bool_)
         jump[1:] = (up[1:] != up[:-1]) | (duty[1:] != duty[:-1])
-        reach = max(NEAR, round(0.01 / self.step)) if self.step > 0 else NEAR
         out = widened(jump, reach)
         out |= np.abs(self.xdot) < 0.1 * self.speed
         return out

@@ -43,7 +43,8 @@ def check(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault] = ()
         noise = white_noise(values)[0]
         if channel == "force":
             # Where the piston turns, or touches rest, a sound force jumps there and back.
-            at, height = at[~p.near[at]], height[~p.near[at]]
+            away = ~p.turning(WIDE + 1)[at]
+            at, height = at[away], height[away]
         least = (RANGE if channel == "force" else RANGE_X) * width
         apart = _apart(height, round(RARE * len(p)))
         kept = (height > SIGMAS * noise) & (height > least) & (height >= apart)

@@ -28,6 +28,10 @@ GAIN, OFFSET, NOISE = 0.12, 0.04, 3.5  # least change: of 1, of the force's rang
 GROSS, UNCERTAIN = float(np.log(100.0)), 4.0  # a factor that no test has; one that it may have
 LAG, LAG_STEPS = 2e-3, 2.0  # least lag: [s], samples
 EXPLAINED, LIKE_OTHERS = 0.8, 1.5  # part of the misfit that a gain takes; times the others' rest
+# Columns of the spring with the zero, of the viscous, and of the yield force with friction; the
+# part of a force from which a term is strong; the part of its change by which its gain may differ.
+TERMS = ([0, 1, 2], [3, 4], [5, 6, 7])
+STRONG, SAME_GAIN = 0.2, 0.3
 LAG_EXPLAINED = 0.5  # part of the record's misfit that the shift takes away
 LONGEST_LAG = 0.1  # s
 STEADY = 0.02  # of the duty in a record, below which it is a level
@@ -141,9 +145,15 @@ def _steady(rows: Sequence[Rows]) -> bool:
 
 
 def _only_gain(rows: Sequence[Rows], index: int) -> bool:
-    """Whether a gain makes a record as good as the others, by a model of the others."""
+    """Whether a gain makes a record as good as the others, by a model of the others.
+
+    And the same gain suits its terms one by one: an amplifier multiplies all of a force, physics
+    that is missing one term of it. A record in which a single term rules tells nothing.
+    """
     others = [r for i, r in enumerate(rows) if i != index]
     theta = model(others)
+    if not _one_gain(rows[index], theta):
+        return False
 
     def misfit(r: Rows, gain: float | None = 1.0) -> float:
         F, m = r.force[r.smooth], (r.columns @ theta)[r.smooth]
@@ -154,6 +164,23 @@ def _only_gain(rows: Sequence[Rows], index: int) -> bool:
     usual = float(np.median([misfit(r) for r in others]))
     before, after = misfit(rows[index]), misfit(rows[index], None)
     return after < LIKE_OTHERS * usual and after**2 < (1.0 - EXPLAINED) * before**2
+
+
+def _one_gain(r: Rows, theta: Array) -> bool:
+    """Whether all strong terms of a record's force have one gain, by a model of the others."""
+    F, A = r.force[r.smooth], r.columns[r.smooth]
+    terms = np.column_stack([A[:, c] @ theta[c] for c in TERMS])
+    m = terms.sum(axis=1)
+    square = float(m @ m)
+    if square == 0.0:
+        return False
+    gain = float(F @ m) / square
+    strong = np.sqrt(np.mean(terms**2, axis=0)) > STRONG * np.sqrt(np.mean(m**2))
+    if np.count_nonzero(strong) < 2:
+        return False
+    weak = gain * terms[:, ~strong].sum(axis=1)
+    own = np.linalg.lstsq(terms[:, strong], F - weak, rcond=None)[0]
+    return bool((np.abs(own - gain) < SAME_GAIN * abs(gain - 1.0)).all())
 
 
 def _trend(rows: Sequence[Rows]) -> Array | None:

@@ -15,8 +15,8 @@ from erdctl.core.recording import Recording
 from erdctl.io.logs import read_logs
 
 # What real logs cannot show: a constant setting has no duty; 15 kN in kilonewtons is 15 N, which a
-# small damper has; 76 mm a thousand times too small is a stroke of 76 um, which a test may have; and
-# of six records of a damper with play the lags differ anyway.
+# small damper has; 76 mm a thousand times too small is a stroke of 76 um, which a test may have;
+# and of six records of a damper with play the lags differ anyway.
 UNSEEN = {
     "friction_sine": {
         "duty in per cent within 0..1", "force in kN taken for N", "x in m taken for mm",
