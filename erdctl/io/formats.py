@@ -56,8 +56,6 @@ _FOREIGN = {
     b"\x89HDF": "an HDF5 file of no kind that is known; export it as CSV or Parquet",
     b"TDSh": "the index of a TDMS file; give the .tdms file itself",
     b"FEA1": "an old Feather file; write it anew as Parquet",
-    b"\xff\xfe": "UTF-16 text; export it as UTF-8",
-    b"\xfe\xff": "UTF-16 text; export it as UTF-8",
 }
 
 

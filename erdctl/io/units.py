@@ -69,6 +69,11 @@ _BETWEEN = r"(?:\s*[*/·⋅]\s*|\s+)"
 _PLAIN_FACTOR = rf"{_NAME}{_POWER}"
 _FACTOR = rf"(?:{_PLAIN_FACTOR}|\({_PLAIN_FACTOR}(?:{_BETWEEN}{_PLAIN_FACTOR})*\){_POWER})"
 _UNIT = rf"{_FACTOR}(?:{_BETWEEN}{_FACTOR})*"
+# `980.665 N`: so much of the unit for 1 in the file.
+_SCALED = re.compile(
+    r"(?P<factor>(?:[0-9]{1,15}\.?[0-9]{0,15}|\.[0-9]{1,15})(?:[eE][+-]?[0-9]{1,2})?)"
+    r"(?:\s*[*·]?\s*(?P<unit>[^0-9\s.*].*))?"
+)
 _BRACKETS = re.compile(r"(?P<name>.*\S)\s*\[(?P<unit>[^\[\]]*)\]\s*", re.DOTALL)
 
 
@@ -243,6 +248,11 @@ def between(given: str, wanted: str) -> Conversion:
     given = "" if given in _PLAIN else given
     if given == wanted:
         return Conversion()
+    scaled = _SCALED.fullmatch(given)
+    if scaled is not None and Fraction(scaled["factor"]) > 0:
+        # Volts of a sensor: 980.665 N stands for each.
+        unit = between(scaled["unit"] or "", wanted)
+        return Conversion(Fraction(scaled["factor"]) * unit.factor, unit.offset)
     import pint
 
     if given and not re.fullmatch(_UNIT, given):

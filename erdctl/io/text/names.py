@@ -1,0 +1,135 @@
+"""Names of columns and their units, in the lines above the samples."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from erdctl.core.errors import InputProblem
+from erdctl.io.named import unit_spelt
+from erdctl.io.text.cells import NUMBER, STAMP, cells_of, comment_of, kind_of
+from erdctl.io.text.options import SEPARATORS, TextOptions
+from erdctl.io.text.structure import Structure
+
+NUMBERED = "column_{}"
+
+
+@dataclass(frozen=True)
+class Header:
+    """Names of the columns, and where they came from.
+
+    names : one a column;  line, units_line : in the file, 0 for none
+    units : column -> unit, out of a row of units
+    """
+
+    names: tuple[str, ...]
+    line: int
+    units_line: int
+    units: dict[str, str]
+
+
+def header_of(
+    lines: Sequence[str], found: Structure, options: TextOptions, file: str
+) -> Header:
+    """The header above the samples; without one the columns are numbered.
+
+    Raises InputProblem if the header does not have as many names as the samples have cells.
+    """
+    width = found.width
+    above = [n for n in range(found.start - 1, 0, -1) if lines[n - 1].strip()]
+    if options.header == 0:
+        return Header(_numbered(width), 0, 0, {})
+    units_line = options.units or 0
+    if options.units is None and above:
+        units_line = _units_line(lines, above, found)
+    units = _cells(lines[units_line - 1], found.separator, width) if units_line else []
+    if options.header:
+        line = options.header
+        if line > len(lines) or line >= found.start:
+            raise InputProblem(
+                f"--text header={line}: the samples begin in row {found.start}", file=file
+            )
+        names = _cells(lines[line - 1], found.separator, width)
+    else:
+        line = next((n for n in above if n != units_line), 0)
+        names = _cells(lines[line - 1], found.separator, width) if line else []
+        if not _are_names(names) or (line and len(names) == 1):
+            line, names = 0, []
+    if not line:
+        return Header(_numbered(width), 0, units_line, _by_name(_numbered(width), units))
+    names = _fitted(names, found, line, file)
+    whole = tuple(name or NUMBERED.format(i) for i, name in enumerate(names, 1))
+    return Header(whole, line, units_line, _by_name(whole, units))
+
+
+def _cells(line: str, separator: str, width: int) -> list[str]:
+    """The cells of a line above the samples, which may be a comment or separated otherwise."""
+    sign = comment_of(line)
+    texts = [line] if sign is None else [line.strip()[len(sign) :].strip(), line.strip()]
+    tried = [separator, *(s for s in SEPARATORS.values() if s != separator)]
+    for text in texts:
+        found = [cells_of(text, s) for s in tried]
+        # Names with blanks in them stand apart by two or more.
+        if separator in (" ", "\t"):
+            found.insert(1, [c for c in re.split(r"\s{2,}|\t", text.strip()) if c])
+        exact = [cells for cells in found if len(cells) == width]
+        if exact:
+            return exact[0]
+    return cells_of(texts[0], separator)
+
+
+def _are_names(cells: Sequence[str]) -> bool:
+    filled = [cell for cell in cells if cell]
+    values = sum(kind_of(cell) in (NUMBER, STAMP) for cell in filled)
+    return bool(filled) and values < 0.5 * len(filled)
+
+
+def _units_line(lines: Sequence[str], above: Sequence[int], found: Structure) -> int:
+    """The line directly above the samples, if it holds units and names are above it."""
+    if len(above) < 2:
+        return 0
+    units = _cells(lines[above[0] - 1], found.separator, found.width)
+    names = _cells(lines[above[1] - 1], found.separator, found.width)
+    if not any(units) or abs(len(units) - len(names)) > 1 or not _are_names(names):
+        return 0
+    spelt = [unit_spelt(cell) for cell in units if cell]
+    if not all(unit is not None for unit in spelt) or not any(spelt):
+        return 0
+    return above[0]
+
+
+def _fitted(names: list[str], found: Structure, line: int, file: str) -> list[str]:
+    """The names, as many as there are columns.
+
+    More names than cells are columns that are mostly absent; they must be texts at the end.
+    """
+    while len(names) > found.width and not names[-1]:
+        names = names[:-1]
+    if len(names) < found.width:
+        spare = found.kinds[len(names) :]
+        if len(names) >= 2 and not any(spare):  # separators at the end of every row
+            return [*names, *[""] * len(spare)]
+        raise InputProblem(
+            f"{len(names)} names in the header, but {found.width} cells in the samples below"
+            f" (row {found.start}){_commas(names, found)}; say which line holds the names, e.g."
+            f" --text header={line}, or --text header=none to number the columns",
+            file=file,
+            row=line,
+        )
+    return names
+
+
+def _commas(names: Sequence[str], found: Structure) -> str:
+    if found.separator == "," and found.width > len(names) + 1:
+        return "; if numbers have decimal commas, they need another separator or quotes"
+    return ""
+
+
+def _by_name(names: Sequence[str], units: Sequence[str]) -> dict[str, str]:
+    pairs = zip(names, (unit_spelt(cell) for cell in units), strict=False)
+    return {name: unit for name, unit in pairs if unit}
+
+
+def _numbered(width: int) -> tuple[str, ...]:
+    return tuple(NUMBERED.format(i + 1) for i in range(width))
