@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from erdctl.cli.options import Maps, OutputFormat
+from erdctl.cli.options import Maps, OutputFormat, Text
 
 
 def command(
@@ -15,6 +15,7 @@ def command(
         str, typer.Argument(metavar="OUT", help="Where to, format by suffix; - is stdout.")
     ],
     maps: Maps = [],
+    text: Text = [],
     format: Annotated[
         OutputFormat | None, typer.Option(help="Format of OUT, whatever its suffix; stdout: CSV.")
     ] = None,
@@ -49,6 +50,6 @@ def command(
     output_format(output, wanted)  # a wrong suffix shows before a long reading
     with progress() as step:
         step("reading", log)
-        table = read_converted(log, maps=maps, say=say)
+        table = read_converted(log, maps=maps, text=text, say=say)
         step("writing", output)
         write_table(table, output, wanted)

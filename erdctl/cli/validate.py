@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from erdctl.cli.options import Maps
+from erdctl.cli.options import Maps, Text, Where
 from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
 
@@ -32,6 +32,8 @@ def command(
     ] = "range",
     report: Report = None,
     maps: Maps = [],
+    text: Text = [],
+    where: Where = [],
     plot: Plots = [],
 ) -> None:
     """Compare modelled and measured force: NRMSE per PWM level, direction and record.
@@ -59,7 +61,15 @@ def command(
     noise = None
     asked, parameters = wanted(plot, "loops"), None
     if len(arguments) == 1:
-        log = read_logs(arguments, maps=maps, need_force=True, want_hash=want_hash, report=say)
+        log = read_logs(
+            arguments,
+            maps=maps,
+            text=text,
+            where=where,
+            need_force=True,
+            want_hash=want_hash,
+            report=say,
+        )
         modelled = log.force_model
         if modelled is None:
             raise InputProblem(
@@ -74,7 +84,15 @@ def command(
         if params == "-" and "-" in logs:
             raise UsageProblem("PARAMS and LOG cannot both be stdin")
         parameters = read_parameters(params)
-        log = read_logs(logs, maps=maps, need_force=True, want_hash=want_hash, report=say)
+        log = read_logs(
+            logs,
+            maps=maps,
+            text=text,
+            where=where,
+            need_force=True,
+            want_hash=want_hash,
+            report=say,
+        )
         noise = parameters.provenance.get("noise_rms")
         for line in remarks(parameters, log.recording):
             say(line)

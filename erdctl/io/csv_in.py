@@ -9,7 +9,7 @@ import mmap
 import re
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
-from itertools import islice
+from itertools import chain, islice
 
 import pyarrow as pa
 
@@ -34,7 +34,9 @@ _NUMBER = re.compile(
 )
 _COMMENTS = ("#", "%", "//")
 # A decimal comma, a date or a time of day: text cells that may be more than text.
-_FOREIGN = re.compile(r"[0-9],[0-9]|[0-9][-/.][0-9]{1,2}[-/.][0-9]|[0-9]:[0-9]{2}|[0-9] ?d(ays?)?\b")
+_FOREIGN = re.compile(
+    r"[0-9],[0-9]|[0-9][-/.][0-9]{1,2}[-/.][0-9]|[0-9]:[0-9]{2}|[0-9] ?d(ays?)?\b"
+)
 _DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d+\s*")
 # How bytes that are no UTF-8 show with errors="surrogateescape".
 _NOT_UTF8 = re.compile("[\udc80-\udcff]")
@@ -60,18 +62,29 @@ def is_plain(data: Data) -> bool:
         return True  # a quote left open: found and explained by the reader
     if len(head) == HEAD and len(rows) < ROWS:
         rows = rows[:-1]  # cut
-    if not rows or len(rows[0]) < 2 or "\0" in text:
+    if not rows or "\0" in text:
         return False
     names, samples = rows[0], rows[1:]
+    if len(names) < 2 and not all(_NUMBER.fullmatch(cell) for cells in samples for cell in cells):
+        return False
     if any(_NUMBER.fullmatch(name) for name in names) or names[0].lstrip().startswith(_COMMENTS):
         return False
     if any(len(cells) != len(names) for cells in samples):
         return False
-    for column in zip(*samples, strict=True):
-        numbers = sum(_NUMBER.fullmatch(cell) is not None for cell in column)
-        if numbers < len(column) and (numbers or any(map(_FOREIGN.search, column))):
-            return False
-    return True
+    if samples and not any(map(_is_value, samples[0])):
+        return not any(map(_is_value, chain(*samples)))  # units, or a log of texts
+    columns = zip(names, zip(*samples, strict=True), strict=False)
+    return not any(name != "record" and _is_foreign(cells) for name, cells in columns)
+
+
+def _is_value(cell: str) -> bool:
+    return cell != "" and _NUMBER.fullmatch(cell) is not None
+
+
+def _is_foreign(column: Sequence[str]) -> bool:
+    """Whether texts of a column are numbers with a decimal comma, or dates and times."""
+    texts = [cell for cell in column if cell and not _is_value(cell)]
+    return bool(texts) and all(_FOREIGN.search(cell) and "\n" not in cell for cell in texts)
 
 
 def column_names(data: Data, file: str) -> list[str]:

@@ -28,13 +28,13 @@ class Problems:
     file: str
     met: list[ErdctlError] = field(default_factory=list)
 
-    def attempt(self, work: Callable[[], T], instead: T) -> T:
-        """What the work gives; if it fails for the input, `instead`, and the error is kept."""
+    def attempt(self, work: Callable[[], T]) -> T | None:
+        """What the work gives; if it fails for the input, None, and the error is kept."""
         try:
             return work()
         except (InputProblem, UsageProblem) as error:
             self.met.append(error)
-            return instead
+            return None
 
     def settle(self) -> None:
         """Raise what was met: a single error as it is, several as one."""

@@ -55,7 +55,7 @@ class TableSource:
 
     def row_of(self, sample: int, samples: int) -> int:
         """Row of a sample (counted from 0) as InputProblem states rows; samples : how many."""
-        if self.text is not None:
+        if self.text is not None and not self.text.ordinary:
             from erdctl.io.text import rows
 
             return rows.row_of(self.data, self.text, sample)
@@ -145,12 +145,14 @@ def read_source(
     names = source.columns if columns is None else tuple(columns)
 
     def read() -> pa.Table:
-        if source.text is not None:
+        text = source.text
+        if text is not None and not (text.ordinary and text.forms.keys().isdisjoint(numbers)):
             from erdctl.io.text.body import read_text
 
-            table, notes = read_text(source.data, source.text, source.name, names, numbers)
-            for note in notes if roles is not None else ():
-                roles.say(note)
+            table, notes = read_text(source.data, text, source.name, names, numbers)
+            if roles is not None:
+                for note in notes:
+                    roles.say(note)
             return table
         if source.format is Format.CSV:
             from erdctl.io import csv_in

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.core.recording import Array
+from erdctl.io.spelling import name_and_unit as name_and_unit
+from erdctl.io.spelling import stated
 
 if TYPE_CHECKING:
     import pint
@@ -74,7 +76,6 @@ _SCALED = re.compile(
     r"(?P<factor>(?:[0-9]{1,15}\.?[0-9]{0,15}|\.[0-9]{1,15})(?:[eE][+-]?[0-9]{1,2})?)"
     r"(?:\s*[*·]?\s*(?P<unit>[^0-9\s.*].*))?"
 )
-_BRACKETS = re.compile(r"(?P<name>.*\S)\s*\[(?P<unit>[^\[\]]*)\]\s*", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -251,8 +252,8 @@ def between(given: str, wanted: str) -> Conversion:
     scaled = _SCALED.fullmatch(given)
     if scaled is not None and Fraction(scaled["factor"]) > 0:
         # Volts of a sensor: 980.665 N stands for each.
-        unit = between(scaled["unit"] or "", wanted)
-        return Conversion(Fraction(scaled["factor"]) * unit.factor, unit.offset)
+        of_one = between(scaled["unit"] or "", wanted)
+        return Conversion(Fraction(scaled["factor"]) * of_one.factor, of_one.offset)
     import pint
 
     if given and not re.fullmatch(_UNIT, given):
@@ -287,12 +288,6 @@ def _kind(unit: pint.Unit) -> str:
     return "something else"
 
 
-def name_and_unit(name: str) -> tuple[str, str | None]:
-    """A column's name and the unit in brackets behind it: `Defl FL [mm]`."""
-    found = _BRACKETS.fullmatch(name)
-    return (found["name"], found["unit"]) if found else (name, None)
-
-
 def _find(source: str, columns: Sequence[str]) -> tuple[str, str | None] | None:
     name, unit = name_and_unit(source)
     if source in columns:
@@ -305,4 +300,8 @@ def _find(source: str, columns: Sequence[str]) -> tuple[str, str | None] | None:
         if parts == (name, unit):
             return column, unit
     same = [c for c, parts in parted.items() if parts[0] == name and unit is None]
-    return (same[0], parted[same[0]][1]) if len(same) == 1 else None
+    if len(same) == 1:
+        return same[0], parted[same[0]][1]
+    # `Displacement` for `Displacement (mm)`, whose unit is the file's to state
+    other = [c for c in columns if stated(c)[0] == name and c not in same]
+    return (other[0], unit) if len(other) == 1 and not same else None

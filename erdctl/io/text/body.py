@@ -17,7 +17,7 @@ from erdctl.io.text.labview import END
 from erdctl.io.text.layout import STEPS, Data, TextLayout
 from erdctl.io.text.regular import regular
 from erdctl.io.text.rows import explained, row_of, samples_of
-from erdctl.io.text.stamps import NoStamp, Read, combined, nanoseconds, seconds_from_first
+from erdctl.io.text.stamps import NoStamp, Read, combined, nanoseconds
 
 BLOCK = 4 << 20
 _FAILURES = (pa.ArrowException, UnicodeDecodeError, UnicodeEncodeError)
@@ -35,7 +35,7 @@ def read_text(
     columns: Sequence[str],
     numbers: Collection[str],
 ) -> tuple[pa.Table, list[str]]:
-    """Chosen columns, `numbers` and times as float64, others as text; and what was assumed of times.
+    """Chosen columns, `numbers` and times as float64, others as text; what was assumed of times.
 
     Raises InputProblem with the rows of cells that do not fit.
     """
@@ -141,7 +141,9 @@ def _rewritten(body: bytes, layout: TextLayout) -> bytes:
 def _one_segment(body: bytes, layout: TextLayout, file: str) -> bytes:
     """The samples of all segments of a LabVIEW file; the blocks between them left out."""
     end = re.escape(END.encode())
-    block = re.compile(rb"^Channels\b.*?^" + end + rb"[^\n]*\n+([^\n]*)\n", re.DOTALL | re.MULTILINE)
+    block = re.compile(
+        rb"^Channels\b.*?^" + end + rb"[^\n]*\n+([^\n]*)\n", re.DOTALL | re.MULTILINE
+    )
     sign = layout.dialect.separator
     for found in block.finditer(body):
         names = cells_of(found[1].decode(errors="replace"), sign)
@@ -229,11 +231,13 @@ def _seconds(
     if beside is not None:
         time = combined(read(beside), time)
     if time.resolution >= 10**9 and "yyyy" in time.form and not (time.ns % (86_400 * 10**9)).any():
-        raise InputProblem("dates without a time of day; map the column of times", file=file, column=name)
+        raise InputProblem(
+            "dates without a time of day; map the column of times", file=file, column=name
+        )
     seconds, said = regular(time, layout, file, name)
     called = f"'{beside}' and '{name}'" if beside else f"'{name}'"
-    notes.append(f"{', '.join([f'{called} ({time.form})', *time.notes])} in seconds from the first sample")
-    notes.extend(said)
+    notes.append(f"{called} ({time.form}) in seconds from the first sample")
+    notes.extend((*time.notes, *said))
     return pa.array(seconds)
 
 

@@ -36,9 +36,7 @@ class Dialect:
         point = re.escape(self.decimal)
         whole = "[0-9]+"
         if self.thousands:
-            sign = {" ": "[  ]", "'": "['’]"}.get(
-                self.thousands, re.escape(self.thousands)
-            )
+            sign = {" ": "[  ]", "'": "['’]"}.get(self.thousands, re.escape(self.thousands))
             whole = f"(?:[0-9]{{1,3}}(?:{sign}[0-9]{{3}})+|[0-9]+)"
         return re.compile(
             rf"^[+-]?(?:(?:{whole}(?:{point}[0-9]*)?|{point}[0-9]+)(?:[eE][+-]?[0-9]+)?"

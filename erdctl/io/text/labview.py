@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from erdctl.core.errors import InputProblem
-from erdctl.io.named import unit_spelt
+from erdctl.io.spelling import unit_spelt
 from erdctl.io.text.options import SEPARATORS
 
 FIRST = "LabVIEW Measurement"
@@ -60,7 +60,9 @@ def labview_of(lines: Sequence[str], file: str) -> LabView | None:
         separator = ","
     channel_end = ends[1] if len(ends) > 1 else ends[0]
     block = _pairs(lines[ends[0] : channel_end], separator)
-    header_line = next((n for n in range(channel_end + 1, len(lines) + 1) if lines[n - 1].strip()), 0)
+    header_line = next(
+        (n for n in range(channel_end + 1, len(lines) + 1) if lines[n - 1].strip()), 0
+    )
     if not header_line:
         raise InputProblem("a LabVIEW measurement without samples", file=file)
     columns = next(iter(file_block.get("X_Columns", [""])), "One")

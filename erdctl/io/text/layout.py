@@ -16,6 +16,7 @@ from erdctl.io.text.numerals import evidence_of, settle
 from erdctl.io.text.options import TextOptions
 from erdctl.io.text.stamps import CLOCK, form_of, has_time
 from erdctl.io.text.structure import Structure, refuse_none, structure_of
+from erdctl.io.units import RECORD
 
 Data = str | bytearray
 
@@ -141,9 +142,9 @@ def recognise(data: Data, file: str, options: TextOptions) -> TextLayout | None:
     try:
         header = header_of(lines, found, options, file)
     except InputProblem:
-        if found.separator == "," and encoding == UTF8 and options == TextOptions() and not mark:
-            if cells_of(lines[first - 1], ",") and comment_of(lines[first - 1]) is None:
-                return None
+        plain = found.separator == "," and encoding == UTF8 and options == TextOptions()
+        if plain and len(cells_of(lines[first - 1], ",")) > 1 and not comment_of(lines[first - 1]):
+            return None
         raise
     kinds = _kinds(found, header)
     dialect = _dialect(data, encoding, mark, found, kinds, options, file)
@@ -180,9 +181,9 @@ def _shortest(found: Structure, header: Header, kinds: Sequence[str]) -> int:
 
 def _forms(found: Structure, names: Sequence[str], kinds: Sequence[str]) -> dict[str, str]:
     """Form of the stamps of every column of them."""
-    out = {}
+    out: dict[str, str] = {}
     for j, (name, kind) in enumerate(zip(names, kinds, strict=True)):
-        if kind == STAMP:
+        if kind == STAMP and name != RECORD:
             cells = [row.cells[j] for row in found.samples if j < len(row.cells)]
             out[name] = next(form for form in map(form_of, cells) if form is not None)
     return out
@@ -190,7 +191,7 @@ def _forms(found: Structure, names: Sequence[str], kinds: Sequence[str]) -> dict
 
 def _dates(found: Structure, names: Sequence[str], forms: dict[str, str]) -> dict[str, str]:
     """Times of day that have their date in a column of its own beside them."""
-    out = {}
+    out: dict[str, str] = {}
     for name, form in forms.items():
         j = list(names).index(name)
         for beside in (j - 1, j + 1):
@@ -206,7 +207,7 @@ def _dialect(
     data: Data, encoding: str, mark: int, found: Structure, kinds: Sequence[str],
     options: TextOptions, file: str,
 ) -> Dialect:  # fmt: skip
-    """Separator and signs of numbers; the whole file is asked where its beginning proves nothing."""
+    """Separator and signs of numbers; the whole file is asked where its beginning is silent."""
 
     def numbers(rows: Iterator[tuple[int, Sequence[str]]]) -> Iterator[tuple[str, int]]:
         for line, cells in rows:

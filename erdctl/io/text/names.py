@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from erdctl.core.errors import InputProblem
-from erdctl.io.named import unit_spelt
+from erdctl.io.spelling import unit_spelt
 from erdctl.io.text.cells import NUMBER, STAMP, cells_of, comment_of, kind_of
 from erdctl.io.text.options import SEPARATORS, TextOptions
 from erdctl.io.text.structure import Structure
@@ -29,9 +29,7 @@ class Header:
     units: dict[str, str]
 
 
-def header_of(
-    lines: Sequence[str], found: Structure, options: TextOptions, file: str
-) -> Header:
+def header_of(lines: Sequence[str], found: Structure, options: TextOptions, file: str) -> Header:
     """The header above the samples; without one the columns are numbered.
 
     Raises InputProblem if the header does not have as many names as the samples have cells.

@@ -72,7 +72,7 @@ def settle(found: Evidence, separator: str, options: TextOptions, file: str) -> 
         return decimal, options.thousands
     sure = [sign for sign in found.thousands if sign != decimal]
     if len(sure) > 1:
-        raise _contradiction(found.thousands[sure[0]], found.thousands[sure[1]], file)
+        raise _contradiction(found.thousands[sure[0]], found.thousands[sure[1]], file=file)
     if not sure and other in found.either and separator != COMMA:
         cell, line = found.either[other]
         raise InputProblem(
@@ -91,14 +91,14 @@ def _decimal(found: Evidence, separator: str, file: str) -> str:
         if sign in (POINT, COMMA):
             signs.setdefault(COMMA if sign == POINT else POINT, place)
     if len(signs) > 1:
-        raise _contradiction(*signs.values(), file)
+        raise _contradiction(*list(signs.values())[:2], file=file)
     if signs:
         return next(iter(signs))
     # Commas that separate cells are no decimal signs; without any sign there is nothing to decide.
     if separator == COMMA or not found.either:
         return POINT
     if len(found.either) > 1:
-        raise _contradiction(*found.either.values(), file)
+        raise _contradiction(*list(found.either.values())[:2], file=file)
     ((sign, (cell, line)),) = found.either.items()
     raise InputProblem(
         f"'{cell}' may be {cell.replace(COMMA, POINT)} or {re.sub('[.,]', '', cell)}, and no number"
@@ -109,7 +109,7 @@ def _decimal(found: Evidence, separator: str, file: str) -> str:
     )
 
 
-def _contradiction(one: tuple[str, int], two: tuple[str, int], file: str) -> InputProblem:
+def _contradiction(one: tuple[str, int], two: tuple[str, int], *, file: str) -> InputProblem:
     return InputProblem(
         f"numbers in two notations, '{one[0]}' and '{two[0]}' (row {two[1]}); say which holds,"
         " e.g. --text decimal=point,thousands=comma, or export it in one",

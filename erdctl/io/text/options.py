@@ -5,7 +5,7 @@ from __future__ import annotations
 import codecs
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from erdctl.core.errors import UsageProblem
 
@@ -46,7 +46,8 @@ def parse_text_options(given: TextSpec) -> TextOptions:
     for key, value in _pairs(given):
         if key in ("separator", "decimal", "thousands"):
             known = {"separator": SEPARATORS, "decimal": DECIMALS, "thousands": THOUSANDS}[key]
-            out = replace(out, **{key: _sign(key, value, known)})
+            changes: dict[str, Any] = {key: _sign(key, value, known)}
+            out = replace(out, **changes)
         elif key == "date":
             if value not in DATES:
                 raise _wrong(key, value, ", ".join(DATES))
@@ -54,7 +55,8 @@ def parse_text_options(given: TextSpec) -> TextOptions:
         elif key in ("header", "units"):
             if value != "none" and not (value.isascii() and value.isdigit() and int(value) > 0):
                 raise _wrong(key, value, "the number of a line, or none")
-            out = replace(out, **{key: 0 if value == "none" else int(value)})
+            changes = {key: 0 if value == "none" else int(value)}
+            out = replace(out, **changes)
         elif key == "encoding":
             out = replace(out, encoding=_encoding(value))
         elif key == "interval":

@@ -25,10 +25,14 @@ def regular(time: Read, layout: TextLayout, file: str, column: str) -> tuple[Arr
     h = given if given is not None else layout.interval
     q = time.resolution / 1e9
     if h is not None:
-        even: Array = np.arange(len(seconds)) * h
+        even: Array = np.arange(len(seconds), dtype=np.float64) * h
         if float(np.abs(seconds - even).max()) <= q * (1.0 + 1e-9):
             exact = float(np.abs(seconds - even).max()) < 1e-9
-            said = "" if exact else f"times are the interval {h:g} s that is stated; stamps agree within {q:g} s"
+            said = (
+                ""
+                if exact
+                else f"times are the interval {h:g} s that is stated; stamps agree within {q:g} s"
+            )
             return (seconds if exact else even), [said] if said else []
         if given is not None:
             worst = int(np.abs(seconds - even).argmax())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Collection, Iterator, Sequence
+from itertools import islice
 
 import pyarrow as pa
 
@@ -20,6 +21,7 @@ BEYOND = 100_000  # rows that are looked through after the first error, for thos
 def samples_of(data: Data, layout: TextLayout) -> Iterator[tuple[int, list[str]]]:
     """Line and cells of every sample."""
     skipping = ends = False
+    block = "Channels" + layout.dialect.separator
     with (
         pa.OSFile(data) if isinstance(data, str) else pa.BufferReader(pa.py_buffer(data)) as stream,
         io.TextIOWrapper(
@@ -31,11 +33,11 @@ def samples_of(data: Data, layout: TextLayout) -> Iterator[tuple[int, list[str]]
             line = whole.rstrip("\n")
             if number < layout.start or is_empty(line, layout):
                 continue
-            if layout.labview is not None:
-                # A segment has its own block, and the names again.
-                if ends or skipping or line.startswith("Channels" + layout.dialect.separator):
-                    skipping, ends = not line.startswith(END) and not ends, line.startswith(END)
-                    continue
+            # A segment of a LabVIEW file has its own block, and the names again.
+            begins = layout.labview is not None and line.startswith(block)
+            if ends or skipping or begins:
+                skipping, ends = not line.startswith(END) and not ends, line.startswith(END)
+                continue
             yield number, cells_of(line, layout.dialect.separator)
 
 
@@ -46,11 +48,8 @@ def is_empty(line: str, layout: TextLayout) -> bool:
 
 def row_of(data: Data, layout: TextLayout, sample: int) -> int:
     """Line of a sample counted from 0."""
-    line = layout.start
-    for count, (line, _) in enumerate(samples_of(data, layout)):
-        if count == sample:
-            break
-    return line
+    lines = (line for line, _ in samples_of(data, layout))
+    return next(islice(lines, sample, None), layout.start + sample)
 
 
 def explained(

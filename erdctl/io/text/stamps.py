@@ -33,8 +33,8 @@ FORMS = {
     YEAR_FIRST: rf"(?P<y>[0-9]{{4}})[-/.](?P<b>[0-9]{{1,2}})[-/.](?P<c>[0-9]{{1,2}}){_TIME}",
     YEAR_LAST: rf"(?P<a>[0-9]{{1,2}})(?P<sep>[-/.])(?P<b>[0-9]{{1,2}})[-/.]"
     rf"(?P<y>[0-9]{{4}}|[0-9]{{2}}){_TIME}",
-    NAMED: rf"(?P<a>[0-9]{{1,2}})[-/. ]+(?P<mon>[A-Za-zä]{{3}})[a-z]*[-/., ]+(?P<y>[0-9]{{4}}){_TIME}",
-    COMPACT: rf"(?P<y>[0-9]{{4}})(?P<b>[0-9]{{2}})(?P<c>[0-9]{{2}})T"
+    NAMED: r"(?P<a>[0-9]{1,2})[-/. ]+(?P<mon>[A-Za-zä]{3})[a-z]*[-/., ]+(?P<y>[0-9]{4})" + _TIME,
+    COMPACT: r"(?P<y>[0-9]{4})(?P<b>[0-9]{2})(?P<c>[0-9]{2})T"
     r"(?P<h>[0-9]{2})(?P<m>[0-9]{2})(?P<s>[0-9]{2})(?:[.,](?P<f>[0-9]{1,9}))?" + _ZONE,
     DURATION: r"(?P<d>-?[0-9]+)[ ]*d(?:ays?)?,?(?:[ ]+[+]?(?P<h>[0-9]{1,2}):(?P<m>[0-9]{2}):"
     r"(?P<s>[0-9]{2})(?:[.,](?P<f>[0-9]{1,9}))?)?",
@@ -229,8 +229,7 @@ def _civil(year: Integers, month: Integers, day: Integers) -> Integers:
             " so: --text date=dmy or --text date=mdy",
             at,
         )
-    out: Integers = begin + day - 1
-    return out
+    return np.asarray(begin + day - 1, dtype=np.int64)
 
 
 def _of_24(hours: Integers, suffix: Any, notes: list[str]) -> Integers:
@@ -272,7 +271,7 @@ def _zones(texts: dict[str, Any]) -> Integers:
         known = len(digits) == 5
         value = int(digits[1:3]) * 60 + int(digits[3:5]) if known else 0
         minutes.append(-value if digits.startswith("-") else value)
-    return np.array(minutes, dtype=np.int64)[np.asarray(zones.indices)]
+    return np.take(np.array(minutes, dtype=np.int64), np.asarray(zones.indices))
 
 
 def _past_midnight(ns: Integers, notes: list[str]) -> Integers:
@@ -283,7 +282,8 @@ def _past_midnight(ns: Integers, notes: list[str]) -> Integers:
     days = np.zeros(len(ns), dtype=np.int64)
     days[falls] = 1
     notes.append("the clock passes midnight")
-    return ns + np.cumsum(days) * DAY
+    out: Integers = ns + np.cumsum(days) * DAY
+    return out
 
 
 def combined(date: Read, time: Read) -> Read:

@@ -109,7 +109,9 @@ def _score(rows: Sequence[Row]) -> float:
         if abs(len(row.cells) - width) > 1:
             continue
         filled = sum(kind != EMPTY for kind in row.kinds)
-        broken = sum(kind == TEXT and _mangled(c) for c, kind in zip(row.cells, row.kinds, strict=True))
+        broken = sum(
+            kind == TEXT and _mangled(c) for c, kind in zip(row.cells, row.kinds, strict=True)
+        )
         score += (filled - broken) / filled if not broken else 0.2 / filled
     return score
 
@@ -138,7 +140,9 @@ def _samples(rows: Sequence[Row]) -> list[Row]:
     first = next((i for i, row in enumerate(rows) if fits(row)), 0)
     # A first sample with a bad cell is a sample all the same: the reader will name the cell.
     while first > 0 and rows[first - 1].is_sample and len(rows[first - 1].cells) == width:
-        if rows[first - 1].line != rows[first].line - 1 or not _numbers_where(rows[first - 1], kinds):
+        if rows[first - 1].line != rows[first].line - 1 or not _numbers_where(
+            rows[first - 1], kinds
+        ):
             break
         first -= 1
     return [row for row in rows[first:] if row.is_sample][:ROWS]
@@ -146,7 +150,11 @@ def _samples(rows: Sequence[Row]) -> list[Row]:
 
 def _numbers_where(row: Row, kinds: Sequence[str]) -> bool:
     """Whether most of the values of a row stand where values stand below."""
-    at = [k in (NUMBER, STAMP) for k, known in zip(row.kinds, kinds, strict=False) if known in (NUMBER, STAMP)]
+    at = [
+        k in (NUMBER, STAMP)
+        for k, known in zip(row.kinds, kinds, strict=False)
+        if known in (NUMBER, STAMP)
+    ]
     return sum(at) > len(at) / 2
 
 
