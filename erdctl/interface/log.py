@@ -162,9 +162,10 @@ def read(paths: Logs, *, map: Maps = None, text: TextSpec = None, where: Maps = 
 
     paths : a path, a pandas DataFrame, or a list of them. Files are CSV or another lab's text,
         Parquet, Arrow, MAT, MDF4 or TDMS, as the command line reads them. Needed are time t [s]
-        and deflection x [m, compression +]; xdot [m/s], duty [0..1], force [N], temperature [degC] and record (the name
-        of the test that a sample belongs to) are taken where they are there. xdot is derived from
-        x where it is missing, and a missing duty is 0. A named index of a frame is a column.
+        and deflection x [m, compression +]; xdot [m/s], duty [0..1], force [N], temperature [degC]
+        and record (the name of the test that a sample belongs to) are taken where they are there.
+        xdot is derived from x where it is missing, and a missing duty is 0. A named index of a
+        frame is a column.
     map : which of the log's own columns is which, and its unit, where that differs:
         {"x": "Defl FL[mm]", "force": "F_fl[kN]"}, or as on the command line ["x=Defl FL[mm]"].
         A minus before the name changes the sign.

@@ -69,10 +69,12 @@ def is_plain(data: Data) -> bool:
         return False
     if any(_NUMBER.fullmatch(name) for name in names) or names[0].lstrip().startswith(_COMMENTS):
         return False
+    if any(cell[:1] in " \t" and cell.lstrip()[:1] == '"' for cell in chain(names, *samples[:1])):
+        return False
     if any(len(cells) != len(names) for cells in samples):
         return False
-    if samples and not any(map(_is_value, samples[0])):
-        return not any(map(_is_value, chain(*samples)))  # units, or a log of texts
+    if samples and not any(map(_is_value, samples[0])) and any(map(_is_value, chain(*samples))):
+        return False  # a row of units
     columns = zip(names, zip(*samples, strict=True), strict=False)
     return not any(name != "record" and _is_foreign(cells) for name, cells in columns)
 

@@ -304,4 +304,7 @@ def _find(source: str, columns: Sequence[str]) -> tuple[str, str | None] | None:
         return same[0], parted[same[0]][1]
     # `Displacement` for `Displacement (mm)`, whose unit is the file's to state
     other = [c for c in columns if stated(c)[0] == name and c not in same]
-    return (other[0], unit) if len(other) == 1 and not same else None
+    if len(other) == 1 and not same:
+        return other[0], unit
+    blank = [c for c in columns if c.strip() in (source, name)]
+    return (blank[0], unit) if len(blank) == 1 and not same else None

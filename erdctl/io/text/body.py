@@ -98,7 +98,7 @@ def _lines(data: Data, layout: TextLayout, file: str) -> bytes:
     if layout.comment is not None:
         body = re.sub(rb"(?m)^[ \t]*(?:#|%|//)[^\n]*(?:\n|\Z)", b"", body)
     separator = layout.dialect.separator
-    if b'"' in body and (separator == " " or layout.ragged):
+    if b'"' in body and (separator == " " or layout.ragged or re.search(rb'[ \t]"|"[ \t]', body)):
         return _rewritten(body, layout)
     body = re.sub(rb"(?m)^[ \t]+\n", b"", body) if separator != "\t" else body
     if separator == " ":

@@ -23,7 +23,7 @@ Data = str | bytearray
 HEAD = 1 << 18  # bytes that the recognition looks at
 STEPS = "t"  # what the time is called where the file has none
 _SEPARATORS = {",": "commas", ";": "semicolons", "\t": "tabs", "|": "bars", " ": "blanks"}
-_EXCEL = re.compile(r'"?sep=(.)"?', re.IGNORECASE)
+_EXCEL = re.compile(r'"?sep=(.)"?[,;|\s]*', re.IGNORECASE)
 _RATE = re.compile(
     r"(?:sampl\w*|scan|abtast\w*|acquisition)[ _-]?(?:(?P<of>interval\w*|period|time|rate|freq\w*)|"
     r"(?<=intervall)|(?<=rate)|(?<=frequenz))?(?:[ _]*[(\[](?P<unit>[A-Za-zµ]+)[)\]])?"
@@ -125,10 +125,11 @@ def recognise(data: Data, file: str, options: TextOptions) -> TextLayout | None:
     if not whole and len(lines) > 1:
         lines = lines[:-1]  # cut
     first = next((n for n, line in enumerate(lines, 1) if line.strip()), 1)
-    excel = _EXCEL.fullmatch(lines[first - 1].strip().rstrip(",;\t"))
+    excel = _EXCEL.fullmatch(lines[first - 1])
+    above = first if excel else 0
     separator = options.separator or (excel[1] if excel else None)
     labview = labview_of(lines, file)
-    after = labview.header_line - 1 if labview else first if excel else 0
+    after = labview.header_line - 1 if labview else above
     if labview is not None:
         separator = options.separator or labview.separator
         options = replace(options, decimal=options.decimal or labview.decimal)
@@ -140,9 +141,10 @@ def recognise(data: Data, file: str, options: TextOptions) -> TextLayout | None:
             return None
         raise refuse_none(lines, file)
     try:
-        header = header_of(lines, found, options, file)
+        header = header_of(lines, above, found, options, file)
     except InputProblem:
         plain = found.separator == "," and encoding == UTF8 and options == TextOptions()
+        plain = plain and found.start == first + 1
         if plain and len(cells_of(lines[first - 1], ",")) > 1 and not comment_of(lines[first - 1]):
             return None
         raise

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from erdctl.core.errors import InputProblem
 from erdctl.io.spelling import unit_spelt
 from erdctl.io.text.cells import NUMBER, STAMP, cells_of, comment_of, kind_of
-from erdctl.io.text.options import SEPARATORS, TextOptions
+from erdctl.io.text.options import TextOptions
 from erdctl.io.text.structure import Structure
 
 NUMBERED = "column_{}"
@@ -29,13 +29,17 @@ class Header:
     units: dict[str, str]
 
 
-def header_of(lines: Sequence[str], found: Structure, options: TextOptions, file: str) -> Header:
+def header_of(
+    lines: Sequence[str], after: int, found: Structure, options: TextOptions, file: str
+) -> Header:
     """The header above the samples; without one the columns are numbered.
+
+    after : it is below this line
 
     Raises InputProblem if the header does not have as many names as the samples have cells.
     """
     width = found.width
-    above = [n for n in range(found.start - 1, 0, -1) if lines[n - 1].strip()]
+    above = [n for n in range(found.start - 1, after, -1) if lines[n - 1].strip()]
     if options.header == 0:
         return Header(_numbered(width), 0, 0, {})
     units_line = options.units or 0
@@ -52,7 +56,9 @@ def header_of(lines: Sequence[str], found: Structure, options: TextOptions, file
     else:
         line = next((n for n in above if n != units_line), 0)
         names = _cells(lines[line - 1], found.separator, width) if line else []
-        if not _are_names(names) or (line and len(names) == 1):
+        if not _are_names(names) or _is_title(names, line, lines, found):
+            if line and comment_of(lines[line - 1]) is None:
+                _refuse_values(names, line, found, file)
             line, names = 0, []
     if not line:
         return Header(_numbered(width), 0, units_line, _by_name(_numbered(width), units))
@@ -65,7 +71,8 @@ def _cells(line: str, separator: str, width: int) -> list[str]:
     """The cells of a line above the samples, which may be a comment or separated otherwise."""
     sign = comment_of(line)
     texts = [line] if sign is None else [line.strip()[len(sign) :].strip(), line.strip()]
-    tried = [separator, *(s for s in SEPARATORS.values() if s != separator)]
+    # Names above columns of blanks may be separated by what they are not.
+    tried = [separator, "\t", ";", ","] if separator == " " else [separator]
     for text in texts:
         found = [cells_of(text, s) for s in tried]
         # Names with blanks in them stand apart by two or more.
@@ -80,7 +87,28 @@ def _cells(line: str, separator: str, width: int) -> list[str]:
 def _are_names(cells: Sequence[str]) -> bool:
     filled = [cell for cell in cells if cell]
     values = sum(kind_of(cell) in (NUMBER, STAMP) for cell in filled)
-    return bool(filled) and values < 0.5 * len(filled)
+    keyed = any(cell.endswith(":") for cell in filled)
+    return bool(filled) and values < 0.5 * len(filled) and not keyed
+
+
+def _is_title(names: Sequence[str], line: int, lines: Sequence[str], found: Structure) -> bool:
+    """Whether a line is a sentence above the samples rather than their names."""
+    if len(names) == 1:
+        return True
+    apart = found.separator == " " and not lines[found.start - 2].strip()
+    return apart or (len(names) != found.width and comment_of(lines[line - 1]) is not None)
+
+
+def _refuse_values(cells: Sequence[str], line: int, found: Structure, file: str) -> None:
+    """A line of values above the samples that is not like them is not left out in silence."""
+    values = sum(kind_of(cell) in (NUMBER, STAMP) for cell in cells)
+    if line == found.start - 1 and values >= 2 and len(cells) >= found.shortest:
+        raise InputProblem(
+            f"neither names nor values like those below it (row {found.start}); say which line"
+            " holds the names, --text header=LINE, or --text header=none, and mend or remove this",
+            file=file,
+            row=line,
+        )
 
 
 def _units_line(lines: Sequence[str], above: Sequence[int], found: Structure) -> int:

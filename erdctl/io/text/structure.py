@@ -75,7 +75,9 @@ def structure_of(
     for sign in tried:
         rows = [_row(number, line, sign) for number, line in numbered]
         score = _score(rows)
-        if score > 0.0 and (best is None or score > best[0] + 1e-9):
+        # Blanks stand within dates and beside other separators, too.
+        more = 1.2 if sign == " " else 1.0
+        if score > 0.0 and (best is None or score > more * best[0] + 1e-9):
             best, chosen = (score, rows), sign
     if best is None:
         return None
@@ -106,7 +108,7 @@ def _score(rows: Sequence[Row]) -> float:
     width, _ = Counter(len(row.cells) for row in samples).most_common(1)[0]
     score = 0.0
     for row in samples:
-        if abs(len(row.cells) - width) > 1:
+        if len(row.cells) < width - 1 or not _texts_beyond(row, width):
             continue
         filled = sum(kind != EMPTY for kind in row.kinds)
         broken = sum(
@@ -114,6 +116,11 @@ def _score(rows: Sequence[Row]) -> float:
         )
         score += (filled - broken) / filled if not broken else 0.2 / filled
     return score
+
+
+def _texts_beyond(row: Row, width: int) -> bool:
+    """Whether the cells that a row has more than others are texts: events, mostly absent."""
+    return all(kind in (TEXT, EMPTY) for kind in row.kinds[width:])
 
 
 def _mangled(cell: str) -> bool:
@@ -132,10 +139,9 @@ def _samples(rows: Sequence[Row]) -> list[Row]:
     ]
 
     def fits(row: Row) -> bool:
-        return row.is_sample and all(
-            (TEXT if k == TEXT else k) == known or k == EMPTY or known == TEXT
-            for k, known in zip(row.kinds, kinds, strict=False)
-        ) and len(row.cells) <= len(kinds) + 1  # fmt: skip
+        pairs = zip(row.kinds, kinds, strict=False)
+        alike = all(k in (known, EMPTY) or known == TEXT for k, known in pairs)
+        return row.is_sample and alike and _texts_beyond(row, len(kinds))
 
     first = next((i for i, row in enumerate(rows) if fits(row)), 0)
     # A first sample with a bad cell is a sample all the same: the reader will name the cell.
