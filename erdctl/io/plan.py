@@ -229,9 +229,10 @@ def _taken(plan: ColumnPlan, source: TableSource) -> str:
     for target, (column, _) in plan.items():
         if column in (target, f" {target}"):
             continue
+        if source.text is not None and column in source.text.forms:
+            continue  # said where they were read
         unit = unit_of_column(source, column)
-        stamps = source.text is not None and column in source.text.forms
-        known = unit is None or stamps or stated(column)[1] is not None
+        known = unit is None or stated(column)[1] is not None
         out.append(f"{target} is '{column}'" + ("" if known else f" in {unit}"))
     return ", ".join(out)
 

@@ -15,7 +15,8 @@ START = dt.datetime(2022, 4, 29, 11, 56, 20, 699000)
 ENCODINGS = ("utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "latin-1", "cp1252")
 SEPARATORS = (",", ";", "\t", "|", " ", ", ", "; ", "fixed")
 CLOCKS = (
-    "seconds", "ms", "iso", "iso space", "german", "us 24h", "us am/pm", "us slash dmy", "two columns",
+    "seconds", "ms", "iso", "iso space", "german", "us 24h", "us am/pm", "us slash dmy",
+    "two columns",
     "timedelta", "h:mm:ss", "iso zone", "named",
 )  # fmt: skip
 UNITS = {"x": {"m": 1.0, "mm": 1e-3, "cm": 1e-2}, "force": {"N": 1.0, "kN": 1e3}}
@@ -49,7 +50,8 @@ def stamp(clock: str, seconds: float, decimal: str) -> list[str]:
     ms = f"{at.microsecond // 1000:03d}"
     point = "," if decimal == "," and clock == "german" else "."
     total = round(seconds * 1e3)
-    hms = f"{total // 3600000:02d}:{total // 60000 % 60:02d}:{total // 1000 % 60:02d}.{total % 1000:03d}"
+    hours, minutes = total // 3_600_000, total // 60_000 % 60
+    hms = f"{hours:02d}:{minutes:02d}:{total // 1000 % 60:02d}.{total % 1000:03d}"
     half = at.hour % 12 or 12
     return {
         "iso": [at.strftime("%Y-%m-%dT%H:%M:%S.") + ms],
@@ -123,9 +125,14 @@ def draw(seed: int) -> Foreign:
         unit = unit_of.get(name)
         if unit is None or style in ("row", "row brackets", "map"):
             return name
-        return name + {"(u)": f" ({unit})", "[u]": f" [{unit}]", "/u": f"/{unit}", ", u": f", {unit}"}[style]
+        return (
+            name
+            + {"(u)": f" ({unit})", "[u]": f" [{unit}]", "/u": f"/{unit}", ", u": f", {unit}"}[
+                style
+            ]
+        )
 
-    header = [titled(name) for name in names] + (["Events"] if events else [])
+    header = [*map(titled, names), *(["Events"] if events else [])]
     shown: dict[str, list[float]] = {"t": [], "x": [], "force": []}
     rows = []
     for i in range(n):
@@ -135,7 +142,9 @@ def draw(seed: int) -> Foreign:
             places = 3 if clock == "seconds" else int(digits["x"] > 4)
             text = printed(value, places, decimal, "", exponent=False)
             row.append(text)
-            shown["t"].append(float(text.replace(decimal, ".")) / (1.0 if clock == "seconds" else 1e3))
+            shown["t"].append(
+                float(text.replace(decimal, ".")) / (1.0 if clock == "seconds" else 1e3)
+            )
         else:
             row += stamp(clock, t[i], decimal)
             shown["t"].append(round(t[i] * 1e3) / 1e3)
@@ -178,12 +187,15 @@ def draw(seed: int) -> Foreign:
         body.insert(int(rng.integers(2, n)), "")
     ends = pick(("\n", "\r\n", "\r\n", "\r"))
     encoding = pick(ENCODINGS)
-    text = ends.join(lines + body) + (ends if rng.random() < 0.8 else "")
+    text = ends.join([*lines, *body]) + (ends if rng.random() < 0.8 else "")
     if encoding in ("latin-1", "cp1252"):
         text = text.replace("’", "'")
     data = text.encode(encoding)
     maps: list[str] = []
-    at = {name: (f"column_{i}" if headed == "none" else titled(name)) for i, name in enumerate(names, 1)}
+    at = {
+        name: (f"column_{i}" if headed == "none" else titled(name))
+        for i, name in enumerate(names, 1)
+    }
     if style == "map" or headed == "none":
         for target, name in zip(("x", "force"), names[numbered + len(times) :], strict=False):
             maps.append(f"{target}={at[name]}[{unit_of[name]}]")

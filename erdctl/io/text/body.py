@@ -236,7 +236,7 @@ def _seconds(
         )
     seconds, said = regular(time, layout, file, name)
     called = f"'{beside}' and '{name}'" if beside else f"'{name}'"
-    notes.append(f"{called} ({time.form}) in seconds from the first sample")
+    notes.append(f"{called} ({time.form}) as seconds from the first sample")
     notes.extend((*time.notes, *said))
     return pa.array(seconds)
 

@@ -120,9 +120,9 @@ def _units_line(lines: Sequence[str], above: Sequence[int], found: Structure) ->
     if not any(units) or abs(len(units) - len(names)) > 1 or not _are_names(names):
         return 0
     spelt = [unit_spelt(cell) for cell in units if cell]
-    if not all(unit is not None for unit in spelt) or not any(spelt):
-        return 0
-    return above[0]
+    # One that nobody knows does not make names of the others; it will be refused as a unit.
+    known = sum(unit is not None for unit in spelt)
+    return above[0] if any(spelt) and known > 0.6 * len(spelt) else 0
 
 
 def _fitted(names: list[str], found: Structure, line: int, file: str) -> list[str]:
@@ -153,8 +153,9 @@ def _commas(names: Sequence[str], found: Structure) -> str:
 
 
 def _by_name(names: Sequence[str], units: Sequence[str]) -> dict[str, str]:
-    pairs = zip(names, (unit_spelt(cell) for cell in units), strict=False)
-    return {name: unit for name, unit in pairs if unit}
+    pairs = zip(names, units, strict=False)
+    found = {name: cell if unit_spelt(cell) is None else unit_spelt(cell) for name, cell in pairs}
+    return {name: unit for name, unit in found.items() if unit}
 
 
 def _numbered(width: int) -> tuple[str, ...]:

@@ -82,7 +82,8 @@ def structure_of(
     if best is None:
         return None
     samples = _samples(best[1])
-    width = max(len(row.cells) for row in samples)
+    usual, _ = Counter(len(row.cells) for row in samples).most_common(1)[0]
+    width = max(len(row.cells) for row in samples if _texts_beyond(row, usual))
     columns = [[row.kinds[j] for row in samples if j < len(row.kinds)] for j in range(width)]
     comment = next((c for c in map(comment_of, lines) if c is not None), None)
     return Structure(
