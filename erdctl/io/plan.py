@@ -173,7 +173,7 @@ def _by_name(source: TableSource, target: str, say: Report) -> str | None:
         if len(near) > 1 or not all(_fits(c, target) for c in near):
             say(f"{listed(near)} not taken as '{target}'; --map says otherwise")
             return None
-    if near:
+    if near and source.text is None:  # of a text, one line says everything
         say(f"column '{near[0]}' is taken as '{target}'")
     return near[0] if near else None
 
@@ -226,14 +226,15 @@ def _example(one: Meant, free: Sequence[str], source: TableSource) -> str:
 def _taken(plan: ColumnPlan, source: TableSource) -> str:
     """Columns of other names, and the units that they were read in."""
     out = []
-    for target, (column, _) in plan.items():
-        if column in (target, f" {target}"):
+    for target, (column, convert) in plan.items():
+        if column.strip() == target and convert == Conversion():
             continue
         if source.text is not None and column in source.text.forms:
             continue  # said where they were read
         unit = unit_of_column(source, column)
         known = unit is None or stated(column)[1] is not None
-        out.append(f"{target} is '{column}'" + ("" if known else f" in {unit}"))
+        named = target if column.strip() == target else f"{target} is '{column}'"
+        out.append(named if known else f"{named} in {unit}")
     return ", ".join(out)
 
 

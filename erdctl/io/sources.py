@@ -98,8 +98,9 @@ def open_source(
         )
     if found is Format.CSV:
         from erdctl.io import csv_in
+        from erdctl.io.plain import is_plain
 
-        written = None if text is None and csv_in.is_plain(data) else _recognised(data, name, text)
+        written = None if text is None and is_plain(data) else _recognised(data, name, text)
         if written is not None:
             columns, units = list(written.columns), written.units
         else:

@@ -163,33 +163,40 @@ def parse_maps(specs: Sequence[str]) -> tuple[Mapping, ...]:
     Raises UsageProblem for unknown or repeated columns and for wrong units.
     """
     out: list[Mapping] = []
+    wrong: list[str] = []
     for spec in specs:
-        target, equals, source = (part.strip() for part in spec.partition("="))
-        if not (target and equals and source):
-            raise UsageProblem(
-                f'--map "{spec}": write COLUMN=NAME[UNIT], e.g. --map "force=F_fl[N]"'
-            )
-        if target not in TARGETS:
-            from difflib import get_close_matches
-
-            close = get_close_matches(target, TARGETS, 1, 0.4)
-            hint = f"did you mean '{close[0]}'? " if close else ""
-            raise UsageProblem(
-                f"--map \"{spec}\": unknown column '{target}'; {hint}Columns are"
-                f" {', '.join(TARGETS)}"
-            )
-        for other in out:
-            if other.target == target:
-                raise UsageProblem(f"--map: '{target}' is mapped twice, keep one of the two")
-            if other.source == source:
-                raise UsageProblem(
-                    f"--map: '{source}' is mapped to both '{other.target}' and '{target}'"
-                )
-        mapping = Mapping(target, source, spec)
-        if mapping.unit is not None and target != RECORD:
-            conversion(mapping.unit, target, spec)
-        out.append(mapping)
+        try:
+            out.append(_parsed(spec, out))
+        except UsageProblem as error:
+            wrong.append(str(error))
+    if wrong:
+        raise UsageProblem(";\n".join(wrong))
     return tuple(out)
+
+
+def _parsed(spec: str, before: Sequence[Mapping]) -> Mapping:
+    target, equals, source = (part.strip() for part in spec.partition("="))
+    if not (target and equals and source):
+        raise UsageProblem(f'--map "{spec}": write COLUMN=NAME[UNIT], e.g. --map "force=F_fl[N]"')
+    if target not in TARGETS:
+        from difflib import get_close_matches
+
+        close = get_close_matches(target, TARGETS, 1, 0.4)
+        hint = f"did you mean '{close[0]}'? " if close else ""
+        raise UsageProblem(
+            f"--map \"{spec}\": unknown column '{target}'; {hint}Columns are {', '.join(TARGETS)}"
+        )
+    for other in before:
+        if other.target == target:
+            raise UsageProblem(f"--map: '{target}' is mapped twice, keep one of the two")
+        if other.source == source:
+            raise UsageProblem(
+                f"--map: '{source}' is mapped to both '{other.target}' and '{target}'"
+            )
+    mapping = Mapping(target, source, spec)
+    if mapping.unit is not None and target != RECORD:
+        conversion(mapping.unit, target, spec)
+    return mapping
 
 
 def conversion(unit: str, target: str, spec: str) -> Conversion:

@@ -103,7 +103,7 @@ def draw(seed: int) -> Foreign:
     names = [pick(("Sample", "Index"))] if rng.random() < 0.3 else []
     numbered = bool(names)
     times = ["Date", "Clock"] if clock == "two columns" else [clock_name]
-    names += times + [pick(("Displacement", "Weg", "Stroke")), pick(("Load", "Force", "Kraft"))]
+    names += [*times, pick(("Displacement", "Weg", "Stroke")), pick(("Load", "Force", "Kraft"))]
     style = pick(("(u)", "[u]", "/u", ", u", "row", "row brackets", "map"))
     if sign == "," and style == ", u":
         style = "(u)"

@@ -47,7 +47,7 @@ def read_text(
     made = _made(layout)
     plain = [c for c in raw if c in numbers and c not in stamps and c != made]
     try:
-        table = _parsed(_lines(data, layout, file), layout, raw, plain)
+        table = _parsed(_lines(data, layout, file, notes), layout, raw, plain)
         for name in plain:
             if table.schema.field(name).type != pa.float64():
                 table = _set(table, name, _numbers(table.column(name), layout))
@@ -77,7 +77,7 @@ def _made(layout: TextLayout) -> str | None:
     return STEPS if STEPS not in layout.header.names and STEPS in layout.columns else None
 
 
-def _lines(data: Data, layout: TextLayout, file: str) -> bytes:
+def _lines(data: Data, layout: TextLayout, file: str, notes: list[str]) -> bytes:
     """The samples as lines of UTF-8 that are all alike."""
     if isinstance(data, str):
         with open(data, "rb") as stream:
@@ -93,11 +93,12 @@ def _lines(data: Data, layout: TextLayout, file: str) -> bytes:
     for _ in range(layout.start - 1):
         offset = body.index(b"\n", offset) + 1
     body = body[offset:]
+    separator = layout.dialect.separator
     if layout.labview is not None:
         body = _one_segment(body, layout, file)
+    body = _ended(body, separator, notes)
     if layout.comment is not None:
         body = re.sub(rb"(?m)^[ \t]*(?:#|%|//)[^\n]*(?:\n|\Z)", b"", body)
-    separator = layout.dialect.separator
     if b'"' in body and (separator == " " or layout.ragged or re.search(rb'[ \t]"|"[ \t]', body)):
         return _rewritten(body, layout)
     body = re.sub(rb"(?m)^[ \t]+\n", b"", body) if separator != "\t" else body
@@ -105,6 +106,16 @@ def _lines(data: Data, layout: TextLayout, file: str) -> bytes:
         body = re.sub(rb"(?m)^[ \t]+|[ \t]+$", b"", body)
         body = re.sub(rb"[ \t]+", b"\t", body)
     return _padded(body, layout) if layout.ragged else body
+
+
+def _ended(body: bytes, separator: str, notes: list[str]) -> bytes:
+    """The samples without rows of nothing but separators at the end, which tables leave there."""
+    end = len(body.rstrip(b" \t\n" + separator.encode()))
+    line = body.find(b"\n", end) + 1
+    if line and separator.encode() in body[line:]:
+        notes.append(f"{sum(map(bool, body[line:].split()))} empty rows at the end left out")
+        return body[:line]
+    return body
 
 
 def _padded(body: bytes, layout: TextLayout) -> bytes:

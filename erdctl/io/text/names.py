@@ -56,6 +56,10 @@ def header_of(
     else:
         line = next((n for n in above if n != units_line), 0)
         names = _cells(lines[line - 1], found.separator, width) if line else []
+        if any(kind_of(cell) in (NUMBER, STAMP) for cell in names) and _named_above(
+            lines, above, line, found
+        ):
+            _refuse_values(names, line, found, file, least=1)
         if not _are_names(names) or _is_title(names, line, lines, found):
             if line and comment_of(lines[line - 1]) is None:
                 _refuse_values(names, line, found, file)
@@ -99,10 +103,19 @@ def _is_title(names: Sequence[str], line: int, lines: Sequence[str], found: Stru
     return apart or (len(names) != found.width and comment_of(lines[line - 1]) is not None)
 
 
-def _refuse_values(cells: Sequence[str], line: int, found: Structure, file: str) -> None:
+def _named_above(lines: Sequence[str], above: Sequence[int], line: int, found: Structure) -> bool:
+    """Whether a line with values in it stands below one of as many names."""
+    higher = next((n for n in above if n < line), 0)
+    names = _cells(lines[higher - 1], found.separator, found.width) if higher else []
+    return len(names) == found.width and not any(kind_of(cell) in (NUMBER, STAMP) for cell in names)
+
+
+def _refuse_values(
+    cells: Sequence[str], line: int, found: Structure, file: str, *, least: int = 2
+) -> None:
     """A line of values above the samples that is not like them is not left out in silence."""
     values = sum(kind_of(cell) in (NUMBER, STAMP) for cell in cells)
-    if line == found.start - 1 and values >= 2 and len(cells) >= found.shortest:
+    if line == found.start - 1 and values >= least and len(cells) >= found.shortest:
         raise InputProblem(
             f"neither names nor values like those below it (row {found.start}); say which line"
             " holds the names, --text header=LINE, or --text header=none, and mend or remove this",

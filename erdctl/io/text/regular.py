@@ -24,6 +24,8 @@ def regular(time: Read, layout: TextLayout, file: str, column: str) -> tuple[Arr
     given = layout.options.interval
     h = given if given is not None else layout.interval
     q = time.resolution / 1e9
+    if given is None and steps.min() > 0 and steps.min() == steps.max():
+        h = None  # the stamps themselves are even
     if h is not None:
         even: Array = np.arange(len(seconds), dtype=np.float64) * h
         if float(np.abs(seconds - even).max()) <= q * (1.0 + 1e-9):
@@ -48,7 +50,8 @@ def regular(time: Read, layout: TextLayout, file: str, column: str) -> tuple[Arr
         why = "" if h is None else f" (the interval {h:g} s in the file does not fit them)"
         raise InputProblem(
             f"{shared:.0%} of the samples share their stamp with the one before, for stamps have a"
-            f" resolution of {q:g} s{why}; give the interval: --text interval={guess:.4g}",
+            f" resolution of {q:g} s{why}; give the interval, about {guess:.3g} s: --text"
+            " interval=SECONDS",
             file=file,
             column=column,
         )

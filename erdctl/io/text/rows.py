@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import io
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 from itertools import islice
 
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem
 from erdctl.io.problems import Wrong, problem_of
-from erdctl.io.text.cells import NUMBER, cells_of, comment_of
+from erdctl.io.text.cells import NUMBER, cells_of, comment_of, kind_of
 from erdctl.io.text.labview import END
 from erdctl.io.text.layout import Data, TextLayout
 from erdctl.io.text.stamps import form_of, kind
@@ -102,11 +103,12 @@ def _wrong_count(count: int, layout: TextLayout, line: int) -> Wrong:
 
 
 def _hint(cell: str, layout: TextLayout) -> str:
-    other = "," if layout.dialect.decimal == "." else "."
+    dialect = layout.dialect
+    other = "," if dialect.decimal == "." else "."
     called = {",": "comma", ".": "point"}
-    if other in cell and NUMBER and cell.replace(other, "").lstrip("+-").isdigit():
-        return (
-            f" with a decimal {called[layout.dialect.decimal]}; if the {called[other]} separates"
-            f" thousands, say so: --text thousands={called[other]}"
-        )
-    return ""
+    if other not in cell or kind_of(cell) != NUMBER:
+        return ""
+    said = f" with a decimal {called[dialect.decimal]}"
+    if replace(dialect, thousands=other).number.match(cell):
+        said += f"; if the {called[other]} separates thousands: --text thousands={called[other]}"
+    return said
