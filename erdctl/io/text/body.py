@@ -11,7 +11,7 @@ import pyarrow as pa
 
 from erdctl.core.errors import InputProblem
 from erdctl.io.csv_out import as_csv_text
-from erdctl.io.text.cells import NUMBER, cells_of
+from erdctl.io.text.cells import NUMBER, between_thousands, cells_of
 from erdctl.io.text.encoding import UTF8, decoded
 from erdctl.io.text.labview import END
 from erdctl.io.text.layout import STEPS, Data, TextLayout
@@ -20,8 +20,8 @@ from erdctl.io.text.rows import explained, row_of, samples_of
 from erdctl.io.text.stamps import NoStamp, Read, combined, nanoseconds
 
 BLOCK = 4 << 20
+_TAIL = 1 << 16  # bytes at the end, where a table may leave empty rows
 _FAILURES = (pa.ArrowException, UnicodeDecodeError, UnicodeEncodeError)
-_THOUSANDS = {" ": "[  ]", "'": "['’]", ".": r"\.", ",": ","}
 
 
 class _Unlike(Exception):
@@ -101,7 +101,8 @@ def _lines(data: Data, layout: TextLayout, file: str, notes: list[str]) -> bytes
         body = re.sub(rb"(?m)^[ \t]*(?:#|%|//)[^\n]*(?:\n|\Z)", b"", body)
     if b'"' in body and (separator == " " or layout.ragged or re.search(rb'[ \t]"|"[ \t]', body)):
         return _rewritten(body, layout)
-    body = re.sub(rb"(?m)^[ \t]+\n", b"", body) if separator != "\t" else body
+    if separator != "\t" and (b"\n " in body or b"\n\t" in body):
+        body = re.sub(rb"(?m)^[ \t]+\n", b"", body)
     if separator == " ":
         body = re.sub(rb"(?m)^[ \t]+|[ \t]+$", b"", body)
         body = re.sub(rb"[ \t]+", b"\t", body)
@@ -110,7 +111,8 @@ def _lines(data: Data, layout: TextLayout, file: str, notes: list[str]) -> bytes
 
 def _ended(body: bytes, separator: str, notes: list[str]) -> bytes:
     """The samples without rows of nothing but separators at the end, which tables leave there."""
-    end = len(body.rstrip(b" \t\n" + separator.encode()))
+    tail = body[-_TAIL:]
+    end = len(body) - len(tail) + len(tail.rstrip(b" \t\n" + separator.encode()))
     line = body.find(b"\n", end) + 1
     if line and separator.encode() in body[line:]:
         notes.append(f"{sum(map(bool, body[line:].split()))} empty rows at the end left out")
@@ -174,7 +176,7 @@ def _parsed(
     import pyarrow.csv as pc
 
     direct = not layout.dialect.thousands
-    if not body.strip():
+    if len(body) < _TAIL and not body.strip():
         return pa.table({name: pa.array([], pa.string()) for name in columns})
     return pc.read_csv(
         pa.py_buffer(body),
@@ -202,7 +204,7 @@ def _numbers(column: pa.ChunkedArray, layout: TextLayout) -> pa.ChunkedArray:
     fits = pc.or_(empty, pc.match_substring_regex(cells, dialect.number.pattern))
     if not pc.all(fits).as_py():
         raise _Unlike("not all cells are numbers")
-    cells = pc.replace_substring_regex(cells, _THOUSANDS[dialect.thousands], "")
+    cells = pc.replace_substring_regex(cells, between_thousands(dialect.thousands), "")
     cells = pc.replace_substring(cells, dialect.decimal, ".")
     return pc.if_else(empty, None, cells).cast(pa.float64())
 
@@ -220,7 +222,7 @@ def _texts(table: pa.Table, name: str, layout: TextLayout) -> pa.ChunkedArray:
     if not pc.all(fits).as_py():
         return cells
     if dialect.thousands:
-        cells = pc.replace_substring_regex(cells, _THOUSANDS[dialect.thousands], "")
+        cells = pc.replace_substring_regex(cells, between_thousands(dialect.thousands), "")
     return pc.replace_substring(cells, dialect.decimal, ".")
 
 

@@ -6,15 +6,18 @@ import csv
 import re
 from dataclasses import dataclass
 
+from erdctl.io.text.options import FORMS_OF
 from erdctl.io.text.stamps import is_stamp
 
 NUMBER, STAMP, TEXT, EMPTY = "N", "D", "T", ""
 
 # A number in any dialect, for recognition only.
+_BLANKS, _MARKS = FORMS_OF[" "], FORMS_OF["'"]
 _ANY_NUMBER = re.compile(
-    r"[+-]?(?:(?=[.,]?\d)(?:\d{1,3}(?:[  ]\d{3})+|\d{1,3}(?:['’]\d{3})+|[\d.,]*)"
+    rf"[+-]?(?:(?=[.,]?\d)(?:[1-9]\d{{0,2}}(?:[{_BLANKS}]\d{{3}})+"
+    rf"|[1-9]\d{{0,2}}(?:[{_MARKS}]\d{{3}})+|[\d.,]*)"
     r"(?:[.,]\d*)?(?:[eE][+-]?\d+)?|inf(?:inity)?|nan)",
-    re.IGNORECASE,
+    re.IGNORECASE | re.ASCII,
 )
 COMMENTS = ("#", "%", "//")
 
@@ -36,12 +39,17 @@ class Dialect:
         point = re.escape(self.decimal)
         whole = "[0-9]+"
         if self.thousands:
-            sign = {" ": "[  ]", "'": "['’]"}.get(self.thousands, re.escape(self.thousands))
+            sign = between_thousands(self.thousands)
             whole = f"(?:[0-9]{{1,3}}(?:{sign}[0-9]{{3}})+|[0-9]+)"
         return re.compile(
             rf"^[+-]?(?:(?:{whole}(?:{point}[0-9]*)?|{point}[0-9]+)(?:[eE][+-]?[0-9]+)?"
             r"|[iI][nN][fF](?:[iI][nN][iI][tT][yY])?|[nN][aA][nN])$"
         )
+
+
+def between_thousands(sign: str) -> str:
+    """A pattern of the sign between thousands, in all its forms."""
+    return f"[{re.escape(FORMS_OF.get(sign, sign))}]"
 
 
 def cells_of(line: str, separator: str) -> list[str]:

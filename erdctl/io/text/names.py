@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from erdctl.core.errors import InputProblem
-from erdctl.io.spelling import unit_spelt
+from erdctl.io.spelling import stated, unit_spelt
 from erdctl.io.text.cells import NUMBER, STAMP, cells_of, comment_of, kind_of
 from erdctl.io.text.options import TextOptions
 from erdctl.io.text.structure import Structure
@@ -53,6 +53,8 @@ def header_of(
                 f"--text header={line}: the samples begin in row {found.start}", file=file
             )
         names = _cells(lines[line - 1], found.separator, width)
+        if not _are_names(names):
+            raise InputProblem(f"--text header={line}: it holds no names", file=file, row=line)
     else:
         line = next((n for n in above if n != units_line), 0)
         names = _cells(lines[line - 1], found.separator, width) if line else []
@@ -68,7 +70,17 @@ def header_of(
         return Header(_numbered(width), 0, units_line, _by_name(_numbered(width), units))
     names = _fitted(names, found, line, file)
     whole = tuple(name or NUMBERED.format(i) for i, name in enumerate(names, 1))
-    return Header(whole, line, units_line, _by_name(whole, units))
+    by_name = _by_name(whole, units)
+    for name, unit in by_name.items():
+        beside = stated(name)[1]
+        if beside is not None and beside != unit:
+            raise InputProblem(
+                f"{beside} by its name and {unit} by the units in row {units_line}; say which"
+                f" holds, e.g. --text header={line},units=none for the names",
+                file=file,
+                column=name,
+            )
+    return Header(whole, line, units_line, by_name)
 
 
 def _cells(line: str, separator: str, width: int) -> list[str]:
@@ -99,8 +111,10 @@ def _is_title(names: Sequence[str], line: int, lines: Sequence[str], found: Stru
     """Whether a line is a sentence above the samples rather than their names."""
     if len(names) == 1:
         return True
-    apart = found.separator == " " and not lines[found.start - 2].strip()
-    return apart or (len(names) != found.width and comment_of(lines[line - 1]) is not None)
+    apart = not lines[found.start - 2].strip()
+    unlike = len(names) != found.width
+    comment = comment_of(lines[line - 1]) is not None
+    return (apart and (unlike or found.separator == " ")) or (unlike and comment)
 
 
 def _named_above(lines: Sequence[str], above: Sequence[int], line: int, found: Structure) -> bool:

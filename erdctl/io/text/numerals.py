@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from erdctl.core.errors import InputProblem
-from erdctl.io.text.options import DECIMALS, THOUSANDS, TextOptions
+from erdctl.io.text.options import DECIMALS, FORMS_OF, THOUSANDS, TextOptions
 
 _ONE = re.compile(r"(\d*)([.,])(\d*)")
 _CALLED = {sign: name for name, sign in (*THOUSANDS.items(), *DECIMALS.items())}
@@ -37,7 +37,7 @@ class Evidence:
         place = (cell, line)
         for sign in (" ", "'"):
             spread = mantissa
-            for other in {" ": "  ", "'": "’"}[sign]:
+            for other in FORMS_OF[sign]:
                 spread = spread.replace(other, sign)
             if sign in spread:
                 self.thousands.setdefault(sign, place)

@@ -14,6 +14,8 @@ TextSpec: TypeAlias = Mapping[str, object] | Sequence[str] | str | None
 SEPARATORS = {"comma": ",", "semicolon": ";", "tab": "\t", "bar": "|", "space": " "}
 DECIMALS = {"point": ".", "comma": ","}
 THOUSANDS = {"none": "", "point": ".", "comma": ",", "space": " ", "apostrophe": "'"}
+# Signs between thousands, in all their forms: blanks that do not break, printed apostrophes.
+FORMS_OF = {" ": " \u00a0\u202f", "'": "'\u2019", ".": ".", ",": ","}
 DATES = ("dmy", "mdy", "ymd")
 _EXAMPLE = '--text "separator=semicolon,decimal=comma,date=dmy"'
 
@@ -98,7 +100,7 @@ def _encoding(value: str) -> str:
     try:
         name = codecs.lookup(value).name
         b"".decode(name)  # `rot13` and the like are codecs of something else
-    except LookupError:
+    except (LookupError, TypeError, ValueError):
         raise _wrong("encoding", value, "a name like utf-8, utf-16-le, latin-1, gbk") from None
     return name
 

@@ -98,7 +98,11 @@ def structure_of(
 
 def _row(number: int, line: str, separator: str) -> Row:
     cells = tuple(cells_of(line, separator))
-    return Row(number, cells, tuple(map(kind_of, cells)))
+    kinds = [kind_of(cell) for cell in cells]
+    if separator == "," and '"' not in line:
+        # `0,001 295,79` is two numbers with decimal commas, not three with one of 1 295.
+        kinds = [TEXT if k == NUMBER and " " in c else k for c, k in zip(cells, kinds, strict=True)]
+    return Row(number, cells, tuple(kinds))
 
 
 def _score(rows: Sequence[Row]) -> float:
