@@ -15,7 +15,7 @@ POINT, COMMA = ".", ","
 
 
 @dataclass
-class Evidence:
+class SignsProven:
     """Cells that prove a sign, each with its line; the first of every kind.
 
     decimal : sign -> a cell in which it can only be the decimal sign
@@ -30,7 +30,13 @@ class Evidence:
     def add(self, cell: str, line: int) -> None:
         """Take a number into account.
 
-        Check: 0.5, 12,34 and 1.234E+3 prove; 1.234 does not; 1.234,5 proves both signs.
+        Check: 0.5 proves a decimal point, 1.234 nothing, 1.234,5 both signs.
+        >>> proven = evidence_of([("1.234", 1)])
+        >>> (proven.decimal, list(proven.either))
+        ({}, ['.'])
+        >>> proven = evidence_of([("1.234,5", 2), ("0.5", 3)])
+        >>> (sorted(proven.decimal), list(proven.thousands))
+        ([',', '.'], ['.'])
         """
         body = cell.lstrip("+-")
         mantissa, exponent, _ = body.lower().partition("e")
@@ -56,7 +62,7 @@ class Evidence:
             kept.setdefault(sign, place)
 
 
-def settle(found: Evidence, separator: str, options: TextOptions, file: str) -> tuple[str, str]:
+def settle(found: SignsProven, separator: str, options: TextOptions, file: str) -> tuple[str, str]:
     """The decimal sign and the thousands separator ("" for none).
 
     Raises InputProblem where the numbers contradict each other, or allow two readings.
@@ -85,7 +91,7 @@ def settle(found: Evidence, separator: str, options: TextOptions, file: str) -> 
     return decimal, sure[0] if sure else ""
 
 
-def _decimal(found: Evidence, separator: str, file: str) -> str:
+def _decimal(found: SignsProven, separator: str, file: str) -> str:
     signs = dict(found.decimal)
     for sign, place in found.thousands.items():
         if sign in (POINT, COMMA):
@@ -118,9 +124,9 @@ def _contradiction(one: tuple[str, int], two: tuple[str, int], *, file: str) -> 
     )
 
 
-def evidence_of(numbers: Iterable[tuple[str, int]]) -> Evidence:
+def evidence_of(numbers: Iterable[tuple[str, int]]) -> SignsProven:
     """What numbers, each with its line, prove."""
-    out = Evidence()
+    out = SignsProven()
     for cell, line in numbers:
         out.add(cell, line)
     return out

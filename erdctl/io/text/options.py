@@ -99,7 +99,7 @@ def _sign(key: str, value: str, known: Mapping[str, str]) -> str:
 def _encoding(value: str) -> str:
     try:
         name = codecs.lookup(value).name
-        b"".decode(name)  # `rot13` and the like are codecs of something else
+        "a".encode(name)  # `rot13` and the like are codecs of something else
     except (LookupError, TypeError, ValueError):
         raise _wrong("encoding", value, "a name like utf-8, utf-16-le, latin-1, gbk") from None
     return name

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -296,11 +295,11 @@ def combined(date: Read, time: Read) -> Read:
 
 
 def seconds_from_first(ns: Integers) -> npt.NDArray[np.float64]:
-    """(n,) seconds from the first sample.  Check: 5,000,000 ns after it is 0.005 s."""
+    """(n,) seconds from the first sample.
+
+    Check: 5,000,000 ns after it is 0.005 s.
+    >>> seconds_from_first(np.array([10**18, 10**18 + 5_000_000])).tolist()
+    [0.0, 0.005]
+    """
     out: npt.NDArray[np.float64] = (ns - ns[0]) / 1e9
     return out
-
-
-def forms_of(cells: Sequence[str]) -> set[str | None]:
-    """Forms that cells have."""
-    return {form_of(cell) for cell in cells}
