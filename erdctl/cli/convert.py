@@ -32,6 +32,11 @@ def command(
     (`p [bar]`; columns of a bench log are SI and have plain names), in field metadata of Parquet
     and Arrow, as the channel's unit in MDF4 and TDMS, and in the struct `units` of MAT.
 
+    Text: encoding, separator, decimal sign, header, row of units, dates and times are recognised,
+    and one line says what was assumed. Where two readings are possible, the command stops and names
+    the key of --text that decides. Columns are taken for those of a bench log where name and unit
+    are clear, as in `Displacement (mm)`; else --map says it, with a factor where a file is in volts.
+
     Time bases: channels with several rates are resampled to the times of force (without it, of x),
     motion and force linearly, the duty held; a gap that would be bridged is refused. The command
     says what it did. Libraries: MAT v5 to v7 needs none, the others pip install 'erdctl[formats]'.
@@ -41,6 +46,7 @@ def command(
       erdctl convert bench.mf4 bench.parquet
       erdctl convert bench.tdms bench.csv --map "x=Defl FL" --map "force=F_fl[kN]"
       erdctl convert bench.csv bench.mat
+      erdctl convert lab.txt bench.parquet --text decimal=comma --map "force=Load (N)[0.98 N]"
     """
     from erdctl.io.convert import read_converted
     from erdctl.io.tables import output_format, write_table

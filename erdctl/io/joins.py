@@ -66,7 +66,8 @@ def suspected(t: Array, x: Array, starts: Index) -> tuple[int, float, float] | N
     if worst < FEWEST or t.size - worst < FEWEST:
         return None
     near = slice(max(0, worst - _BLOCK), min(t.size, worst + _BLOCK))
-    rest = np.abs(np.diff(x[near]) / np.diff(t[near]))
+    with np.errstate(all="ignore"):  # times that do not grow are found elsewhere
+        rest = np.abs(np.diff(x[near]) / np.diff(t[near]))
     rest[worst - near.start - 1] = 0.0
     top = float(rest.max())
     if not 0.0 < top < speed / SPEEDS:
