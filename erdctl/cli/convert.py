@@ -35,7 +35,7 @@ def command(
     Text: encoding, separator, decimal sign, header, row of units, dates and times are recognised,
     and one line says what was assumed. Where two readings are possible, the command stops and names
     the key of --text that decides. Columns are taken for those of a bench log where name and unit
-    are clear, as in `Displacement (mm)`; else --map says it, with a factor where a file is in volts.
+      erdctl convert lab.txt out.parquet --text decimal=comma --map "force=Load (N)[0.98 N]"
 
     Time bases: channels with several rates are resampled to the times of force (without it, of x),
     motion and force linearly, the duty held; a gap that would be bridged is refused. The command
