@@ -35,7 +35,7 @@ def command(
     Text: encoding, separator, decimal sign, header, row of units, dates and times are recognised,
     and one line says what was assumed. Where two readings are possible, the command stops and names
     the key of --text that decides. Columns are taken for those of a bench log where name and unit
-      erdctl convert lab.txt out.parquet --text decimal=comma --map "force=Load (N)[0.98 N]"
+    are clear, as in `Displacement (mm)`; else --map says it, for a file in volts with a factor.
 
     Time bases: channels with several rates are resampled to the times of force (without it, of x),
     motion and force linearly, the duty held; a gap that would be bridged is refused. The command
@@ -46,7 +46,7 @@ def command(
       erdctl convert bench.mf4 bench.parquet
       erdctl convert bench.tdms bench.csv --map "x=Defl FL" --map "force=F_fl[kN]"
       erdctl convert bench.csv bench.mat
-      erdctl convert lab.txt bench.parquet --text decimal=comma --map "force=Load (N)[0.98 N]"
+      erdctl convert lab.txt out.parquet --text decimal=comma --map "force=Load (N)[0.98 N]"
     """
     from erdctl.io.convert import read_converted
     from erdctl.io.tables import output_format, write_table
