@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from erdctl.cli.options import Maps, OutputFormat
+from erdctl.cli.options import Maps, OutputFormat, Text
 
 
 def command(
@@ -15,6 +15,7 @@ def command(
         str, typer.Argument(metavar="OUT", help="Where to, format by suffix; - is stdout.")
     ],
     maps: Maps = [],
+    text: Text = [],
     format: Annotated[
         OutputFormat | None, typer.Option(help="Format of OUT, whatever its suffix; stdout: CSV.")
     ] = None,
@@ -31,6 +32,11 @@ def command(
     (`p [bar]`; columns of a bench log are SI and have plain names), in field metadata of Parquet
     and Arrow, as the channel's unit in MDF4 and TDMS, and in the struct `units` of MAT.
 
+    Text: encoding, separator, decimal sign, header, row of units, dates and times are recognised,
+    and one line says what was assumed. Where two readings are possible, the command stops and names
+    the key of --text that decides. Columns are taken for those of a bench log where name and unit
+    are clear, as in `Displacement (mm)`; else --map says it, for a file in volts with a factor.
+
     Time bases: channels with several rates are resampled to the times of force (without it, of x),
     motion and force linearly, the duty held; a gap that would be bridged is refused. The command
     says what it did. Libraries: MAT v5 to v7 needs none, the others pip install 'erdctl[formats]'.
@@ -40,6 +46,7 @@ def command(
       erdctl convert bench.mf4 bench.parquet
       erdctl convert bench.tdms bench.csv --map "x=Defl FL" --map "force=F_fl[kN]"
       erdctl convert bench.csv bench.mat
+      erdctl convert lab.txt out.parquet --text decimal=comma --map "force=Load (N)[0.98 N]"
     """
     from erdctl.io.convert import read_converted
     from erdctl.io.tables import output_format, write_table
@@ -49,6 +56,6 @@ def command(
     output_format(output, wanted)  # a wrong suffix shows before a long reading
     with progress() as step:
         step("reading", log)
-        table = read_converted(log, maps=maps, say=say)
+        table = read_converted(log, maps=maps, text=text, say=say)
         step("writing", output)
         write_table(table, output, wanted)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from erdctl.cli.options import Logs, Maps, Out
+from erdctl.cli.options import Logs, Maps, Out, Text, Where
 from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
 from erdctl.cli.rig import Accept, Strict
@@ -67,6 +67,8 @@ def command(
     ] = False,
     report: Report = None,
     maps: Maps = [],
+    text: Text = [],
+    where: Where = [],
     plot: Plots = [],
     accept: Accept = [],
     strict: Strict = False,
@@ -115,7 +117,9 @@ def command(
     check_report(report)
     asked = wanted(plot, "before-after")
     given, file = _given(params, logs)
-    log = read_logs(logs, maps=maps, need_force=True, want_hash=True, report=say)
+    log = read_logs(
+        logs, maps=maps, text=text, where=where, need_force=True, want_hash=True, report=say
+    )
     tested = candidates(_names(only), _names(exclude))
     with progress() as step:
         found = diagnose(

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from erdctl.cli.options import Logs, Maps, Out
+from erdctl.cli.options import Logs, Maps, Out, Text, Where
 from erdctl.cli.pictures import Plots
 from erdctl.cli.rig import Accept, Strict
 from erdctl.estimate.method import Method
@@ -20,6 +20,8 @@ def command(
     logs: Logs,
     output: Out = "-",
     maps: Maps = [],
+    text: Text = [],
+    where: Where = [],
     method: Annotated[
         Method, typer.Option(help="Fit all parameters jointly, or as the paper does (Sec. 4).")
     ] = Method.JOINT,
@@ -54,7 +56,9 @@ def command(
     from erdctl.report.text import progress, say
 
     asked = wanted(plot, "loops")
-    log = read_logs(logs, maps=maps, need_force=True, want_hash=True, report=say)
+    log = read_logs(
+        logs, maps=maps, text=text, where=where, need_force=True, want_hash=True, report=say
+    )
     rig = look(log.recording).accept(accept)
     rig.refuse()
     show(rig)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from erdctl.cli.options import Logs, Maps
+from erdctl.cli.options import Logs, Maps, Text, Where
 from erdctl.cli.rig import Strict
 
 if TYPE_CHECKING:
@@ -23,6 +23,8 @@ def command(
     logs: Logs,
     as_json: Annotated[bool, typer.Option("--json", help="Everything as JSON on stdout.")] = False,
     maps: Maps = [],
+    text: Text = [],
+    where: Where = [],
     strict: Strict = False,
 ) -> None:
     """Say what is in a log, and what it can and cannot show, before anything is fitted.
@@ -55,7 +57,14 @@ def command(
     from erdctl.report.text import progress, say
 
     log = read_logs(
-        logs, maps=maps, need_force=False, want_force=True, want_hash=as_json, report=say
+        logs,
+        maps=maps,
+        text=text,
+        where=where,
+        need_force=False,
+        want_force=True,
+        want_hash=as_json,
+        report=say,
     )
     with progress() as step:
         step("inspecting", f"{len(log.recording)} samples")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from erdctl.cli.options import Faults, Maps, Out, OutputFormat, Params
+from erdctl.cli.options import Faults, Maps, Out, OutputFormat, Params, Text, Where
 from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
 
@@ -59,6 +59,8 @@ def command(
     ] = False,
     report: Report = None,
     maps: Maps = [],
+    text: Text = [],
+    where: Where = [],
     format: Annotated[
         OutputFormat | None, typer.Option(help="Format on stdout; default CSV.")
     ] = None,
@@ -109,7 +111,14 @@ def command(
     data = documents.read_bytes(params)
     parameters = parse_parameters(data, "stdin" if params == "-" else params)
     read = read_logs(
-        [log], maps=maps, need_force=False, keep_table=True, want_hash=True, report=say
+        [log],
+        maps=maps,
+        text=text,
+        where=where,
+        need_force=False,
+        keep_table=True,
+        want_hash=True,
+        report=say,
     )
     heat = too_hot(read.recording, max_temperature)
     if heat is not None and not force:

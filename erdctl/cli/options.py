@@ -34,6 +34,23 @@ Maps = Annotated[
         help="A log's own column and unit, e.g. --map 'x=Defl FL[mm]'. May be repeated.",
     ),
 ]
+Text = Annotated[
+    list[str],
+    typer.Option(
+        "--text",
+        metavar="KEY=VALUE,...",
+        help="How a text log is written, where that is not clear: encoding, separator, decimal,"
+        " thousands, date, header, units, interval; e.g. --text decimal=comma,date=dmy.",
+    ),
+]
+Where = Annotated[
+    list[str],
+    typer.Option(
+        "--where",
+        metavar="COLUMN=VALUE",
+        help="Only these rows of a log, e.g. one damper: --where damper=FL. May be repeated.",
+    ),
+]
 Out = Annotated[str, typer.Option("--output", "-o", metavar="FILE", help="Where to; - is stdout.")]
 Faults = Annotated[
     list[str],

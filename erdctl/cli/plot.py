@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from erdctl.cli.options import Faults, Logs, Maps
+from erdctl.cli.options import Faults, Logs, Maps, Text, Where
 
 if TYPE_CHECKING:
     from erdctl.io.logs import Log
@@ -38,6 +38,8 @@ def command(
         typer.Option(metavar="START:END", help="Only this time of each record, in s."),
     ] = None,
     maps: Maps = [],
+    text: Text = [],
+    where: Where = [],
 ) -> None:
     """Draw a bench log, and models over it.
 
@@ -87,7 +89,16 @@ def command(
         raise UsageProblem("only one of LOG, --params and --before can be stdin")
     others = PROGRAMME if wants(asked, "programme") else ()
     prepare()
-    log = read_logs(logs, maps=maps, need_force=False, want_force=True, others=others, report=say)
+    log = read_logs(
+        logs,
+        maps=maps,
+        text=text,
+        where=where,
+        need_force=False,
+        want_force=True,
+        others=others,
+        report=say,
+    )
     subject = _subject(log, params, before, fault, regions=wants(asked, "regions"))
     draw(asked, part(subject, record, window))
 

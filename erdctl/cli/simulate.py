@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from erdctl.cli.options import Faults, Maps, Out, OutputFormat, Params
+from erdctl.cli.options import Faults, Maps, Out, OutputFormat, Params, Text, Where
 from erdctl.cli.pictures import Plots
 
 
@@ -26,6 +26,8 @@ def command(
     ] = [],
     fault: Faults = [],
     maps: Maps = [],
+    text: Text = [],
+    where: Where = [],
     format: Annotated[
         OutputFormat | None, typer.Option(help="Format on stdout; default CSV.")
     ] = None,
@@ -60,7 +62,9 @@ def command(
     if log is not None:
         from erdctl.cli.reading import read_logs
 
-        read = read_logs([log], maps=maps, need_force=False, keep_table=True, report=say)
+        read = read_logs(
+            [log], maps=maps, text=text, where=where, need_force=False, keep_table=True, report=say
+        )
         recording, table = read.recording, read.table
         assert table is not None
     else:

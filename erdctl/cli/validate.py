@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from erdctl.cli.options import Maps
+from erdctl.cli.options import Maps, Text, Where
 from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
 from erdctl.cli.rig import Accept, Strict
@@ -33,6 +33,8 @@ def command(
     ] = "range",
     report: Report = None,
     maps: Maps = [],
+    text: Text = [],
+    where: Where = [],
     plot: Plots = [],
     accept: Accept = [],
     strict: Strict = False,
@@ -64,7 +66,15 @@ def command(
     want_hash = report is not None
     asked, parameters = wanted(plot, "loops"), None
     if len(arguments) == 1:
-        log = read_logs(arguments, maps=maps, need_force=True, want_hash=want_hash, report=say)
+        log = read_logs(
+            arguments,
+            maps=maps,
+            text=text,
+            where=where,
+            need_force=True,
+            want_hash=want_hash,
+            report=say,
+        )
         modelled = log.force_model
         if modelled is None:
             raise InputProblem(
@@ -79,7 +89,15 @@ def command(
         if params == "-" and "-" in logs:
             raise UsageProblem("PARAMS and LOG cannot both be stdin")
         parameters = read_parameters(params)
-        log = read_logs(logs, maps=maps, need_force=True, want_hash=want_hash, report=say)
+        log = read_logs(
+            logs,
+            maps=maps,
+            text=text,
+            where=where,
+            need_force=True,
+            want_hash=want_hash,
+            report=say,
+        )
         for line in remarks(parameters, log.recording):
             say(line)
         with progress() as step:

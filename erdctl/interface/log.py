@@ -21,6 +21,7 @@ from erdctl.io.inspection import to_json
 from erdctl.io.logs import Log, read_logs
 from erdctl.io.stored import PLAIN, si
 from erdctl.io.tables import append_column, table_of, write_table
+from erdctl.io.text.options import TextSpec
 from erdctl.io.units import UNITS, listed
 from erdctl.report.subject import Subject
 from erdctl.report.subjects import PROGRAMME, about, programme
@@ -156,17 +157,21 @@ class BenchLog:
         ]
 
 
-def read(paths: Logs, *, map: Maps = None) -> BenchLog:
+def read(paths: Logs, *, map: Maps = None, text: TextSpec = None, where: Maps = None) -> BenchLog:
     """Read and check one or more bench logs.
 
-    paths : a path, a pandas DataFrame, or a list of them. Files are CSV, Parquet, Arrow, MAT, MDF4
-        or TDMS, as the command line reads them. Needed are time t [s] and deflection x [m,
-        compression +]; xdot [m/s], duty [0..1], force [N], temperature [degC] and record (the name
-        of the test that a sample belongs to) are taken where they are there. xdot is derived from
-        x where it is missing, and a missing duty is 0. A named index of a frame is a column.
+    paths : a path, a pandas DataFrame, or a list of them. Files are CSV or another lab's text,
+        Parquet, Arrow, MAT, MDF4 or TDMS, as the command line reads them. Needed are time t [s]
+        and deflection x [m, compression +]; xdot [m/s], duty [0..1], force [N], temperature [degC]
+        and record (the name of the test that a sample belongs to) are taken where they are there.
+        xdot is derived from x where it is missing, and a missing duty is 0. A named index of a
+        frame is a column.
     map : which of the log's own columns is which, and its unit, where that differs:
         {"x": "Defl FL[mm]", "force": "F_fl[kN]"}, or as on the command line ["x=Defl FL[mm]"].
         A minus before the name changes the sign.
+    text : how a text log is written, where that is not clear: {"decimal": "comma", "date": "dmy"},
+        or as on the command line "decimal=comma,date=dmy"
+    where : only these rows, {"damper": "FL"}
 
     Returns a BenchLog: `.table()` samples in SI as a frame, `.plot()`, `.recording` with arrays,
     `.write(path)` in another format. What was assumed, converted or derived is in `.remarks`, and
@@ -179,13 +184,15 @@ def read(paths: Logs, *, map: Maps = None) -> BenchLog:
         log = erdctl.read("lab.csv", map={"t": "Time[ms]", "x": "Defl FL[mm]", "force": "F_fl[N]"})
         log.plot("motion", span=(0, 5))
     """
-    return open_log(paths, map=map, want_force=True, keep_table=True)
+    return open_log(paths, map=map, text=text, where=where, want_force=True, keep_table=True)
 
 
 def open_log(
     paths: Logs,
     *,
     map: Maps = None,
+    text: TextSpec = None,
+    where: Maps = None,
     need_force: bool = False,
     want_force: bool = False,
     keep_table: bool = False,
@@ -207,8 +214,8 @@ def open_log(
         names.append(name)
     remarks: list[str] = []
     log = read_logs(
-        names, maps=maps_of(map), need_force=need_force, want_force=want_force,
-        keep_table=keep_table and len(names) == 1, want_hash=True,
+        names, maps=maps_of(map), text=text, where=maps_of(where), need_force=need_force,
+        want_force=want_force, keep_table=keep_table and len(names) == 1, want_hash=True,
         others=PROGRAMME if want_force else (), held=held, report=remarks.append,
     )  # fmt: skip
     return BenchLog(log, tuple(remarks))

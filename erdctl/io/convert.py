@@ -12,18 +12,22 @@ from erdctl.io.memory import check_fits
 from erdctl.io.plan import in_contract_names, plan_columns, read_planned
 from erdctl.io.sources import open_source
 from erdctl.io.stored import si, units_apart, with_unit
+from erdctl.io.text.options import TextOptions, TextSpec, parse_text_options
 from erdctl.io.units import RECORD, Conversion, parse_maps
 
 
-def read_converted(path: str, *, maps: Sequence[str] = (), say: Callable[[str], None]) -> pa.Table:
+def read_converted(
+    path: str, *, maps: Sequence[str] = (), text: TextSpec = None, say: Callable[[str], None]
+) -> pa.Table:
     """All columns of a file; those of the contract under its names and in SI, others as they are.
 
     Nothing is required of it: it need not be a whole log.
-    maps : `--map` options;  say : takes a line for everything that was assumed or converted
+    maps, text : options `--map` and `--text`;  say : takes a line for all that was assumed
     Raises UsageProblem, InputProblem as `read_logs` does.
     """
     mappings = parse_maps(maps)
-    source = open_source(path)
+    written = parse_text_options(text)
+    source = open_source(path, text=None if written == TextOptions() else written)
 
     def note(line: str) -> None:
         say(f"{source.name}: {line}")

@@ -62,8 +62,6 @@ _FOREIGN = {
     b"PK\x03\x04": "an Excel or zip file; export it as CSV",
     b"TDSh": "the index of a TDMS file; give the .tdms file itself",
     b"FEA1": "an old Feather file; write it anew as Parquet",
-    b"\xff\xfe": "UTF-16 text; export it as UTF-8",
-    b"\xfe\xff": "UTF-16 text; export it as UTF-8",
 }
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from types import MappingProxyType
 
 import numpy as np
@@ -17,10 +18,14 @@ from erdctl.io.arrays import arrow, runs_of_text
 from erdctl.io.checks import Place, check_time, check_values, remark_on_time
 from erdctl.io.columns import to_numbers, to_records
 from erdctl.io.consistency import check_consistency
+from erdctl.io.dampers import Where, chosen_rows, needed_columns, parse_where
+from erdctl.io.joins import runs
 from erdctl.io.memory import check_fits
 from erdctl.io.plan import ColumnPlan, Report, in_contract_names, plan_columns, read_planned
+from erdctl.io.problems import Problems
 from erdctl.io.sources import STDIN, TableSource, open_source
 from erdctl.io.stored import si, with_unit
+from erdctl.io.text.options import TextOptions, TextSpec, parse_text_options
 from erdctl.io.units import RECORD, Conversion, parse_maps
 
 Held = Mapping[str, bytearray]
@@ -61,6 +66,8 @@ def read_logs(
     paths: Sequence[str],
     *,
     maps: Sequence[str] = (),
+    text: TextSpec = None,
+    where: Sequence[str] = (),
     need_force: bool,
     want_force: bool = False,
     keep_table: bool = False,
@@ -71,7 +78,7 @@ def read_logs(
 ) -> Log:
     """Read and validate bench logs (any format of `Format`; "-" is standard input).
 
-    maps : `--map` options, for all logs alike
+    maps, text, where : options `--map`, `--text` and `--where`, for all logs alike
     need_force : else force is read only if mapped, or with want_force where the log has it
     keep_table : keep all columns, for a single log;  want_hash : SHA-256 of each log
     others : columns of numbers to read where they are there, of a single log
@@ -79,19 +86,21 @@ def read_logs(
     report : takes a line for everything that was assumed or derived
 
     Records keep their names; of several logs they become "stem:record". A log without a column
-    `record` is one record called like the file.
+    `record` is one record called like the file, or several where its time begins anew.
     Raises UsageProblem (no such file, wrong map), InputProblem with file, row and column.
     """
     if not paths:
         raise UsageProblem("no log given")
     if keep_table and len(paths) > 1:
         raise ValueError("keep_table is for a single log")
-    mappings = parse_maps(maps)
+    mappings, chosen, written = parse_maps(maps), parse_where(where), parse_text_options(text)
     _refuse_repeated(paths)
     logs = [
         _read(
             path,
             mappings,
+            text=None if written == TextOptions() else written,
+            where=chosen,
             need_force=need_force,
             want_force=want_force or need_force,
             keep_table=keep_table,
@@ -108,6 +117,9 @@ def read_logs(
         replace(log.recording, names=_qualified(log.recording.names, label))
         for log, label in zip(logs, _labels(paths), strict=True)
     ]
+    pooled = ", ".join(p if p != STDIN else "stdin" for p in paths[:8])
+    more = "" if len(paths) <= 8 else f" and {len(paths) - 8} more"
+    report(f"{len(paths)} logs are taken together as one damper: {pooled}{more}")
     if len({r.temperature is None for r in recordings}) > 1:
         report("not all logs have a column temperature; it is left out")
     models = [log.force_model for log in logs if log.force_model is not None]
@@ -123,6 +135,8 @@ def _read(
     path: str,
     mappings: Sequence[units.Mapping],
     *,
+    text: TextOptions | None,
+    where: Sequence[Where],
     need_force: bool,
     want_force: bool,
     keep_table: bool,
@@ -131,7 +145,7 @@ def _read(
     held: Held,
     report: Report,
 ) -> Log:
-    source = open_source(path, held.get(path))
+    source = open_source(path, held.get(path), text=text)
 
     def say(line: str) -> None:
         report(f"{source.name}: {line}")
@@ -145,7 +159,8 @@ def _read(
     )
     planned = [column for column, _ in plan.values()]
     extra = [name for name in others if name in source.columns and name not in planned]
-    wanted = source.columns if keep_table else (*planned, *extra)
+    choosing = needed_columns(source.columns, where, source.name)
+    wanted = source.columns if keep_table else tuple(dict.fromkeys([*planned, *extra, *choosing]))
     check_fits(source, len(wanted))
     table, plan, digest = read_planned(
         source, plan, mappings, wanted, others=extra, want_hash=want_hash, say=say
@@ -153,22 +168,34 @@ def _read(
     rows = table.num_rows
     if not rows:
         raise InputProblem("a header but no samples", file=source.name)
-    place = Place(source.name, lambda sample: source.row_of(sample, rows))
+    kept = chosen_rows(table, where, source.name) if choosing else None
+    table = table if kept is None else table.take(kept)
+    place = Place(
+        source.name,
+        lambda sample: source.row_of(sample if kept is None else int(kept[sample]), rows),
+    )
     found = {name: to_numbers(table.column(name), name, place) for name in extra}
     table = in_contract_names(table, plan, say)
     starts, names = _records(table, plan, place)
     narrow = table.schema.field("t").type == pa.float32()
     channels: dict[str, Array] = {}
+    problems = Problems(source.name)
     for target in [t for t in plan if t != RECORD]:
         column, convert = plan[target]
-        values = convert(to_numbers(table.column(target), column, place))
-        check_values(target, values, place, source=column)
+        numbers = problems.attempt(partial(to_numbers, table.column(target), column, place))
+        if numbers is None:
+            continue
+        values = convert(numbers)
+        problems.attempt(partial(check_values, target, values, place, source=column))
         # Column by column, so that at most one of them is in memory twice.
         if keep_table:
             table = _with_channel(table, target, values, converted=convert != Conversion())
         else:
             table = table.drop_columns(target)
         channels[target] = values
+    problems.settle()
+    if RECORD not in plan:
+        starts, names = runs(channels["t"], channels["x"], starts, _stem(path), place, say)
     recording = _recording(channels, starts, names, place, plan, narrow=narrow, say=say)
     recording = replace(
         recording,
@@ -278,4 +305,4 @@ def _labels(paths: Sequence[str]) -> list[str]:
 
 
 def _qualified(names: Sequence[str], label: str) -> tuple[str, ...]:
-    return tuple(n if n == label else f"{label}:{n}" for n in names)
+    return tuple(n if n.split(":")[0] == label else f"{label}:{n}" for n in names)

@@ -18,6 +18,8 @@ from erdctl.io.stored import units_of
 if TYPE_CHECKING:
     from erdctl.io.containers.isolated import Container
     from erdctl.io.roles import Roles
+    from erdctl.io.text.layout import TextLayout
+    from erdctl.io.text.options import TextOptions
 
 Data = str | bytearray  # the path of a file, or the bytes of a stream
 T = TypeVar("T")
@@ -32,6 +34,7 @@ class TableSource:
 
     path : as given;  name : for messages;  data : the path of a file, or the bytes of a stream
     schema : None for CSV and containers;  layout : of a container (MAT, MDF4, TDMS), else None
+    text : how a text file is written, None for plain CSV
     units : as the file states them for columns, apart from those in names like `x [mm]`
     rows : as the file states them, None if it does not
     """
@@ -44,6 +47,7 @@ class TableSource:
     schema: pa.Schema | None = None
     units: Mapping[str, str] = field(default_factory=dict)
     layout: Container | None = None
+    text: TextLayout | None = None
     rows: int | None = None
 
     @property
@@ -53,6 +57,10 @@ class TableSource:
 
     def row_of(self, sample: int, samples: int) -> int:
         """Row of a sample (counted from 0) as InputProblem states rows; samples : how many."""
+        if self.text is not None and not self.text.ordinary:
+            from erdctl.io.text import rows
+
+            return rows.row_of(self.data, self.text, sample)
         if self.format is Format.CSV:
             from erdctl.io import csv_in
 
@@ -65,10 +73,13 @@ class TableSource:
         return os.path.getsize(self.data) if isinstance(self.data, str) else len(self.data)
 
 
-def open_source(path: str, held: Data | None = None) -> TableSource:
+def open_source(
+    path: str, held: Data | None = None, *, text: TextOptions | None = None
+) -> TableSource:
     """Look at a file, or take all of standard input for `-`; samples are not read yet.
 
     held : the bytes of the file where they are in memory; `path` is then only what it is called
+    text : what is given of how a text file is written
     Raises UsageProblem if it cannot be opened, InputProblem if it is no table.
     """
     name = "stdin" if path == STDIN else path
@@ -79,7 +90,7 @@ def open_source(path: str, held: Data | None = None) -> TableSource:
     else:
         head = bytes(data[:64])
     found = by_content(head, path, name)
-    schema, rows, units = None, None, dict[str, str]()
+    schema, rows, units, written = None, None, dict[str, str](), None
     if found in CONTAINERS:
         from erdctl.io.containers.isolated import open_isolated
 
@@ -89,8 +100,13 @@ def open_source(path: str, held: Data | None = None) -> TableSource:
         )
     if found is Format.CSV:
         from erdctl.io import csv_in
+        from erdctl.io.plain import is_plain
 
-        columns = csv_in.column_names(data, name)
+        written = None if text is None and is_plain(data) else _recognised(data, name, text)
+        if written is not None:
+            columns, units = list(written.columns), written.units
+        else:
+            columns = csv_in.column_names(data, name)
     else:
         schema, columns, units, rows = _guarded(name, found, lambda: _described(data, found, name))
     if not columns:
@@ -102,7 +118,18 @@ def open_source(path: str, held: Data | None = None) -> TableSource:
                 " rename one",
                 file=name,
             )
-    return TableSource(path, name, found, data, tuple(columns), schema, units, rows=rows)
+    return TableSource(
+        path, name, found, data, tuple(columns), schema, units, text=written, rows=rows
+    )
+
+
+def _recognised(data: Data, name: str, options: TextOptions | None) -> TextLayout | None:
+    """How a text is written; None for plain CSV, which is read faster and explained better."""
+    from erdctl.io.text.layout import recognise
+    from erdctl.io.text.options import TextOptions
+
+    found = recognise(data, name, options or TextOptions())
+    return None if found is None or (found.ordinary and not found.forms) else found
 
 
 def read_source(
@@ -125,6 +152,15 @@ def read_source(
     names = source.columns if columns is None else tuple(columns)
 
     def read() -> pa.Table:
+        text = source.text
+        if text is not None and not (text.ordinary and text.forms.keys().isdisjoint(numbers)):
+            from erdctl.io.text.body import read_text
+
+            table, notes = read_text(source.data, text, source.name, names, numbers)
+            if roles is not None:
+                for note in notes:
+                    roles.say(note)
+            return table
         if source.format is Format.CSV:
             from erdctl.io import csv_in
 

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.core.recording import Array
+from erdctl.io.spelling import name_and_unit as name_and_unit
+from erdctl.io.spelling import stated
 
 if TYPE_CHECKING:
     import pint
@@ -69,7 +71,11 @@ _BETWEEN = r"(?:\s*[*/·⋅]\s*|\s+)"
 _PLAIN_FACTOR = rf"{_NAME}{_POWER}"
 _FACTOR = rf"(?:{_PLAIN_FACTOR}|\({_PLAIN_FACTOR}(?:{_BETWEEN}{_PLAIN_FACTOR})*\){_POWER})"
 _UNIT = rf"{_FACTOR}(?:{_BETWEEN}{_FACTOR})*"
-_BRACKETS = re.compile(r"(?P<name>.*\S)\s*\[(?P<unit>[^\[\]]*)\]\s*", re.DOTALL)
+# `980.665 N`: so much of the unit for 1 in the file.
+_SCALED = re.compile(
+    r"(?P<factor>(?:[0-9]{1,15}\.?[0-9]{0,15}|\.[0-9]{1,15})(?:[eE][+-]?[0-9]{1,2})?)"
+    r"(?:\s*[*·]?\s*(?P<unit>[^0-9\s.*].*))?"
+)
 
 
 @dataclass(frozen=True)
@@ -157,33 +163,40 @@ def parse_maps(specs: Sequence[str]) -> tuple[Mapping, ...]:
     Raises UsageProblem for unknown or repeated columns and for wrong units.
     """
     out: list[Mapping] = []
+    wrong: list[str] = []
     for spec in specs:
-        target, equals, source = (part.strip() for part in spec.partition("="))
-        if not (target and equals and source):
-            raise UsageProblem(
-                f'--map "{spec}": write COLUMN=NAME[UNIT], e.g. --map "force=F_fl[N]"'
-            )
-        if target not in TARGETS:
-            from difflib import get_close_matches
-
-            close = get_close_matches(target, TARGETS, 1, 0.4)
-            hint = f"did you mean '{close[0]}'? " if close else ""
-            raise UsageProblem(
-                f"--map \"{spec}\": unknown column '{target}'; {hint}Columns are"
-                f" {', '.join(TARGETS)}"
-            )
-        for other in out:
-            if other.target == target:
-                raise UsageProblem(f"--map: '{target}' is mapped twice, keep one of the two")
-            if other.source == source:
-                raise UsageProblem(
-                    f"--map: '{source}' is mapped to both '{other.target}' and '{target}'"
-                )
-        mapping = Mapping(target, source, spec)
-        if mapping.unit is not None and target != RECORD:
-            conversion(mapping.unit, target, spec)
-        out.append(mapping)
+        try:
+            out.append(_parsed(spec, out))
+        except UsageProblem as error:
+            wrong.append(str(error))
+    if wrong:
+        raise UsageProblem(";\n".join(wrong))
     return tuple(out)
+
+
+def _parsed(spec: str, before: Sequence[Mapping]) -> Mapping:
+    target, equals, source = (part.strip() for part in spec.partition("="))
+    if not (target and equals and source):
+        raise UsageProblem(f'--map "{spec}": write COLUMN=NAME[UNIT], e.g. --map "force=F_fl[N]"')
+    if target not in TARGETS:
+        from difflib import get_close_matches
+
+        close = get_close_matches(target, TARGETS, 1, 0.4)
+        hint = f"did you mean '{close[0]}'? " if close else ""
+        raise UsageProblem(
+            f"--map \"{spec}\": unknown column '{target}'; {hint}Columns are {', '.join(TARGETS)}"
+        )
+    for other in before:
+        if other.target == target:
+            raise UsageProblem(f"--map: '{target}' is mapped twice, keep one of the two")
+        if other.source == source:
+            raise UsageProblem(
+                f"--map: '{source}' is mapped to both '{other.target}' and '{target}'"
+            )
+    mapping = Mapping(target, source, spec)
+    if mapping.unit is not None and target != RECORD:
+        conversion(mapping.unit, target, spec)
+    return mapping
 
 
 def conversion(unit: str, target: str, spec: str) -> Conversion:
@@ -243,6 +256,11 @@ def between(given: str, wanted: str) -> Conversion:
     given = "" if given in _PLAIN else given
     if given == wanted:
         return Conversion()
+    scaled = _SCALED.fullmatch(given)
+    if scaled is not None and Fraction(scaled["factor"]) > 0:
+        # Volts of a sensor: 980.665 N stands for each.
+        of_one = between(scaled["unit"] or "", wanted)
+        return Conversion(Fraction(scaled["factor"]) * of_one.factor, of_one.offset)
     import pint
 
     if given and not re.fullmatch(_UNIT, given):
@@ -277,12 +295,6 @@ def _kind(unit: pint.Unit) -> str:
     return "something else"
 
 
-def name_and_unit(name: str) -> tuple[str, str | None]:
-    """A column's name and the unit in brackets behind it: `Defl FL [mm]`."""
-    found = _BRACKETS.fullmatch(name)
-    return (found["name"], found["unit"]) if found else (name, None)
-
-
 def _find(source: str, columns: Sequence[str]) -> tuple[str, str | None] | None:
     name, unit = name_and_unit(source)
     if source in columns:
@@ -295,4 +307,11 @@ def _find(source: str, columns: Sequence[str]) -> tuple[str, str | None] | None:
         if parts == (name, unit):
             return column, unit
     same = [c for c, parts in parted.items() if parts[0] == name and unit is None]
-    return (same[0], parted[same[0]][1]) if len(same) == 1 else None
+    if len(same) == 1:
+        return same[0], parted[same[0]][1]
+    # `Displacement` for `Displacement (mm)`, whose unit is the file's to state
+    other = [c for c in columns if stated(c)[0] == name and c not in same]
+    if len(other) == 1 and not same:
+        return other[0], unit
+    blank = [c for c in columns if c.strip() in (source, name)]
+    return (blank[0], unit) if len(blank) == 1 and not same else None

@@ -47,6 +47,15 @@ def converted(path: Path) -> None:
     assert done.exit_code == 0, done.stderr
 
 
+def lab_text(path: Path) -> None:
+    """A text as a lab writes it: tabs, decimal commas, units in names, a line above."""
+    log = pd.read_csv(FIXTURES / "foreign.csv")
+    log = log[["Time", "Defl FL", "F_fl", "PWM"]]
+    log.columns = ["Time (ms)", "Deflection (mm)", "Load (N)", "PWM (%)"]
+    table = log.to_csv(index=False, sep="\t", decimal=",", lineterminator="\r\n")
+    path.write_text("Bench 3\r\n" + table, encoding="utf-16", newline="")
+
+
 def lab_tdms(path: Path) -> None:
     """A TDMS file as a lab writes it: own names, deflection in mm, force in kN."""
     nptdms = pytest.importorskip("nptdms")
@@ -73,6 +82,7 @@ FILES: dict[str, Make] = {
     "other.csv": bench("steps_2", "random_2"),
     "new.csv": bench("steps_4", "random_2"),
     "lab.csv": copy("foreign.csv"),
+    "lab.txt": lab_text,
     "drive.csv": copy("schedule_60s.csv"),
     "dyno.csv": bench("sine_2Hz_11mm_pwm0", "sine_0.5Hz_20mm_pwm0", "steps_1"),
     "damper.json": copy("table_2.json"),

@@ -333,7 +333,10 @@ def test_temperature_must_be_in_all(
     assert read(one).recording.temperature is not None
     assert said == []
     assert read(one, two).recording.temperature is None
-    assert said == ["not all logs have a column temperature; it is left out"]
+    assert said == [
+        f"2 logs are taken together as one damper: {one}, {two}",
+        "not all logs have a column temperature; it is left out",
+    ]
 
 
 def test_a_log_given_twice(columns: Columns, write: Write, read: Read, tmp_path: Path) -> None:

@@ -1,0 +1,83 @@
+"""Lines as cells, and what a cell looks like: a number, a date or time, text, nothing."""
+
+from __future__ import annotations
+
+import csv
+import re
+from dataclasses import dataclass
+
+from erdctl.io.text.options import FORMS_OF
+from erdctl.io.text.stamps import is_stamp
+
+NUMBER, STAMP, TEXT, EMPTY = "N", "D", "T", ""
+
+# A number in any dialect, for recognition only.
+_BLANKS, _MARKS = FORMS_OF[" "], FORMS_OF["'"]
+_ANY_NUMBER = re.compile(
+    rf"[+-]?(?:(?=[.,]?\d)(?:[1-9]\d{{0,2}}(?:[{_BLANKS}]\d{{3}})+"
+    rf"|[1-9]\d{{0,2}}(?:[{_MARKS}]\d{{3}})+|[\d.,]*)"
+    r"(?:[.,]\d*)?(?:[eE][+-]?\d+)?|inf(?:inity)?|nan)",
+    re.IGNORECASE | re.ASCII,
+)
+COMMENTS = ("#", "%", "//")
+
+
+@dataclass(frozen=True)
+class Dialect:
+    """How cells are separated and numbers written.
+
+    separator : " " stands for runs of blanks;  thousands : "" if none is used
+    """
+
+    separator: str = ","
+    decimal: str = "."
+    thousands: str = ""
+
+    @property
+    def number(self) -> re.Pattern[str]:
+        """What a number must look like, blanks around it removed. Works in RE2, too."""
+        point = re.escape(self.decimal)
+        whole = "[0-9]+"
+        if self.thousands:
+            sign = between_thousands(self.thousands)
+            whole = f"(?:[0-9]{{1,3}}(?:{sign}[0-9]{{3}})+|[0-9]+)"
+        return re.compile(
+            rf"^[+-]?(?:(?:{whole}(?:{point}[0-9]*)?|{point}[0-9]+)(?:[eE][+-]?[0-9]+)?"
+            r"|[iI][nN][fF](?:[iI][nN][iI][tT][yY])?|[nN][aA][nN])$"
+        )
+
+
+def between_thousands(sign: str) -> str:
+    """A pattern of the sign between thousands, in all its forms."""
+    return f"[{re.escape(FORMS_OF.get(sign, sign))}]"
+
+
+def cells_of(line: str, separator: str) -> list[str]:
+    """The cells of a line, without blanks around them."""
+    if separator == " ":
+        line = re.sub(r"[ \t]+", " ", line.strip())
+        if not line:
+            return []
+    if '"' not in line:
+        return [cell.strip() for cell in line.split(separator)] if line else []
+    try:
+        rows = list(csv.reader([line], delimiter=separator, skipinitialspace=True))
+    except csv.Error:
+        return [line]
+    return [cell.strip() for cell in rows[0]] if rows else []
+
+
+def kind_of(cell: str) -> str:
+    """NUMBER, STAMP, TEXT or EMPTY."""
+    if not cell:
+        return EMPTY
+    if _ANY_NUMBER.fullmatch(cell) and any(c.isdigit() or c in "nN" for c in cell):
+        # 29.04.22 is a date: no number has two points with two digits between.
+        return STAMP if is_stamp(cell) else NUMBER
+    return STAMP if is_stamp(cell) else TEXT
+
+
+def comment_of(line: str) -> str | None:
+    """The sign that makes a line a comment."""
+    start = line.lstrip()
+    return next((sign for sign in COMMENTS if start.startswith(sign)), None)

@@ -1,0 +1,189 @@
+"""Names of columns and their units, in the lines above the samples."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from erdctl.core.errors import InputProblem
+from erdctl.io.spelling import stated, unit_spelt
+from erdctl.io.text.cells import NUMBER, STAMP, cells_of, comment_of, kind_of
+from erdctl.io.text.options import TextOptions
+from erdctl.io.text.structure import Structure
+
+NUMBERED = "column_{}"
+
+
+@dataclass(frozen=True)
+class Header:
+    """Names of the columns, and where they came from.
+
+    names : one a column;  line, units_line : in the file, 0 for none
+    units : column -> unit, out of a row of units
+    """
+
+    names: tuple[str, ...]
+    line: int
+    units_line: int
+    units: dict[str, str]
+
+
+def header_of(
+    lines: Sequence[str], after: int, found: Structure, options: TextOptions, file: str
+) -> Header:
+    """The header above the samples; without one the columns are numbered.
+
+    after : it is below this line
+
+    Raises InputProblem if the header does not have as many names as the samples have cells.
+    """
+    width = found.width
+    above = [n for n in range(found.start - 1, after, -1) if lines[n - 1].strip()]
+    if options.header == 0:
+        return Header(_numbered(width), 0, 0, {})
+    units_line = options.units or 0
+    if options.units is None and above:
+        units_line = _units_line(lines, above, found)
+    units = _cells(lines[units_line - 1], found.separator, width) if units_line else []
+    if options.header:
+        line = options.header
+        if line > len(lines) or line >= found.start:
+            raise InputProblem(
+                f"--text header={line}: the samples begin in row {found.start}", file=file
+            )
+        names = _cells(lines[line - 1], found.separator, width)
+        if not _are_names(names):
+            raise InputProblem(f"--text header={line}: it holds no names", file=file, row=line)
+    else:
+        line = next((n for n in above if n != units_line), 0)
+        names = _cells(lines[line - 1], found.separator, width) if line else []
+        if any(kind_of(cell) in (NUMBER, STAMP) for cell in names) and _named_above(
+            lines, above, line, found
+        ):
+            _refuse_values(names, line, found, file, least=1)
+        if not _are_names(names) or _is_title(names, line, lines, found):
+            if line and comment_of(lines[line - 1]) is None:
+                _refuse_values(names, line, found, file)
+            line, names = 0, []
+    if not line:
+        return Header(_numbered(width), 0, units_line, _by_name(_numbered(width), units))
+    names = _fitted(names, found, line, file)
+    whole = tuple(name or NUMBERED.format(i) for i, name in enumerate(names, 1))
+    by_name = _by_name(whole, units)
+    for name, unit in by_name.items():
+        beside = stated(name)[1]
+        if beside is not None and beside != unit:
+            raise InputProblem(
+                f"{beside} by its name and {unit} by the units in row {units_line}; say which"
+                f" holds, e.g. --text header={line},units=none for the names",
+                file=file,
+                column=name,
+            )
+    return Header(whole, line, units_line, by_name)
+
+
+def _cells(line: str, separator: str, width: int) -> list[str]:
+    """The cells of a line above the samples, which may be a comment or separated otherwise."""
+    sign = comment_of(line)
+    texts = [line] if sign is None else [line.strip()[len(sign) :].strip(), line.strip()]
+    # Names above columns of blanks may be separated by what they are not.
+    tried = [separator, "\t", ";", ","] if separator == " " else [separator]
+    for text in texts:
+        found = [cells_of(text, s) for s in tried]
+        # Names with blanks in them stand apart by two or more.
+        if separator in (" ", "\t"):
+            found.insert(1, [c for c in re.split(r"\s{2,}|\t", text.strip()) if c])
+        exact = [cells for cells in found if len(cells) == width]
+        if exact:
+            return exact[0]
+    return cells_of(texts[0], separator)
+
+
+def _are_names(cells: Sequence[str]) -> bool:
+    filled = [cell for cell in cells if cell]
+    values = sum(kind_of(cell) in (NUMBER, STAMP) for cell in filled)
+    keyed = any(cell.endswith(":") for cell in filled)
+    return bool(filled) and values < 0.5 * len(filled) and not keyed
+
+
+def _is_title(names: Sequence[str], line: int, lines: Sequence[str], found: Structure) -> bool:
+    """Whether a line is a sentence above the samples rather than their names."""
+    if len(names) == 1:
+        return True
+    apart = not lines[found.start - 2].strip()
+    unlike = len(names) != found.width
+    comment = comment_of(lines[line - 1]) is not None
+    return (apart and (unlike or found.separator == " ")) or (unlike and comment)
+
+
+def _named_above(lines: Sequence[str], above: Sequence[int], line: int, found: Structure) -> bool:
+    """Whether a line with values in it stands below one of as many names."""
+    higher = next((n for n in above if n < line), 0)
+    names = _cells(lines[higher - 1], found.separator, found.width) if higher else []
+    return len(names) == found.width and not any(kind_of(cell) in (NUMBER, STAMP) for cell in names)
+
+
+def _refuse_values(
+    cells: Sequence[str], line: int, found: Structure, file: str, *, least: int = 2
+) -> None:
+    """A line of values above the samples that is not like them is not left out in silence."""
+    values = sum(kind_of(cell) in (NUMBER, STAMP) for cell in cells)
+    if line == found.start - 1 and values >= least and len(cells) >= found.shortest:
+        raise InputProblem(
+            f"neither names nor values like those below it (row {found.start}); say which line"
+            " holds the names, --text header=LINE, or --text header=none, and mend or remove this",
+            file=file,
+            row=line,
+        )
+
+
+def _units_line(lines: Sequence[str], above: Sequence[int], found: Structure) -> int:
+    """The line directly above the samples, if it holds units and names are above it."""
+    if len(above) < 2:
+        return 0
+    units = _cells(lines[above[0] - 1], found.separator, found.width)
+    names = _cells(lines[above[1] - 1], found.separator, found.width)
+    if not any(units) or abs(len(units) - len(names)) > 1 or not _are_names(names):
+        return 0
+    spelt = [unit_spelt(cell) for cell in units if cell]
+    # One that nobody knows does not make names of the others; it will be refused as a unit.
+    known = sum(unit is not None for unit in spelt)
+    return above[0] if any(spelt) and known > 0.6 * len(spelt) else 0
+
+
+def _fitted(names: list[str], found: Structure, line: int, file: str) -> list[str]:
+    """The names, as many as there are columns.
+
+    More names than cells are columns that are mostly absent; they must be texts at the end.
+    """
+    while len(names) > found.width and not names[-1]:
+        names = names[:-1]
+    if len(names) < found.width:
+        spare = found.kinds[len(names) :]
+        if len(names) >= 2 and not any(spare):  # separators at the end of every row
+            return [*names, *[""] * len(spare)]
+        raise InputProblem(
+            f"{len(names)} names in the header, but {found.width} cells in the samples below"
+            f" (row {found.start}){_commas(names, found)}; say which line holds the names, e.g."
+            f" --text header={line}, or --text header=none to number the columns",
+            file=file,
+            row=line,
+        )
+    return names
+
+
+def _commas(names: Sequence[str], found: Structure) -> str:
+    if found.separator == "," and found.width > len(names) + 1:
+        return "; if numbers have decimal commas, they need another separator or quotes"
+    return ""
+
+
+def _by_name(names: Sequence[str], units: Sequence[str]) -> dict[str, str]:
+    pairs = zip(names, units, strict=False)
+    found = {name: cell if unit_spelt(cell) is None else unit_spelt(cell) for name, cell in pairs}
+    return {name: unit for name, unit in found.items() if unit}
+
+
+def _numbered(width: int) -> tuple[str, ...]:
+    return tuple(NUMBERED.format(i + 1) for i in range(width))
