@@ -43,6 +43,17 @@ Faults = Annotated[
         help="oil, electrical or deformation, e.g. oil=0.5@15:31. May be repeated.",
     ),
 ]
+Date = Annotated[
+    str | None,
+    typer.Option("--date", metavar="YYYY-MM-DD", help="Date of the test, for provenance."),
+]
+Damper = Annotated[
+    str | None,
+    typer.Option("--damper", metavar="TEXT", help="The damper tested, for provenance."),
+]
+Operator = Annotated[
+    str | None, typer.Option("--operator", metavar="TEXT", help="Who tested it, for provenance.")
+]
 EXIT_CODES = (
     "Exit codes: 0 done; 1 a check you asked for failed; 2 wrong usage; 3 bad input data or"
     " parameter file; 4 the computation could not be completed."

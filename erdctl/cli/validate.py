@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from erdctl.cli.options import Maps
+from erdctl.cli.options import Damper, Date, Maps, Operator
 from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
 
 if TYPE_CHECKING:
+    from erdctl.core.recording import Recording
     from erdctl.score.nrmse import Score, Validation
 
 
@@ -32,6 +33,9 @@ def command(
     ] = "range",
     report: Report = None,
     maps: Maps = [],
+    date: Date = None,
+    damper: Damper = None,
+    operator: Operator = None,
     plot: Plots = [],
 ) -> None:
     """Compare modelled and measured force: NRMSE per PWM level, direction and record.
@@ -47,14 +51,16 @@ def command(
       erdctl validate damper.json other.csv --plot loops.png --plot time:force.png
     """
     from erdctl.cli.pictures import draw, wanted, wants
-    from erdctl.cli.reading import read_logs
+    from erdctl.cli.reading import labelled, read_logs
     from erdctl.core.errors import CheckFailed, InputProblem, UsageProblem
+    from erdctl.core.labels import labels_of
     from erdctl.report.text import progress, say
     from erdctl.score.nrmse import Normalise, validate
 
     if normalise not in list(Normalise):
         raise UsageProblem(f"--normalise takes {', '.join(Normalise)}, not '{normalise}'")
     check_report(report)
+    labels = labels_of(date, damper, operator)
     want_hash = report is not None
     noise = None
     asked, parameters = wanted(plot, "loops"), None
@@ -81,14 +87,15 @@ def command(
         with progress() as step:
             step("simulating", f"{len(log.recording)} samples")
             modelled = simulate(parameters, log.recording)
+    log = labelled(log, labels)
     found = validate(log.recording, modelled, Normalise(normalise))
     if as_json:
         from erdctl.io import documents
         from erdctl.io.validation import to_json
 
-        documents.write(to_json(found), "-")
+        documents.write(to_json(found, labels), "-")
     else:
-        _show(found)
+        _show(found, log.recording)
     if report is not None:
         import sys
 
@@ -96,7 +103,7 @@ def command(
         from erdctl.report.page.render import Run
         from erdctl.report.page.validation import validation_page
 
-        run = Run(words=sys.argv[1:], logs=log.recording.sources)
+        run = Run(words=sys.argv[1:], logs=log.recording.sources, labels=labels)
         page = validation_page(
             found, log.recording, modelled, noise=noise, limit=fail_above, run=run
         )
@@ -119,19 +126,25 @@ def command(
             raise CheckFailed(f"NRMSE above {fail_above:g} at PWM level {', '.join(over)}")
 
 
-def _show(found: Validation) -> None:
+def _show(found: Validation, recording: Recording) -> None:
+    from erdctl.report.readable import largest, number, percent_of, scaled, with_unit
     from erdctl.report.text import table
 
-    def row(label: str, s: Score) -> list[str]:
-        return [label, str(s.samples), f"{s.rms:.4g}", f"{s.nrmse:.4f}"]
+    assert recording.force is not None
+    peak = largest((float(recording.force.max()), float(recording.force.min())))
+    factor, unit = scaled("N", found.overall.rms)
 
-    header = ["", "samples", "RMSE [N]", "NRMSE"]
-    by = f"NRMSE over the {found.normalise.value} of the measured force"
+    def row(label: str, s: Score) -> list[str]:
+        error = number(s.rms * factor)
+        return [label, str(s.samples), error, percent_of(s.rms, peak), f"{s.nrmse:.4f}"]
+
+    header = ["", "samples", f"RMSE [{unit}]", "of the peak", "NRMSE"]
+    by = f"NRMSE over the {found.normalise.value} of the measured force (peak {with_unit(peak, 'N')})"
     rows = [row(f"{100 * d:g} %", s) for d, s in found.by_duty.items()]
     rows.append(row("all", found.overall))
     levels = [s.nrmse for s in found.by_duty.values()]
-    table(f"{by}, per PWM level", header, rows, bars={3: [*levels, found.overall.nrmse]})
+    table(f"{by}, per PWM level", header, rows, bars={4: [*levels, found.overall.nrmse]})
     for split, scores in (("direction", found.by_direction), ("record", found.by_record)):
         if split == "direction" or len(scores) > 1:
             rows = [row(name, s) for name, s in scores.items()]
-            table(f"{by}, per {split}", header, rows, bars={3: [s.nrmse for s in scores.values()]})
+            table(f"{by}, per {split}", header, rows, bars={4: [s.nrmse for s in scores.values()]})

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -38,6 +38,7 @@ class Recording:
     starts : (r + 1,) offsets; record i is samples starts[i]:starts[i + 1]
     names : (r,) names of the records
     xdot_note : how xdot was obtained
+    labels : date, damper and operator of the test, as far as somebody said
     """
 
     t: Array
@@ -50,6 +51,7 @@ class Recording:
     temperature: Array | None = None
     xdot_note: str = "measured"
     sources: tuple[Source, ...] = ()
+    labels: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for channel in (getattr(self, name) for name in CHANNELS):

@@ -112,6 +112,9 @@ def identify(
     *,
     method: Literal["joint", "two-step"] = "joint",
     robust: bool = False,
+    date: str | None = None,
+    damper: str | None = None,
+    operator: str | None = None,
     progress: Callable[[str, str], None] | None = None,
 ) -> Identified:
     """Identify the paper's damper model from a bench log, with standard errors.
@@ -119,6 +122,7 @@ def identify(
     log : what `erdctl.read` gave, or anything that `read` takes; with a measured force
     method : "joint" fits all parameters together, "two-step" as the paper does
     robust : weigh outliers down
+    date, damper, operator : of the test, for provenance; a date as ISO 8601
     progress : called with (stage, what) as the work goes on
 
     Returns an Identified: `.table()` parameters, errors and SI units; `.parameters.values` numbers
@@ -133,7 +137,7 @@ def identify(
         damper.write("damper.json")
     """
     chosen = Method(option(method, list(Method), "method"))
-    given = log_of(log, need_force=True)
+    given = log_of(log, need_force=True).labelled(date, damper, operator)
     with one_thread():
         found = identified(
             given.recording, robust=robust, progress=progress or (lambda stage, what: None)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, TypedDict
+from typing import Any, NotRequired, TypedDict
 
 import msgspec
 
@@ -103,11 +103,12 @@ class InspectionFile(TypedDict):
     mass_at_noise: float | None
     parameters: list[CoverEntry]
     effects: list[CoverEntry]
+    provenance: NotRequired[dict[str, str]]
 
 
 def to_json(found: Inspection, log: Log) -> InspectionFile:
     """The document of an inspection."""
-    return {
+    document: InspectionFile = {
         "schema": SCHEMA,
         "logs": [
             {"name": s.name, "sha256": s.sha256, "rows": s.rows} for s in log.recording.sources
@@ -134,6 +135,9 @@ def to_json(found: Inspection, log: Log) -> InspectionFile:
         "parameters": covers(found.parameters),
         "effects": covers(found.effects),
     }
+    if log.recording.labels:
+        document["provenance"] = dict(log.recording.labels)
+    return document
 
 
 def covers(found: Sequence[Cover]) -> list[CoverEntry]:

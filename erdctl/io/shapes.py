@@ -23,11 +23,12 @@ class QuantityDocument(TypedDict):
 
 
 class Measured(TypedDict):
-    """An estimate with its standard error, which is null where there is none."""
+    """An estimate with its standard error, which is null where there is none, as at a bound."""
 
     value: float | None
     unit: str
     stderr: float | None
+    at_bound: NotRequired[bool]
 
 
 class IntervalDocument(TypedDict):
@@ -39,10 +40,11 @@ class IntervalDocument(TypedDict):
 
 
 class AtDuty(TypedDict):
-    """NRMSE at one PWM level."""
+    """NRMSE and rms [N] at one PWM level."""
 
     duty: float
     nrmse: float
+    rms: NotRequired[float]
 
 
 class Scores(TypedDict):
@@ -158,6 +160,14 @@ class DiagnosisFile(TypedDict):
     provenance: dict[str, Any]
 
 
+class LabelsDocument(TypedDict, total=False):
+    """What somebody said of the test: date (ISO 8601), damper, operator."""
+
+    date: str
+    damper: str
+    operator: str
+
+
 class ScoreDocument(TypedDict):
     """Misfit of a group of samples; NRMSE is null for an error on a force without range."""
 
@@ -192,6 +202,7 @@ class ValidationFile(ScoreDocument):
     nrmse_by_duty: list[DutyScore]
     nrmse_by_direction: list[DirectionScore]
     nrmse_by_record: list[RecordScore]
+    provenance: NotRequired[LabelsDocument]
 
 
 class LimitsDocument(TypedDict):
@@ -250,6 +261,7 @@ class PwmManifest(TypedDict):
     schedule: list[str]
     emulation: list[Emulation]
     correction: list[CorrectionDocument]
+    provenance: NotRequired[LabelsDocument]
 
 
 def _of(shape: type) -> Callable[[], dict[str, Any]]:

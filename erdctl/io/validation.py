@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from erdctl.score.nrmse import Score, Validation
@@ -9,8 +10,8 @@ from erdctl.score.nrmse import Score, Validation
 SCHEMA = "erdctl.validation/1"
 
 
-def to_json(found: Validation) -> dict[str, Any]:
-    """The document of a validation."""
+def to_json(found: Validation, labels: Mapping[str, str]) -> dict[str, Any]:
+    """The document of a validation; labels : of the test, see `Recording`."""
 
     def score(s: Score) -> dict[str, float]:
         return {"nrmse": s.nrmse, "rms": s.rms, "samples": s.samples}
@@ -22,4 +23,5 @@ def to_json(found: Validation) -> dict[str, Any]:
         "nrmse_by_duty": [{"duty": d, **score(s)} for d, s in found.by_duty.items()],
         "nrmse_by_direction": [{"direction": d, **score(s)} for d, s in found.by_direction.items()],
         "nrmse_by_record": [{"record": r, **score(s)} for r, s in found.by_record.items()],
+        **({"provenance": dict(labels)} if labels else {}),
     }

@@ -14,6 +14,7 @@ from erdctl.mimic.inverse import follow
 from erdctl.mimic.outcome import Plan
 from erdctl.mimic.plan import mimic
 from erdctl.model.amplifier import Amplifier
+from erdctl.model.divergence import refuse_diverged
 from erdctl.model.faults import Corner, Fault, on_channel
 from erdctl.model.parameters import Parameters
 
@@ -66,7 +67,9 @@ def sequence(
     for channel, chosen in by_channel.items():
         if chosen:
             progress("computing", f"the sequence of {channel}")
-            plans[channel] = mimic(parameters, recording, chosen, amplifier)
+            plan = plans[channel] = mimic(parameters, recording, chosen, amplifier)
+            for force in (plan.ideal, plan.expected_paper if static else plan.expected):
+                refuse_diverged(force, parameters.model, parameters.values, recording)
     healthy = follow(recording.duty, Signals.of(recording), amplifier)
     duties = dict.fromkeys(by_channel, healthy)
     duties |= {c: p.duty_paper if static else p.duty for c, p in plans.items()}

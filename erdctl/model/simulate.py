@@ -10,6 +10,7 @@ import numpy as np
 from erdctl.core.blocks import neighbours
 from erdctl.core.recording import DIRECTIONS, Array, Recording
 from erdctl.core.signals import Signals
+from erdctl.model.divergence import refuse_diverged
 from erdctl.model.parameters import Parameters
 
 UNITS = {"x": "m", "xdot": "m/s", "duty": ""}
@@ -19,16 +20,20 @@ BEYOND = 0.05  # of a range: how far a drive may leave it before that is worth a
 def simulate(parameters: Parameters, recording: Recording, faults: Sequence[str] = ()) -> Array:
     """(n,) modelled force [N]; `faults` as on the command line (Eqs. 20-23).
 
+    Raises ComputationProblem where it diverged: nobody is to take such numbers for advice.
     States restart with each record, so a long log is computed in runs of records that fit into a
     processor's cache, which is twice as fast as all at once.
     """
     runs = neighbours(recording)
     if len(runs) == 1:
-        return _force(parameters, recording, faults)
+        out = _force(parameters, recording, faults)
+        refuse_diverged(out, parameters.model, parameters.values, recording)
+        return out
     out = np.empty(len(recording))
     ends = np.cumsum([len(run) for run in runs]).tolist()
     for run, end in zip(runs, ends, strict=True):
         out[end - len(run) : end] = _force(parameters, run, faults)
+    refuse_diverged(out, parameters.model, parameters.values, recording)
     return out
 
 

@@ -4,25 +4,39 @@ from __future__ import annotations
 
 import math
 import os
+import shutil
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 
+from erdctl.report.layout import BOX, boxed, lines, wrapped
+
 QUIET = ContextVar("quiet", default=False)  # set for the time of one command by `--quiet`
 SERIOUS = ("warning", "error")
-BAR = 20  # characters
+BAR = 20  # characters of a bar, and the fewest that still show something
+SHORT = 6
 
 
 def say(text: str, kind: str = "note") -> None:
     """One remark for the user; of a quiet program only warnings and errors."""
     if not QUIET.get() or kind in SERIOUS:
-        print(f"erdctl: {kind}: {text}", file=sys.stderr)
+        line = f"erdctl: {kind}: {text}"
+        # Lines in a file stay whole, for whoever searches it; on a terminal a number may not break.
+        print(wrapped(line, width()) if terminal() else line, file=sys.stderr)
 
 
 def terminal() -> bool:
     """Whether stderr can show more than lines of plain text."""
     return sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
+
+
+def width() -> int | None:
+    """Columns to write in: what COLUMNS says, or what the terminal has; None for no limit."""
+    said = os.environ.get("COLUMNS", "")
+    if said.isdecimal() and int(said) > 0:
+        return int(said)
+    return shutil.get_terminal_size().columns if sys.stderr.isatty() else None
 
 
 def table(
@@ -33,20 +47,23 @@ def table(
 ) -> None:
     """A table whose first column is text and whose other columns are numbers.
 
+    One that is too wide is folded (see `layout`), without rules and bars: nothing in it is cut.
+
     bars : values of columns to draw as bars on a terminal, all to one scale; one a row, and NaN
         for a row without
     """
     if QUIET.get():
         return
-    if terminal():
-        _rich(title, header, rows, bars or {})
+    room = width()
+    spare = math.inf if room is None else room - boxed(header, rows)
+    if terminal() and spare >= 0:
+        # Bars take what the columns leave.
+        most = BAR if math.isinf(spare) else int(spare) // max(len(bars or {}), 1) - BOX
+        _rich(title, header, rows, (bars or {}) if most >= SHORT else {}, min(BAR, most))
         return
-    widths = [max(len(row[i]) for row in [header, *rows]) for i in range(len(header))]
-    print(title, file=sys.stderr)
-    for row in [header, *rows]:
-        first = row[0].ljust(widths[0])
-        rest = [cell.rjust(w) for cell, w in zip(row[1:], widths[1:], strict=True)]
-        print("  " + "  ".join([first, *rest]).rstrip(), file=sys.stderr)
+    print(wrapped(title, room), file=sys.stderr)
+    for line in lines(header, rows, room):
+        print(line, file=sys.stderr)
 
 
 def _rich(
@@ -54,6 +71,7 @@ def _rich(
     header: Sequence[str],
     rows: Sequence[Sequence[str]],
     bars: Mapping[int, Sequence[float]],
+    length: int,
 ) -> None:
     # Imported here: it costs a third of the time of a whole run in a batch script.
     from rich.bar import Bar
@@ -64,11 +82,12 @@ def _rich(
     values = [v for column in bars.values() for v in column if 0.0 < v < math.inf]
     top = max(values, default=1.0)
     console = Console(stderr=True)
-    out = Table(title=Text(title), title_justify="left", title_style="bold")
+    print(wrapped(title, width()), file=sys.stderr)
+    out = Table()
     for i, name in enumerate(header):
-        out.add_column(Text(name), justify="left" if i == 0 else "right")
+        out.add_column(Text(name), justify="left" if i == 0 else "right", no_wrap=True)
         if i in bars:
-            out.add_column("", width=BAR)
+            out.add_column("", width=length)
     for k, row in enumerate(rows):
         cells: list[Bar | Text] = []
         for i, cell in enumerate(row):
@@ -76,15 +95,10 @@ def _rich(
             if i in bars:
                 value = bars[i][k]
                 # Infinite is full, unknown is empty.
-                length = min(value, top) if value > 0.0 else 0.0
-                cells.append(Bar(top, 0.0, length, width=BAR, color="cyan"))
+                filled = min(value, top) if value > 0.0 else 0.0
+                cells.append(Bar(top, 0.0, filled, width=length, color="cyan"))
         out.add_row(*cells)
     console.print(out)
-
-
-def number(value: float | None, digits: int = 4) -> str:
-    """A number with so many significant digits, or a dash."""
-    return "-" if value is None else f"{value:.{digits}g}"
 
 
 @contextmanager

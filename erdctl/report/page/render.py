@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 from base64 import b64encode
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from hashlib import sha256
 from importlib.resources import files
@@ -23,11 +23,12 @@ SCRIPTS = ("d3.min.js", "plot.js", "kinds.js", "page.js")
 
 @dataclass(frozen=True, kw_only=True)
 class Run:
-    """How a result came about: the command's words, the logs, other files, remarks."""
+    """How a result came about: command, logs, other files, remarks, labels of the test."""
 
     words: Sequence[str]
     logs: Sequence[Source] = ()
     details: Sequence[tuple[str, str]] = ()
+    labels: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def command(self) -> str:
@@ -37,7 +38,7 @@ class Run:
     @property
     def rows(self) -> list[tuple[str, str]]:
         """Provenance, for a table."""
-        out = [("erdctl", __version__), ("command", self.command)]
+        out = [*self.labels.items(), ("erdctl", __version__), ("command", self.command)]
         for log in self.logs:
             out.append((f"log {log.name}", f"{log.rows} rows, SHA-256 {log.sha256 or 'unknown'}"))
         return [*out, *self.details]
