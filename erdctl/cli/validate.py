@@ -136,15 +136,16 @@ def _show(found: Validation, recording: Recording) -> None:
 
     def row(label: str, s: Score) -> list[str]:
         error = number(s.rms * factor)
-        return [label, str(s.samples), error, percent_of(s.rms, peak), f"{s.nrmse:.4f}"]
+        return [label, str(s.samples), error, f"{s.nrmse:.4f}", percent_of(s.rms, peak)]
 
-    header = ["", "samples", f"RMSE [{unit}]", "of the peak", "NRMSE"]
-    by = f"NRMSE over the {found.normalise.value} of the measured force (peak {with_unit(peak, 'N')})"
+    header = ["", "samples", f"RMSE [{unit}]", "NRMSE", "of the peak"]
+    over = f"{found.normalise.value} of the measured force"
+    by = f"NRMSE over the {over} (peak {with_unit(peak, 'N')})"
     rows = [row(f"{100 * d:g} %", s) for d, s in found.by_duty.items()]
     rows.append(row("all", found.overall))
     levels = [s.nrmse for s in found.by_duty.values()]
-    table(f"{by}, per PWM level", header, rows, bars={4: [*levels, found.overall.nrmse]})
+    table(f"{by}, per PWM level", header, rows, bars={3: [*levels, found.overall.nrmse]})
     for split, scores in (("direction", found.by_direction), ("record", found.by_record)):
         if split == "direction" or len(scores) > 1:
             rows = [row(name, s) for name, s in scores.items()]
-            table(f"{by}, per {split}", header, rows, bars={4: [s.nrmse for s in scores.values()]})
+            table(f"{by}, per {split}", header, rows, bars={3: [s.nrmse for s in scores.values()]})

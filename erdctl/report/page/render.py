@@ -15,7 +15,8 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from erdctl.core.recording import Source
 from erdctl.core.version import __version__
-from erdctl.report.page.mathml import equation, symbol
+from erdctl.report.page.mathml import equation, prose, symbol
+from erdctl.report.readable import typeset
 
 RAISED = str.maketrans("−0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 SCRIPTS = ("d3.min.js", "plot.js", "kinds.js", "page.js")
@@ -98,7 +99,8 @@ def _environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    out.filters |= {"equation": equation, "symbol": symbol, "digits": digits}
+    out.filters |= {"equation": equation, "symbol": symbol, "prose": prose, "unit": typeset}
+    out.filters["digits"] = digits
     return out
 
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
-from erdctl.core.recording import Recording
+from erdctl.core.recording import Array, Recording
+from erdctl.report.readable import error_of, number, scaled
 
 
 def plain(name: str) -> str:
@@ -36,3 +38,19 @@ def extent(recording: Recording, levels: int) -> str:
         f"{len(recording):,} samples, {seconds:.3g} s, {records} record{'s' * (records != 1)},"
         f" {levels} PWM level{'s' * (levels != 1)}"
     ).replace(",", "\u202f", f"{len(recording):,}".count(","))
+
+
+def peak_of(force: Array) -> float:
+    """The highest force either way [N]."""
+    return max(float(force.max()), -float(force.min()))
+
+
+def shown_value(given: dict[str, Any]) -> dict[str, str]:
+    """Value, standard error and unit of a document's parameter, as people read them."""
+    value = given["value"]
+    factor, unit = scaled(given["unit"], value or 0.0)
+    return {
+        "value": "not identified" if value is None else number(value * factor),
+        "stderr": error_of(given["stderr"], factor, at_bound=given.get("at_bound", False)),
+        "unit": unit,
+    }

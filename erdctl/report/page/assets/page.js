@@ -34,10 +34,11 @@
   const colour = () => {
     const theme = erd.theme();
     for (const swatch of document.querySelectorAll("[data-swatch]")) {
-      swatch.style.background = theme.level(+swatch.dataset.swatch, samples.levels.length);
+      swatch.style.background = theme.level(samples.colours, +swatch.dataset.swatch);
     }
     for (const bar of document.querySelectorAll(".ramp")) {
-      bar.style.background = `linear-gradient(to right, ${d3.range(0, 1.01, 0.1).map(theme.heat).join(",")})`;
+      const map = data.figures[bar.closest("figure").dataset.figure];
+      bar.style.background = `linear-gradient(to right, ${map.colours.join(",")})`;
     }
   };
 
