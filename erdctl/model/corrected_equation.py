@@ -114,7 +114,7 @@ def _yield(pieces: dict[str, str]) -> str:
 
 def _bracketed(piece: str, into: str) -> str:
     """A sum in brackets where something is put in front of it."""
-    return f"[{piece}]" if into != "{}" and len(_split(piece, " + ")) > 1 else piece
+    return f"[{piece}]" if into != "{}" and len(split(piece, " + ")) > 1 else piece
 
 
 def _renamed(text: str, symbol: str, becomes: str) -> str:
@@ -128,11 +128,15 @@ def _at_speed(text: str, paper: str, now: str) -> str:
 
 
 def _clauses(equation: str) -> list[str]:
-    return [c.strip() for part in _split(equation, ";") for c in _split(part, ",")]
+    return [c.strip() for part in split(equation, ";") for c in split(part, ",")]
 
 
-def _split(text: str, at: str) -> list[str]:
-    """A text at separators outside of brackets."""
+def split(text: str, at: str) -> list[str]:
+    """A text at separators outside of brackets.
+
+    >>> split("a, b(c, d)", ",")
+    ['a', ' b(c, d)']
+    """
     out, depth, start = [], 0, 0
     for i, c in enumerate(text):
         depth += (c in "([") - (c in ")]")

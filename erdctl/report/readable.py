@@ -59,7 +59,12 @@ def with_unit(value: float | None, unit: str, digits: int = 4) -> str:
     if value is None:
         return "-"
     factor, shown = scaled(unit, value)
-    return f"{number(value * factor, digits)} {'' if shown == '1' else shown}".rstrip()
+    return f"{number(value * factor, digits)} {_after(shown)}".rstrip()
+
+
+def _after(unit: str) -> str:
+    """A unit behind a number: nothing for 1, and "/m" for 1/m."""
+    return unit.removeprefix("1")
 
 
 def error_of(stderr: float | None, factor: float = 1.0, *, at_bound: bool = False) -> str:
@@ -81,7 +86,7 @@ def estimate(
         return "not identified"
     factor, shown = scaled(unit, value)
     error = "" if stderr is None or at_bound else f" +- {number(stderr * factor, 2)}"
-    text = f"{number(value * factor)}{error} {'' if shown == '1' else shown}".rstrip()
+    text = f"{number(value * factor)}{error} {_after(shown)}".rstrip()
     return f"{text} ({AT_BOUND})" if at_bound else text
 
 

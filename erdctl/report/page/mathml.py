@@ -11,6 +11,8 @@ from dataclasses import dataclass
 
 from markupsafe import Markup, escape
 
+from erdctl.model.corrected_equation import split
+
 NAMESPACE = "http://www.w3.org/1998/Math/MathML"
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "kappa": "κ", "lambda": "λ", "mu": "μ",
@@ -72,6 +74,30 @@ def equation(text: str) -> Markup:
     )
 
 
+def flowing(text: str) -> Markup:
+    """An equation in pieces between which a line may break: sums at their terms, and clauses.
+
+    A browser breaks no formula, and a long one would be wider than a telephone.
+    Check: "F = a + b, b = 1" comes in three pieces.
+    >>> str(flowing("F = a + b, b = 1")).count("<math")
+    3
+    """
+    pieces = []
+    for part in split(text, ";"):
+        for clause in split(part, ","):
+            first, *more = split(clause.strip(), " + ")
+            pieces += [first, *(f"+ {term}" for term in more)]
+            pieces[-1] += ","
+        pieces[-1] = f"{pieces[-1][:-1]};"
+    pieces[-1] = pieces[-1][:-1]
+    piece = Markup('<span class="piece">{}</span>')
+    typeset = [equation(p) for p in pieces]
+    if not all(t.startswith("<math") for t in typeset):
+        typeset = [equation(text)]
+    inline = [piece.format(_inline(t)) for t in typeset]
+    return Markup('<p class="flow">{}</p>').format(Markup(" ").join(inline))
+
+
 def symbol(name: str) -> Markup:
     """MathML of a parameter's symbol.
 
@@ -101,6 +127,14 @@ def prose(text: str) -> Markup:
         out += Markup("<i>{}</i>").format(letter)
         out += Markup("<sub>{}</sub>").format(index) if index else ""
     return out + escape(text[at:])
+
+
+def _inline(typeset: Markup) -> Markup:
+    """A formula for a line of text, as large as one by itself; a sum goes on with its sign."""
+    text = str(typeset).replace(' display="block"', ' displaystyle="true"')
+    if 'alttext="+ ' in text:
+        text = text.replace('<mo form="prefix">+</mo>', '<mo form="infix">+</mo>', 1)
+    return Markup(text)
 
 
 def _tokens(text: str) -> list[_Token]:
@@ -153,7 +187,9 @@ class _Parser:
                 break
             words.append(token.text)
             self.at += 1
-        return Markup("<mtext>\u2002{}\u2002</mtext>").format(" ".join(words))
+        more = self.at < len(self.tokens) and self.tokens[self.at].text not in ",;"
+        after = "\u2002" if more else ""
+        return Markup("<mtext>\u2002{}{}</mtext>").format(" ".join(words), after)
 
     def _quotient(self) -> Markup:
         upper, bare_upper = self._power()

@@ -15,7 +15,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from erdctl.core.recording import Source
 from erdctl.core.version import __version__
-from erdctl.report.page.mathml import equation, prose, symbol
+from erdctl.report.page.mathml import equation, flowing, prose, symbol
 from erdctl.report.readable import typeset
 
 RAISED = str.maketrans("−0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -99,7 +99,13 @@ def _environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    out.filters |= {"equation": equation, "symbol": symbol, "prose": prose, "unit": typeset}
+    out.filters |= {
+        "equation": equation,
+        "flowing": flowing,
+        "symbol": symbol,
+        "prose": prose,
+        "unit": typeset,
+    }
     out.filters["digits"] = digits
     return out
 

@@ -61,6 +61,14 @@
   const select = document.getElementById("records");
   if (select) select.addEventListener("change", () => { choose(+select.value); again(); erd.frames.forEach((frame) => frame.home()); });
 
+  // Without a font made for formulas an index is not lowered: it then begins where its letter ends.
+  const index = document.querySelector("math msub");
+  if (index) {
+    const [letter, low] = [...index.children].map((part) => part.getBoundingClientRect());
+    const lowered = low.bottom > letter.bottom + 0.08 * letter.height;
+    document.documentElement.classList.toggle("no-math-font", !lowered);
+  }
+
   const all = () => { colour(); erd.redraw(); };
   erd.dark.addEventListener("change", all);
   // On paper: light colours, and figures as narrow as there, or their words would shrink.
