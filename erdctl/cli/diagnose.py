@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from erdctl.cli.options import Damper, Date, Logs, Maps, Operator, Out
+from erdctl.cli.options import Damper, Date, Logs, Maps, Operator, Out, effect_names
 from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
 
@@ -30,10 +30,18 @@ def command(
     output: Out = "-",
     only: Annotated[
         list[str],
-        typer.Option("--effects", metavar="NAME,...", help="Test these effects only."),
+        typer.Option(
+            "--effects",
+            metavar="NAME,...",
+            help="Test these effects only.",
+            autocompletion=effect_names,
+        ),
     ] = [],
     exclude: Annotated[
-        list[str], typer.Option(metavar="NAME,...", help="Do not test these effects.")
+        list[str],
+        typer.Option(
+            metavar="NAME,...", help="Do not test these effects.", autocompletion=effect_names
+        ),
     ] = [],
     record_gains: Annotated[
         bool,

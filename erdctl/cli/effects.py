@@ -6,10 +6,15 @@ from typing import Annotated
 
 import typer
 
+from erdctl.cli.options import effect_names
+
 
 def command(
     name: Annotated[
-        str | None, typer.Argument(metavar="[NAME]", help="An effect; without it, the list.")
+        str | None,
+        typer.Argument(
+            metavar="[NAME]", help="An effect; without it, the list.", autocompletion=effect_names
+        ),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="As JSON on stdout.")] = False,
 ) -> None:

@@ -46,6 +46,7 @@ def command(
     from erdctl.bench.inspection import inspect
     from erdctl.cli.reading import labelled, read_logs
     from erdctl.core.labels import labels_of
+    from erdctl.core.workers import part_of
     from erdctl.effects import catalogue
     from erdctl.io import documents
     from erdctl.io.inspection import to_json
@@ -57,7 +58,7 @@ def command(
     )
     log = labelled(log, labels)
     with progress() as step:
-        step("inspecting", f"{len(log.recording)} samples")
+        step("inspecting", part_of(f"{len(log.recording)} samples", 1, 1))
         found = inspect(log.recording, catalogue())
     document = to_json(found, log)
     if as_json:

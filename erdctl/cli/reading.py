@@ -18,8 +18,7 @@ def _shown(
 ) -> Callable[Concatenate[Sequence[str], P], Log]:
     def read(paths: Sequence[str], /, *args: P.args, **options: P.kwargs) -> Log:
         with progress() as step:
-            step("reading", ", ".join(paths))
-            return work(paths, *args, **options)
+            return work(paths, *args, **{"progress": step, **options})
 
     return read
 

@@ -85,8 +85,7 @@ def command(
         for line in remarks(parameters, log.recording):
             say(line)
         with progress() as step:
-            step("simulating", f"{len(log.recording)} samples")
-            modelled = simulate(parameters, log.recording)
+            modelled = simulate(parameters, log.recording, progress=step)
     log = labelled(log, labels)
     found = validate(log.recording, modelled, Normalise(normalise))
     if as_json:

@@ -13,7 +13,7 @@ from erdctl.bench.identifiability import untestable
 from erdctl.core.blocks import thinned
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array, Recording
-from erdctl.core.workers import Progress
+from erdctl.core.workers import Progress, part_of
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import Comparison, compare
 from erdctl.diagnose.discriminating_drive import DiscriminatingDrive, discriminating_drive
@@ -121,7 +121,7 @@ def diagnose(
         selection = search(thin, testable, most, workers, seed, given)
         selection = refit(problem, selection, workers)
     best = selection.best
-    progress("lack of fit", "")
+    progress("lack of fit", part_of("regression of the residual", 1, 1))
     lack_of_fit = lack_of_fit_test(best.problem, best.residual, seed)
     noise = lack_of_fit.noise_rms
     left = lack_of_fit.significant and _matters(problem, selection, lack_of_fit)

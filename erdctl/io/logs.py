@@ -12,6 +12,7 @@ import pyarrow as pa
 
 from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.core.recording import Array, Index, Recording, Source, concatenate
+from erdctl.core.workers import Progress, told
 from erdctl.io import units
 from erdctl.io.arrays import arrow, runs_of_text
 from erdctl.io.checks import Place, check_time, check_values, remark_on_time
@@ -68,6 +69,7 @@ def read_logs(
     others: Sequence[str] = (),
     held: Held = MappingProxyType({}),
     report: Report,
+    progress: Progress = lambda stage, what: None,
 ) -> Log:
     """Read and validate bench logs (any format of `Format`; "-" is standard input).
 
@@ -77,6 +79,7 @@ def read_logs(
     others : columns of numbers to read where they are there, of a single log
     held : bytes of logs that are in memory, by what `paths` calls them
     report : takes a line for everything that was assumed or derived
+    progress : called with what is being read
 
     Records keep their names; of several logs they become "stem:record". A log without a column
     `record` is one record called like the file.
@@ -100,7 +103,7 @@ def read_logs(
             held=held,
             report=report,
         )
-        for path in paths
+        for path in told(paths, progress, "reading")
     ]
     if len(logs) == 1:
         return logs[0]

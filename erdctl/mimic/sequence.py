@@ -10,6 +10,7 @@ import numpy as np
 from erdctl.core.errors import UsageProblem
 from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
+from erdctl.core.workers import part_of
 from erdctl.mimic.inverse import follow
 from erdctl.mimic.outcome import Plan
 from erdctl.mimic.plan import mimic
@@ -64,9 +65,11 @@ def sequence(
     """
     by_channel = {c.value: on_channel(faults, c) for c in Corner}
     plans = {}
+    faulty = [channel for channel, chosen in by_channel.items() if chosen]
     for channel, chosen in by_channel.items():
         if chosen:
-            progress("computing", f"the sequence of {channel}")
+            number = faulty.index(channel) + 1
+            progress("computing", part_of(f"the sequence of {channel}", number, len(faulty)))
             plan = plans[channel] = mimic(parameters, recording, chosen, amplifier)
             for force in (plan.ideal, plan.expected_paper if static else plan.expected):
                 refuse_diverged(force, parameters.model, parameters.values, recording)

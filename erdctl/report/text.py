@@ -16,6 +16,7 @@ QUIET = ContextVar("quiet", default=False)  # set for the time of one command by
 SERIOUS = ("warning", "error")
 BAR = 20  # characters of a bar, and the fewest that still show something
 SHORT = 6
+CLOCK = 12  # characters of the sign of life and the time beside a line of progress
 
 
 def say(text: str, kind: str = "note") -> None:
@@ -103,15 +104,28 @@ def _rich(
 
 @contextmanager
 def progress() -> Iterator[Callable[[str, str], None]]:
-    """A line on stderr that shows stage, item and time, on a terminal only."""
+    """A line on stderr that shows stage, item, fraction and time, on a terminal only."""
     if QUIET.get() or not terminal():
         yield lambda stage, what: None
         return
     from rich.console import Console
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
+    console = Console(stderr=True)
     columns = SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn()
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task("")
         # Drawn at once: a stage may be over before the next of ten pictures a second.
-        yield lambda stage, what: bar.update(task, description=f"{stage}: {what}", refresh=True)
+        yield lambda stage, what: bar.update(
+            task, description=_fitting(f"{stage}: {what}", console.width - CLOCK), refresh=True
+        )
+
+
+def _fitting(text: str, room: int) -> str:
+    """A line of progress in so many characters; what gives way is the middle, not the fraction."""
+    from rich.markup import escape
+
+    if len(text) > room:
+        tail = text[-room // 2 :]
+        text = f"{text[: max(room - len(tail) - 1, 0)]}\u2026{tail}"
+    return escape(text)
