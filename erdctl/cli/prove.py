@@ -131,7 +131,8 @@ def _run(wish: Wish, seeds: Sequence[int], folder: Path, jobs: int | None) -> Pr
     from erdctl.prove.document import proof_of
     from erdctl.prove.run import Outcome, prove
     from erdctl.prove.tables import line
-    from erdctl.report.text import QUIET, progress, say
+    from erdctl.report.layout import wrapped
+    from erdctl.report.text import QUIET, progress, say, width
 
     scored = 0
     say("nrmse on fresh records, without noise: paper's model, corrected, best that can be reached")
@@ -144,7 +145,7 @@ def _run(wish: Wish, seeds: Sequence[int], folder: Path, jobs: int | None) -> Pr
             nonlocal scored
             scored += 1
             if not QUIET.get():
-                print(line(outcome), file=sys.stderr, flush=True)
+                print(wrapped(line(outcome), width()), file=sys.stderr, flush=True)
             step("scored", f"{scored} of {len(seeds)} ({100 * scored // len(seeds)} %)")
 
         step("scored", f"0 of {len(seeds)} (0 %)")

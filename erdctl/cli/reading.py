@@ -18,7 +18,8 @@ def _shown(
 ) -> Callable[Concatenate[Sequence[str], P], Log]:
     def read(paths: Sequence[str], /, *args: P.args, **options: P.kwargs) -> Log:
         with progress() as step:
-            return work(paths, *args, **{"progress": step, **options})
+            told = {"progress": step, **options}
+            return work(paths, *args, **told)  # type: ignore[arg-type]  # one option more than given
 
     return read
 

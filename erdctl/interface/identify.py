@@ -17,6 +17,7 @@ from erdctl.io.identification import parameters_of
 from erdctl.io.parameters import to_document
 from erdctl.model.parameters import Parameters
 from erdctl.model.simulate import simulate
+from erdctl.report.readable import AT_BOUND
 from erdctl.report.subject import Subject
 from erdctl.report.subjects import about
 
@@ -58,7 +59,8 @@ class Identified:
         rows = [
             {
                 "parameter": name, "value": e.value, "stderr": e.stderr, "unit": e.unit,
-                "two_step": steps.get(name), "assumed": e.assumed, "reason": e.reason,
+                "two_step": steps.get(name), "assumed": e.assumed,
+                "reason": AT_BOUND if e.at_bound else e.reason,
             }
             for name, e in self.parameters.estimates.items()
         ]  # fmt: skip
@@ -94,6 +96,7 @@ class Identified:
             f"{name:18} {'not identified' if e.value is None else f'{e.value:.5g}'}"
             + ("" if e.stderr is None else f" +- {e.stderr:.2g}")
             + f" {e.unit}"
+            + (f" ({AT_BOUND})" if e.at_bound else "")
             for name, e in self.parameters.estimates.items()
         ]
         return text(f"Identified: {self._title()}", [*rows, *self.remarks])

@@ -27,6 +27,15 @@ def say(text: str, kind: str = "note") -> None:
         print(wrapped(line, width()) if terminal() else line, file=sys.stderr)
 
 
+def show(text: str) -> None:
+    """One line of a command's answer on stdout; broken between words on a terminal."""
+    said = os.environ.get("COLUMNS", "")
+    given = int(said) if said.isdecimal() and int(said) > 0 else None
+    if given is None and sys.stdout.isatty():
+        given = shutil.get_terminal_size().columns
+    print(wrapped(text, given))
+
+
 def terminal() -> bool:
     """Whether stderr can show more than lines of plain text."""
     return sys.stderr.isatty() and os.environ.get("TERM") != "dumb"

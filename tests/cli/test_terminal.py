@@ -49,12 +49,12 @@ def test_a_dumb_terminal_and_a_pipe_get_the_same_plain_text() -> None:
 @pytest.mark.parametrize(
     ("words", "stages"),
     [
-        (["identify", LOG], ["reading", "fitting: all parameters, start 2 of"]),
-        (["validate", TABLE_2, LOG], ["reading", "simulating"]),
-        (["inspect", LOG], ["reading", "inspecting"]),
+        (["identify", LOG], ["reading", "fitting: all parameters, start 2, 3 of 5 (40 %)"]),
+        (["validate", TABLE_2, LOG], ["1 of 1 (0 %)", "simulating: 8000 samples, 1 of 1 (0 %)"]),
+        (["inspect", LOG], ["reading", "inspecting: 8000 samples, 1 of 1 (0 %)"]),
         (["simulate", TABLE_2, LOG], ["reading", "simulating"]),
         (["mimic", TABLE_2, str(FIXTURES / "schedule_60s.csv"), "--fault", "oil=0.5"],
-         ["reading", "computing: the sequence of fl"]),
+         ["reading", "computing: the sequence of fl, 1 of 4 (0 %)"]),
     ],
     ids=lambda v: v[0],
 )  # fmt: skip
