@@ -197,8 +197,8 @@ def slow_test(
             return SlowTest(middle[both], ways[0][both], ways[1][both], speed, len(at))
     raise InputProblem(
         "no slow strokes: no deflection is passed both ways without field and at no more than"
-        f" {speed * 1e3:g} mm/s, for {100 * TRAVEL:g} % of the stroke at a time (reversals of a fast"
-        " motion are none);"
+        f" {speed * 1e3:g} mm/s, for {100 * TRAVEL:g} % of the stroke at a time (reversals of a"
+        " fast motion are none);"
         " record a slow test, e.g. --drive triangle:speed=0.002,amp=0.01,duration=20"
     )
 

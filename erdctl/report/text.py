@@ -29,11 +29,7 @@ def say(text: str, kind: str = "note") -> None:
 
 def show(text: str) -> None:
     """One line of a command's answer on stdout; broken between words on a terminal."""
-    said = os.environ.get("COLUMNS", "")
-    given = int(said) if said.isdecimal() and int(said) > 0 else None
-    if given is None and sys.stdout.isatty():
-        given = shutil.get_terminal_size().columns
-    print(wrapped(text, given))
+    print(wrapped(text, shutil.get_terminal_size().columns) if sys.stdout.isatty() else text)
 
 
 def terminal() -> bool:

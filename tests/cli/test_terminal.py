@@ -54,7 +54,7 @@ def test_a_dumb_terminal_and_a_pipe_get_the_same_plain_text() -> None:
         (["inspect", LOG], ["reading", "inspecting: 8000 samples, 1 of 1 (0 %)"]),
         (["simulate", TABLE_2, LOG], ["reading", "simulating"]),
         (["mimic", TABLE_2, str(FIXTURES / "schedule_60s.csv"), "--fault", "oil=0.5"],
-         ["reading", "computing: the sequence of fl, 1 of 4 (0 %)"]),
+         ["reading", "computing: the sequence of fl, 1 of 1 (0 %)"]),
     ],
     ids=lambda v: v[0],
 )  # fmt: skip
