@@ -28,6 +28,7 @@ from erdctl.diagnose.search import Selection, refit, search
 from erdctl.estimate.covariance import Fit, assess
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
+from erdctl.model.simulate import simulate
 from erdctl.score.nrmse import Normalise, Validation, validate
 
 
@@ -112,6 +113,7 @@ def diagnose(
     thin = prepare(thinned(recording, thresholds.SEARCH_SAMPLES), free)
     survey = Survey(recording, problem.block.signals)
     if given is not None:
+        simulate(given, recording)  # one that diverges is refused before the search, not judged
         lacking = untestable(survey, given.model.effects)
         problem, thin = (with_given(s, given, lacking) for s in (problem, thin))
         candidates = [e for e in candidates if e not in given.model.effects]
