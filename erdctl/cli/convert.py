@@ -41,7 +41,7 @@ def command(
       erdctl convert bench.tdms bench.csv --map "x=Defl FL" --map "force=F_fl[kN]"
       erdctl convert bench.csv bench.mat
     """
-    from erdctl.core.workers import part_of
+    from erdctl.core.progress import part_of
     from erdctl.io.convert import read_converted
     from erdctl.io.tables import output_format, write_table
     from erdctl.report.text import progress, say

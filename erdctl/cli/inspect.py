@@ -46,7 +46,7 @@ def command(
     from erdctl.bench.inspection import inspect
     from erdctl.cli.reading import labelled, read_logs
     from erdctl.core.labels import labels_of
-    from erdctl.core.workers import part_of
+    from erdctl.core.progress import part_of
     from erdctl.effects import catalogue
     from erdctl.io import documents
     from erdctl.io.inspection import to_json
@@ -75,7 +75,7 @@ def _show(found: Inspection, document: InspectionFile) -> None:
         """Both ends in the unit that people read the larger one in."""
         if ends is None:
             return ["-", "-"]
-        factor, shown = scaled(unit, largest(ends))
+        factor, shown = (100.0, "%") if unit == "%" else scaled(unit, largest(ends))
         return [f"{number(v * factor, digits)} {'' if shown == '1' else shown}".rstrip()
                 for v in ends]  # fmt: skip
 
@@ -83,7 +83,10 @@ def _show(found: Inspection, document: InspectionFile) -> None:
         f"{found.samples} samples, {found.duration:.6g} s in {len(found.records)} records",
         ["channel", "column of the log", "times", "is in", "lowest", "highest"],
         [
-            [c["name"], c["column"], number(c["factor"]), c["unit"], *span(c["range"], c["unit"])]
+            [
+                c["name"], c["column"], number(c["factor"]), c["unit"],
+                *span(c["range"], "%" if c["name"] == "duty" else c["unit"]),
+            ]
             for c in document["channels"] if c["range"] is not None
         ],
     )  # fmt: skip

@@ -137,9 +137,8 @@ def _show(found: Validation, recording: Recording) -> None:
         error = number(s.rms * factor)
         return [label, str(s.samples), error, f"{s.nrmse:.4f}", percent_of(s.rms, peak)]
 
-    header = ["", "samples", f"RMSE [{unit}]", "NRMSE", "of the peak"]
-    over = f"{found.normalise.value} of the measured force"
-    by = f"NRMSE over the {over} (peak {with_unit(peak, 'N')})"
+    header = ["", "samples", f"RMSE [{unit}]", "NRMSE", f"of peak {with_unit(peak, 'N')}"]
+    by = f"NRMSE over the {found.normalise.value} of the measured force"
     rows = [row(f"{100 * d:g} %", s) for d, s in found.by_duty.items()]
     rows.append(row("all", found.overall))
     levels = [s.nrmse for s in found.by_duty.values()]

@@ -12,8 +12,8 @@ from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import untestable
 from erdctl.core.blocks import thinned
 from erdctl.core.errors import InputProblem
+from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Array, Recording
-from erdctl.core.workers import Progress, part_of
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import Comparison, compare
 from erdctl.diagnose.discriminating_drive import DiscriminatingDrive, discriminating_drive

@@ -11,8 +11,9 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from erdctl.core.errors import ComputationProblem, EffectFailed, IncompatibleEffects
+from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Array
-from erdctl.core.workers import Progress, part_of, pool
+from erdctl.core.workers import pool
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis, rank_starts
 from erdctl.diagnose.problem import Problem

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from erdctl.core.workers import part_of
+from erdctl.core.progress import part_of
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import is_better
 from erdctl.diagnose.executor import Executor, Task

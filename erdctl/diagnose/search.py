@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from erdctl.core.workers import part_of
+from erdctl.core.progress import part_of
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.backward_step import as_good_as_explored, eliminate, second_pass, without_each
 from erdctl.diagnose.companion_effects import companion_sets, joint_task

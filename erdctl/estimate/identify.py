@@ -10,8 +10,8 @@ import numpy as np
 from erdctl.bench.identifiability import held_values, unmet
 from erdctl.core.blocks import Block, pieces, sample
 from erdctl.core.errors import InputProblem
+from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import DIRECTIONS, Recording
-from erdctl.core.workers import Progress, part_of
 from erdctl.estimate.covariance import Fit, assess, estimates
 from erdctl.estimate.least_squares import Fitted, fit
 from erdctl.estimate.starts import fresh_start

@@ -11,8 +11,8 @@ import numpy as np
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem, UsageProblem
+from erdctl.core.progress import Progress, told
 from erdctl.core.recording import Array, Index, Recording, Source, concatenate
-from erdctl.core.workers import Progress, told
 from erdctl.io import units
 from erdctl.io.arrays import arrow, runs_of_text
 from erdctl.io.checks import Place, check_time, check_values, remark_on_time

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from erdctl.core.errors import UsageProblem
+from erdctl.core.progress import part_of
 from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
-from erdctl.core.workers import part_of
 from erdctl.mimic.inverse import follow
 from erdctl.mimic.outcome import Plan
 from erdctl.mimic.plan import mimic

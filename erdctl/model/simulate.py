@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from erdctl.core.blocks import neighbours
+from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import DIRECTIONS, Array, Recording
 from erdctl.core.signals import Signals
-from erdctl.core.workers import Progress, part_of
 from erdctl.model.divergence import refuse_diverged
 from erdctl.model.parameters import Parameters
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 import os
-import shutil
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from typing import TextIO
 
 from erdctl.report.layout import BOX, boxed, lines, wrapped
 
@@ -29,7 +29,7 @@ def say(text: str, kind: str = "note") -> None:
 
 def show(text: str) -> None:
     """One line of a command's answer on stdout; broken between words on a terminal."""
-    print(wrapped(text, shutil.get_terminal_size().columns) if sys.stdout.isatty() else text)
+    print(wrapped(text, _columns(sys.stdout)) if sys.stdout.isatty() else text)
 
 
 def terminal() -> bool:
@@ -42,7 +42,15 @@ def width() -> int | None:
     said = os.environ.get("COLUMNS", "")
     if said.isdecimal() and int(said) > 0:
         return int(said)
-    return shutil.get_terminal_size().columns if sys.stderr.isatty() else None
+    return _columns(sys.stderr) if sys.stderr.isatty() else None
+
+
+def _columns(stream: TextIO) -> int | None:
+    """Columns of the terminal behind a stream; None where it does not say."""
+    try:
+        return os.get_terminal_size(stream.fileno()).columns or None
+    except (OSError, ValueError):
+        return None
 
 
 def table(
