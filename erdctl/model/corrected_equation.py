@@ -8,7 +8,8 @@ Eq. 13 is taken as its three groups, and Eq. 12 as its steady value:
 An effect says in `alters` what becomes of a piece (`gas`, `viscous`, `yield`, `sign`, `law`), with
 {} for what stood there, or of a symbol (`v`, `x`, `xdot`). Forces that it adds are taken from its
 own equation `F = ...`; what defines a new symbol is written below.
-Check: a friction F_c sign(xdot) is one term more; a play makes x_p of x, and says what x_p is.
+Check: a friction F_c sign(xdot) is one term more; a play g makes x_p of x, with q up to g/2 either
+way, dq/dt = xdot between its flanks and 0 on them.
 >>> from erdctl.effects import get
 >>> for line in corrected_equation([get("coulomb_friction"), get("backlash")]): print(line)
 F = k_nom x_p + c_vis xdot_p + F_ER sign(xdot_p) + F_c sign(xdot_p)

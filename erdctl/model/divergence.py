@@ -20,7 +20,13 @@ def reach(model: Model, values: Mapping[str, float], recording: Recording) -> fl
 
         max(k_nom |x| + c_vis |xdot| + sigma over both directions, |force|, forces among the values)
 
-    Check: 100 N/m, 50 N s/m and 20 N up to 10 mm and 0.2 m/s give 1 + 10 + 20 = 31 N.
+    Check: 100 N/m, 50 N s/m and 20 N up to 0.01 m and 0.2 m/s give 1 + 10 + 20 = 31 N.
+    >>> one = {"k_nom": 100.0, "c_vis": 50.0, "sigma": 20.0, "T_d": 0.0, "beta": 1.0}
+    >>> values = {f"{d}.{s}": v for d in DIRECTIONS for s, v in one.items()}
+    >>> x, xdot, duty = np.array([0.0, 0.01]), np.array([0.2, -0.1]), np.zeros(2)
+    >>> r = Recording(x, x, xdot, duty, np.array([0, 2]), ("",))
+    >>> reach(Model(), values, r)
+    31.0
     """
 
     def most(channel: Array) -> float:

@@ -43,7 +43,8 @@ def lines(header: Sequence[str], rows: Rows, width: int | None = None) -> list[s
     """A table as lines of at most `width` columns of a terminal; None for no limit.
 
     The first column stands at the left, the others at the right.
-    Check: at 12 columns two columns of 4 still fit beside each other, a third does not.
+    Check: at 12 columns the names a and b and one column of 4 fit beside each other, and the other,
+    with 22 and 3, comes below that with 1 and 10.
     >>> print("\\n".join(lines(["", "mean", "high"], [["a", "1", "22"], ["b", "10", "3"]], 12)))
          mean
       a     1

@@ -93,7 +93,7 @@ def shades(count: int) -> list[tuple[float, float, float]]:
 def on_dark(colour: tuple[float, float, float]) -> tuple[float, float, float]:
     """The colour of the same hue that stands out from dark paper: as light as need be, no lighter.
 
-    Check: what is light already stays as it is.
+    Check: the light yellow (0.8, 0.9, 0.2) stays as it is.
     >>> on_dark((0.8, 0.9, 0.2))
     (0.8, 0.9, 0.2)
     """

@@ -78,7 +78,7 @@ def flowing(text: str) -> Markup:
     """An equation in pieces between which a line may break: sums at their terms, and clauses.
 
     A browser breaks no formula, and a long one would be wider than a telephone.
-    Check: "F = a + b, b = 1" comes in three pieces.
+    Check: "F = a + b, b = 1" comes in 3 pieces.
     >>> str(flowing("F = a + b, b = 1")).count("<math")
     3
     """
