@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
+from scipy.ndimage import uniform_filter1d
 
 from erdctl.bench.excitation import null_control
-from erdctl.bench.strokes import steady, strokes
+from erdctl.bench.strokes import steady, stretches, strokes
 from erdctl.core.blocks import SETTLE
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array, Recording
@@ -19,6 +20,8 @@ NEAR_PEAK = 0.97  # of a stroke's highest speed: the samples that make its force
 SPEEDS = 41  # bins of velocity
 STROKES = 30  # bins of deflection
 FEWEST = 5  # samples that make a mean
+TRAVEL = 0.1  # of the stroke: what is passed slowly in one go, at least
+SMOOTHED = 0.1  # s over which a noisy speed is averaged
 SLOW = 5e-3  # m/s, up to which a damper without field counts as hardly damping
 
 
@@ -160,7 +163,10 @@ class SlowTest:
 def slow_test(
     recording: Recording, force: Array, speed: float = SLOW, bins: int = STROKES
 ) -> SlowTest:
-    """Gas force and seal drag from samples without field that hardly move.
+    """Gas force and seal drag from strokes without field that hardly move.
+
+    The reversals of a fast motion are no slow strokes, though the speed passes through zero there:
+    fluid and friction are not at rest then.
 
     force : (n,) [N];  speed : [m/s] up to which samples count; c_vis times it stays in the drag
     Raises InputProblem if no deflection was passed slowly both ways.
@@ -174,7 +180,8 @@ def slow_test(
     """
     v = recording.xdot
     still = null_control(Signals.of(recording))
-    at = np.flatnonzero((np.abs(v) <= speed) & (v != 0.0) & still)
+    slow = _slowly(recording, speed, still)
+    at = np.flatnonzero((np.abs(v) <= speed) & (v != 0.0) & slow)
     if len(at):
         x = recording.x[at]
         edges = np.linspace(x.min(), x.max(), bins + 1)
@@ -189,6 +196,25 @@ def slow_test(
             middle = 0.5 * (edges[1:] + edges[:-1])
             return SlowTest(middle[both], ways[0][both], ways[1][both], speed, len(at))
     raise InputProblem(
-        f"no deflection is passed both ways without field and at no more than {speed * 1e3:g} mm/s;"
+        "no slow strokes: no deflection is passed both ways without field and at no more than"
+        f" {speed * 1e3:g} mm/s, for {100 * TRAVEL:g} % of the stroke at a time (reversals of a"
+        " fast motion are none);"
         " record a slow test, e.g. --drive triangle:speed=0.002,amp=0.01,duration=20"
     )
+
+
+def _slowly(
+    recording: Recording, speed: float, still: npt.NDArray[np.bool_]
+) -> npt.NDArray[np.bool_]:
+    """(n,) where the piston goes on slowly for a good part of the stroke, without field."""
+    slow = np.zeros(len(recording), dtype=bool)
+    if not still.any():
+        return slow
+    steps = recording.step[recording.step > 0.0]
+    window = 1 if not len(steps) else int(SMOOTHED / float(np.median(steps))) | 1
+    # Of the size of the speed, so that what swings to and fro does not look slow.
+    mean = uniform_filter1d(np.abs(recording.xdot), window, mode="nearest")
+    least = TRAVEL * float(np.ptp(recording.x[still]))
+    for a, b in zip(*stretches((mean <= speed) & still, recording.starts), strict=True):
+        slow[a:b] = np.ptp(recording.x[a:b]) >= least
+    return slow

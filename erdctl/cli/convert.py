@@ -48,6 +48,7 @@ def command(
       erdctl convert bench.csv bench.mat
       erdctl convert lab.txt out.parquet --text decimal=comma --map "force=Load (N)[0.98 N]"
     """
+    from erdctl.core.progress import part_of
     from erdctl.io.convert import read_converted
     from erdctl.io.tables import output_format, write_table
     from erdctl.report.text import progress, say
@@ -55,7 +56,7 @@ def command(
     wanted = format and format.value
     output_format(output, wanted)  # a wrong suffix shows before a long reading
     with progress() as step:
-        step("reading", log)
+        step("reading", part_of(log, 1, 2))
         table = read_converted(log, maps=maps, text=text, say=say)
-        step("writing", output)
+        step("writing", part_of(output, 2, 2))
         write_table(table, output, wanted)

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from erdctl.cli.options import Out
+from erdctl.cli.options import Damper, Date, Operator, Out
 
 
 def command(
@@ -14,6 +14,9 @@ def command(
         str, typer.Argument(metavar="GEOMETRY", help="Geometry file (JSON); - is stdin.")
     ],
     output: Out = "-",
+    date: Date = None,
+    damper: Damper = None,
+    operator: Operator = None,
 ) -> None:
     """Derive k_nom, c_vis and sigma from a damper's geometry and fluid (Eqs. 3-14).
 
@@ -24,6 +27,7 @@ def command(
       erdctl derive fixtures/geometry_inove.json
       erdctl derive geometry.json | erdctl simulate - drive.csv
     """
+    from erdctl.core.labels import labels_of
     from erdctl.core.recording import DIRECTIONS
     from erdctl.io.geometry import read_geometry
     from erdctl.io.parameters import write_parameters
@@ -31,8 +35,10 @@ def command(
     from erdctl.model.geometry import derive
     from erdctl.model.paper import QUANTITIES
     from erdctl.model.parameters import Estimate, Parameters
-    from erdctl.report.text import number, say, table
+    from erdctl.report.readable import number
+    from erdctl.report.text import say, table
 
+    labels = labels_of(date, damper, operator)
     given = read_geometry(geometry)
     found = derive(given, file=geometry)
     values = {"k_nom": found.k_nom, "c_vis": found.c_vis, "sigma": found.sigma, "beta": found.beta}
@@ -44,7 +50,7 @@ def command(
         for d in DIRECTIONS
         for s, q in QUANTITIES.items()
     }
-    origin = {"derived_from": geometry, "preload": {"value": found.preload, "unit": "N"}}
+    origin = {"derived_from": geometry, "preload": {"value": found.preload, "unit": "N"}, **labels}
     write_parameters(Parameters(model=Model(), estimates=estimates, provenance=origin), output)
     rows = [[s, QUANTITIES[s].unit, number(v, 6)] for s, v in values.items()]
     rows.append(["gas preload", "N", number(found.preload, 6)])

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from erdctl.cli.options import Logs, Maps, Out, Text, Where
+from erdctl.cli.options import Damper, Date, Logs, Maps, Operator, Out, Text, Where, effect_names
 from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
 from erdctl.cli.rig import Accept, Strict
@@ -31,10 +31,18 @@ def command(
     output: Out = "-",
     only: Annotated[
         list[str],
-        typer.Option("--effects", metavar="NAME,...", help="Test these effects only."),
+        typer.Option(
+            "--effects",
+            metavar="NAME,...",
+            help="Test these effects only.",
+            autocompletion=effect_names,
+        ),
     ] = [],
     exclude: Annotated[
-        list[str], typer.Option(metavar="NAME,...", help="Do not test these effects.")
+        list[str],
+        typer.Option(
+            metavar="NAME,...", help="Do not test these effects.", autocompletion=effect_names
+        ),
     ] = [],
     record_gains: Annotated[
         bool,
@@ -69,6 +77,9 @@ def command(
     maps: Maps = [],
     text: Text = [],
     where: Where = [],
+    date: Date = None,
+    damper: Damper = None,
+    operator: Operator = None,
     plot: Plots = [],
     accept: Accept = [],
     strict: Strict = False,
@@ -102,9 +113,10 @@ def command(
       erdctl diagnose bench.csv -o diagnosis.json --plot before-after.png --plot misfit:map.svg
     """
     from erdctl.cli.pictures import draw, wanted
-    from erdctl.cli.reading import read_logs
+    from erdctl.cli.reading import labelled, read_logs
     from erdctl.cli.rig import fail, show
     from erdctl.core.errors import CheckFailed
+    from erdctl.core.labels import labels_of
     from erdctl.diagnose.corrected import parameters
     from erdctl.diagnose.diagnosis import Verdict, diagnose
     from erdctl.diagnose.jobs import worthwhile
@@ -116,10 +128,12 @@ def command(
 
     check_report(report)
     asked = wanted(plot, "before-after")
+    labels = labels_of(date, damper, operator)
     given, file = _given(params, logs)
     log = read_logs(
         logs, maps=maps, text=text, where=where, need_force=True, want_hash=True, report=say
     )
+    log = labelled(log, labels)
     tested = candidates(_names(only), _names(exclude))
     with progress() as step:
         found = diagnose(
@@ -177,16 +191,20 @@ def _report(found: Diagnosis, document: dict[str, Any], path: str, seed: int) ->
     recording = found.problem.recording
     before, after = (simulate(p, recording) for p in (baseline(found), parameters(found)))
     run = Run(
-        words=sys.argv[1:], logs=recording.sources,
+        words=sys.argv[1:], logs=recording.sources, labels=recording.labels,
         details=[("seed", str(seed)), ("velocity", recording.xdot_note)],
     )  # fmt: skip
     write_report(diagnosis_page(document, recording, before=before, after=after, run=run), path)
 
 
 def _show(found: Diagnosis) -> None:
+    from math import nan
+
     from erdctl.diagnose.corrected import parameters
     from erdctl.diagnose.wording import finding_text, record_values, remaining_text
-    from erdctl.report.text import number, say, table
+    from erdctl.model.corrected_equation import corrected_equation
+    from erdctl.report.readable import estimate, headline, largest, number, percent_of, with_unit
+    from erdctl.report.text import say, table
 
     def with_error(value: float, error: float | None) -> str:
         return number(value) + ("" if error is None else f" +- {number(error, 2)}")
@@ -198,10 +216,16 @@ def _show(found: Diagnosis) -> None:
         [f"{100 * d:g} %", *(f"{v.by_duty[d].nrmse:.4f}" for v in shown.values())]
         for d in found.baseline.by_duty
     ]
+    force = found.problem.recording.force
+    assert force is not None
+    peak = largest((float(force.max()), float(force.min())))
+    errors = [v.overall.rms for v in shown.values()]
     rows.append(["all", *(f"{v.overall.nrmse:.4f}" for v in shown.values())])
+    rows.append(["all, rms", *(with_unit(e, "N") for e in errors)])
+    rows.append([f"of {with_unit(peak, 'N')} peak", *(percent_of(e, peak) for e in errors)])
     title = f"Verdict: {found.verdict.value}. NRMSE over the range, per PWM level"
     bars = {
-        i: [*(s.nrmse for s in v.by_duty.values()), v.overall.nrmse]
+        i: [*(s.nrmse for s in v.by_duty.values()), v.overall.nrmse, nan, nan]
         for i, v in enumerate(shown.values(), start=1)
     }
     table(title, ["", *shown], rows, bars)
@@ -218,14 +242,17 @@ def _show(found: Diagnosis) -> None:
         )
     known = parameters(found)
     for finding in found.findings:
-        say(finding_text(finding), finding.effect.name)
-        for q in finding.effect.quantities:
-            e = known.estimates[finding.effect.key(q.symbol)]
-            error = "" if e.stderr is None else f" +- {number(e.stderr, 2)}"
-            say(
-                f"  {q.symbol} = {number(e.value)}{error} {e.unit}  ({q.title})",
-                finding.effect.name,
-            )
+        effect = finding.effect
+        own = {q.symbol: known.estimates[effect.key(q.symbol)] for q in effect.quantities}
+        said = headline(effect, {symbol: e.value for symbol, e in own.items()})
+        say(f"{said}: {finding_text(finding)}", effect.name)
+        for q in effect.quantities:
+            e = own[q.symbol]
+            said = estimate(e.value, e.unit, e.stderr, at_bound=e.at_bound)
+            say(f"  {q.symbol} = {said}  ({q.title})", effect.name)
+    if found.findings:
+        for line in corrected_equation([f.effect for f in found.findings]):
+            say(line, "corrected")
     for region in found.mismatch:
         say(region.text, "where")
     say(remaining_text(found), "remains")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from erdctl.cli.options import Logs, Maps, Out, Text, Where
+from erdctl.cli.options import Damper, Date, Logs, Maps, Operator, Out, Text, Where
 from erdctl.cli.pictures import Plots
 from erdctl.cli.rig import Accept, Strict
 from erdctl.estimate.method import Method
@@ -22,6 +22,9 @@ def command(
     maps: Maps = [],
     text: Text = [],
     where: Where = [],
+    date: Date = None,
+    damper: Damper = None,
+    operator: Operator = None,
     method: Annotated[
         Method, typer.Option(help="Fit all parameters jointly, or as the paper does (Sec. 4).")
     ] = Method.JOINT,
@@ -48,17 +51,20 @@ def command(
     """
     from erdctl.bench.rig import look
     from erdctl.cli.pictures import draw, wanted
-    from erdctl.cli.reading import read_logs
+    from erdctl.cli.reading import labelled, read_logs
     from erdctl.cli.rig import fail, show
+    from erdctl.core.labels import labels_of
     from erdctl.estimate.identify import identify
     from erdctl.io.identification import parameters_of
     from erdctl.io.parameters import write_parameters
     from erdctl.report.text import progress, say
 
     asked = wanted(plot, "loops")
+    labels = labels_of(date, damper, operator)
     log = read_logs(
         logs, maps=maps, text=text, where=where, need_force=True, want_hash=True, report=say
     )
+    log = labelled(log, labels)
     rig = look(log.recording).accept(accept)
     rig.refuse()
     show(rig)
@@ -86,18 +92,16 @@ def command(
 
 
 def _show(found: Identification, parameters: Parameters) -> None:
-    from erdctl.report.text import number, say, table
+    from erdctl.report.readable import error_of, number, scaled
+    from erdctl.report.text import say, table
 
-    rows = [
-        [
-            name,
-            e.unit,
-            number(e.value, 6),
-            number(e.stderr, 2),
-            number(found.two_step.get(name), 6),
-        ]
-        for name, e in parameters.estimates.items()
-    ]
+    rows = []
+    for name, e in parameters.estimates.items():
+        factor, unit = scaled(e.unit, e.used)
+        values = (e.value, found.two_step.get(name))
+        fit, steps = (number(None if v is None else v * factor, 6) for v in values)
+        error = error_of(e.stderr, factor, at_bound=e.at_bound)
+        rows.append([name, unit, fit, error, steps])
     title = f"Identified from {found.fit.samples} samples, residual {found.fit.rms:.4g} N rms"
     table(title, ["parameter", "unit", "joint fit", "std. error", "paper's steps"], rows)
     for line in [*parameters.caveats(), *parameters.warnings]:

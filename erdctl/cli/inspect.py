@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from erdctl.cli.options import Logs, Maps, Text, Where
+from erdctl.cli.options import Damper, Date, Logs, Maps, Operator, Text, Where
 from erdctl.cli.rig import Strict
 
 if TYPE_CHECKING:
@@ -26,6 +26,9 @@ def command(
     text: Text = [],
     where: Where = [],
     strict: Strict = False,
+    date: Date = None,
+    damper: Damper = None,
+    operator: Operator = None,
 ) -> None:
     """Say what is in a log, and what it can and cannot show, before anything is fitted.
 
@@ -49,13 +52,16 @@ def command(
         --map "duty=PWM[%]"
     """
     from erdctl.bench.inspection import inspect
-    from erdctl.cli.reading import read_logs
+    from erdctl.cli.reading import labelled, read_logs
     from erdctl.cli.rig import fail, show
+    from erdctl.core.labels import labels_of
+    from erdctl.core.progress import part_of
     from erdctl.effects import catalogue
     from erdctl.io import documents
     from erdctl.io.inspection import to_json
     from erdctl.report.text import progress, say
 
+    labels = labels_of(date, damper, operator)
     log = read_logs(
         logs,
         maps=maps,
@@ -66,8 +72,9 @@ def command(
         want_hash=as_json,
         report=say,
     )
+    log = labelled(log, labels)
     with progress() as step:
-        step("inspecting", f"{len(log.recording)} samples")
+        step("inspecting", part_of(f"{len(log.recording)} samples", 1, 1))
         found = inspect(log.recording, catalogue())
     document = to_json(found, log)
     show(found.rig)
@@ -80,31 +87,43 @@ def command(
 
 
 def _show(found: Inspection, document: InspectionFile) -> None:
-    from erdctl.report.text import number, say, table
+    from erdctl.report.readable import largest, number, scaled
+    from erdctl.report.text import say, table
 
-    def span(ends: Sequence[float] | None, digits: int = 4) -> list[str]:
-        return ["-", "-"] if ends is None else [number(v, digits) for v in ends]
+    def span(ends: Sequence[float] | None, unit: str = "1", digits: int = 4) -> list[str]:
+        """Both ends in the unit that people read the larger one in."""
+        if ends is None:
+            return ["-", "-"]
+        factor, shown = (100.0, "%") if unit == "%" else scaled(unit, largest(ends))
+        return [f"{number(v * factor, digits)} {'' if shown == '1' else shown}".rstrip()
+                for v in ends]  # fmt: skip
 
     table(
         f"{found.samples} samples, {found.duration:.6g} s in {len(found.records)} records",
-        ["channel", "column of the log", "times", "unit", "lowest", "highest"],
+        ["channel", "column of the log", "times", "is in", "lowest", "highest"],
         [
-            [c["name"], c["column"], number(c["factor"]), c["unit"], *span(c["range"])]
+            [
+                c["name"], c["column"], number(c["factor"]), c["unit"],
+                *span(c["range"], "%" if c["name"] == "duty" else c["unit"]),
+            ]
             for c in document["channels"] if c["range"] is not None
         ],
     )  # fmt: skip
     hot = any(r["temperature"] for r in document["records"])
+    factor, newton = scaled("N", largest(f for r in document["records"] for f in r["force"] or []))
     rows = [
         [
             r["name"], str(r["samples"]), number(r["duration"]), number(r["rate"]),
-            str(r["gaps"]), number(1e3 * (r["x"][1] - r["x"][0])), number(r["speed"]),
+            str(r["gaps"]), number(1e3 * (r["x"][1] - r["x"][0])), number(1e3 * r["speed"]),
             " to ".join(number(100 * d, 3) for d in r["duty"]),
-            " to ".join(span(r["force"], 3)), *([span(r["temperature"])[1]] * hot),
+            " to ".join(number(f * factor, 3) for f in r["force"] or []) or "-",
+            *([span(r["temperature"])[1]] * hot),
         ]
         for r in document["records"][:LISTED]
     ]  # fmt: skip
     header = ["record", "samples", "length [s]", "rate [Hz]", "gaps", "stroke [mm]",
-              "top speed [m/s]", "duty [%]", "force [N]", *(["top [degC]"] * hot)]  # fmt: skip
+              "top speed [mm/s]", "duty [%]", f"force [{newton}]",
+              *(["top [degC]"] * hot)]  # fmt: skip
     table("Records", header, rows)
     if len(found.records) > LISTED:
         say(f"{len(found.records) - LISTED} more records; --json lists all")

@@ -6,7 +6,18 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from erdctl.cli.options import Faults, Maps, Out, OutputFormat, Params, Text, Where
+from erdctl.cli.options import (
+    Damper,
+    Date,
+    Faults,
+    Maps,
+    Operator,
+    Out,
+    OutputFormat,
+    Params,
+    Text,
+    Where,
+)
 from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
 
@@ -61,6 +72,9 @@ def command(
     maps: Maps = [],
     text: Text = [],
     where: Where = [],
+    date: Date = None,
+    damper: Damper = None,
+    operator: Operator = None,
     format: Annotated[
         OutputFormat | None, typer.Option(help="Format on stdout; default CSV.")
     ] = None,
@@ -87,8 +101,9 @@ def command(
     from hashlib import sha256
 
     from erdctl.cli.pictures import wanted
-    from erdctl.cli.reading import read_logs
+    from erdctl.cli.reading import labelled, read_logs
     from erdctl.core.errors import InputProblem, UsageProblem
+    from erdctl.core.labels import labels_of
     from erdctl.io import documents, pwm
     from erdctl.io.parameters import parse_parameters
     from erdctl.mimic.sequence import at_duty, sequence, too_hot
@@ -103,6 +118,7 @@ def command(
         raise UsageProblem("PARAMS and LOG cannot both be stdin")
     check_report(report)
     asked = wanted(plot, "mimic")
+    labels = labels_of(date, damper, operator)
     amplifier = Amplifier(
         carrier=carrier, full_scale=full_scale, duty_max=duty_max, resolution=resolution,
         slew=math.inf if slew is None else slew, update_rate=update_rate,
@@ -120,6 +136,7 @@ def command(
         want_hash=True,
         report=say,
     )
+    read = labelled(read, labels)
     heat = too_hot(read.recording, max_temperature)
     if heat is not None and not force:
         raise InputProblem(f"{heat}; nothing was written (--force overrides, Sec. 5.4)")
@@ -149,7 +166,7 @@ def command(
         from erdctl.report.page.render import Run
 
         run = Run(
-            words=sys.argv[1:], logs=recording.sources,
+            words=sys.argv[1:], logs=recording.sources, labels=recording.labels,
             details=[("parameters", f"{params}, SHA-256 {sha256(data).hexdigest()}")],
         )  # fmt: skip
         page = mimic_page(found.plans, recording, found.healthy, static=uncompensated, run=run)

@@ -2,10 +2,55 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from enum import StrEnum
 from typing import Annotated
 
 import typer
+
+
+def effect_names(incomplete: str) -> list[str]:
+    """Completes names of effects, also behind a comma."""
+    from erdctl.effects import names
+
+    return after_comma(incomplete, names())
+
+
+def schema_names(incomplete: str) -> list[str]:
+    """Completes names of documents."""
+    from erdctl.io.shapes import SCHEMAS
+
+    return [name for name in (*SCHEMAS, "proof") if name.startswith(incomplete)]
+
+
+def picture_kinds(incomplete: str) -> list[str]:
+    """Completes kinds of pictures."""
+    from erdctl.report.pictures import names
+
+    return [name for name in names() if name.startswith(incomplete)]
+
+
+def kinds_of_plot(incomplete: str) -> list[str]:
+    """Completes the kind in `--plot KIND:FILE`."""
+    return [f"{kind}:" for kind in picture_kinds(incomplete)]
+
+
+def fault_kinds(incomplete: str) -> list[str]:
+    """Completes the kind in `--fault KIND=FACTOR`."""
+    from erdctl.model.faults import FaultKind
+
+    return [f"{k.short}=" for k in FaultKind if k.short.startswith(incomplete)]
+
+
+def after_comma(incomplete: str, names: Iterable[str]) -> list[str]:
+    """The lists that some names make of one whose last name is incomplete.
+
+    Check: behind "backlash,co" comes what begins with co, and backlash stays.
+    >>> after_comma("backlash,co", ["backlash", "coulomb_friction"])
+    ['backlash,coulomb_friction']
+    """
+    head, comma, last = incomplete.rpartition(",")
+    return [f"{head}{comma}{name}" for name in names if name.startswith(last)]
 
 
 class OutputFormat(StrEnum):
@@ -56,9 +101,21 @@ Faults = Annotated[
     list[str],
     typer.Option(
         "--fault",
+        autocompletion=fault_kinds,
         metavar="KIND=FACTOR@START:END",
         help="oil, electrical or deformation, e.g. oil=0.5@15:31. May be repeated.",
     ),
+]
+Date = Annotated[
+    str | None,
+    typer.Option("--date", metavar="YYYY-MM-DD", help="Date of the test, for provenance."),
+]
+Damper = Annotated[
+    str | None,
+    typer.Option("--damper", metavar="TEXT", help="The damper tested, for provenance."),
+]
+Operator = Annotated[
+    str | None, typer.Option("--operator", metavar="TEXT", help="Who tested it, for provenance.")
 ]
 EXIT_CODES = (
     "Exit codes: 0 done; 1 a check you asked for failed; 2 wrong usage; 3 bad input data or"

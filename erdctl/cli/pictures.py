@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from erdctl.cli.options import kinds_of_plot
+
 if TYPE_CHECKING:
     from erdctl.report.subject import Subject
 
@@ -16,6 +18,7 @@ Plots = Annotated[
     typer.Option(
         "--plot",
         metavar="[KIND:]FILE",
+        autocompletion=kinds_of_plot,
         help="Draw a picture: .png, .svg or .pdf. KIND is one of `erdctl plot --help`, e.g."
         " time:force.png. May be repeated.",
     ),

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from erdctl.cli.options import Faults, Logs, Maps, Text, Where
+from erdctl.cli.options import Faults, Logs, Maps, Text, Where, picture_kinds
 
 if TYPE_CHECKING:
     from erdctl.io.logs import Log
@@ -20,7 +20,12 @@ def command(
         typer.Option("--output", "-o", metavar="FILE", help="Picture: .png, .svg or .pdf."),
     ],
     kind: Annotated[
-        str | None, typer.Option(metavar="KIND", help="One of the list above; loops, or faults.")
+        str | None,
+        typer.Option(
+            metavar="KIND",
+            help="One of the list above; loops, or faults.",
+            autocompletion=picture_kinds,
+        ),
     ] = None,
     params: Annotated[
         str | None,

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from erdctl.cli.options import effect_names
 from erdctl.cli.pages import Report, check_report
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ def command(
         list[str],
         typer.Option(
             "--effects",
+            autocompletion=effect_names,
             metavar="NAME,...",
             help="Hide one of these: effects of the catalogue, or others that the plant knows.",
         ),
@@ -129,7 +131,8 @@ def _run(wish: Wish, seeds: Sequence[int], folder: Path, jobs: int | None) -> Pr
     from erdctl.prove.document import proof_of
     from erdctl.prove.run import Outcome, prove
     from erdctl.prove.tables import line
-    from erdctl.report.text import QUIET, progress, say
+    from erdctl.report.layout import wrapped
+    from erdctl.report.text import QUIET, progress, say, width
 
     scored = 0
     say("nrmse on fresh records, without noise: paper's model, corrected, best that can be reached")
@@ -142,10 +145,10 @@ def _run(wish: Wish, seeds: Sequence[int], folder: Path, jobs: int | None) -> Pr
             nonlocal scored
             scored += 1
             if not QUIET.get():
-                print(line(outcome), file=sys.stderr, flush=True)
-            step("scored", f"{scored} of {len(seeds)}")
+                print(wrapped(line(outcome), width()), file=sys.stderr, flush=True)
+            step("scored", f"{scored} of {len(seeds)} ({100 * scored // len(seeds)} %)")
 
-        step("scored", f"0 of {len(seeds)}")
+        step("scored", f"0 of {len(seeds)} (0 %)")
         outcomes = prove(
             wish, seeds, folder, jobs=min(jobs or cores(), len(seeds)),
             on_sealed=lambda s: on_sealed(s.number, s.seed, s.sha256), on_outcome=on_outcome,

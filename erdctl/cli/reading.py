@@ -2,25 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Concatenate, ParamSpec, TypeVar
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Concatenate, ParamSpec
 
 from erdctl.io import logs
+from erdctl.io.logs import Log
 from erdctl.report.text import progress
 
 P = ParamSpec("P")
-T = TypeVar("T")
 
 
 def _shown(
-    work: Callable[Concatenate[Sequence[str], P], T],
-) -> Callable[Concatenate[Sequence[str], P], T]:
-    def read(paths: Sequence[str], /, *args: P.args, **options: P.kwargs) -> T:
+    work: Callable[Concatenate[Sequence[str], P], Log],
+) -> Callable[Concatenate[Sequence[str], P], Log]:
+    def read(paths: Sequence[str], /, *args: P.args, **options: P.kwargs) -> Log:
         with progress() as step:
-            step("reading", ", ".join(paths))
-            return work(paths, *args, **options)
+            told = {"progress": step, **options}
+            return work(paths, *args, **told)  # type: ignore[arg-type]  # one option more than given
 
     return read
 
 
 read_logs = _shown(logs.read_logs)
+
+
+def labelled(log: Log, labels: Mapping[str, str]) -> Log:
+    """A log with the date, damper and operator that the user gave."""
+    return replace(log, recording=replace(log.recording, labels=labels)) if labels else log

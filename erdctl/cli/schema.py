@@ -6,12 +6,15 @@ from typing import Annotated
 
 import typer
 
+from erdctl.cli.options import schema_names
+
 
 def command(
     name: Annotated[
         str,
         typer.Argument(
             metavar="NAME",
+            autocompletion=schema_names,
             help="parameters, geometry, inspection, validation, diagnosis, pwm or proof.",
         ),
     ],

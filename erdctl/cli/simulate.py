@@ -76,8 +76,7 @@ def command(
     for line in remarks(parameters, recording):
         say(line)
     with progress() as step:
-        step("simulating", f"{len(recording)} samples")
-        force = simulate(parameters, recording, fault)
+        force = simulate(parameters, recording, fault, progress=step)
     write_table(append_column(table, "force_model", force), output, format and format.value)
     if asked:
         from erdctl.report.subject import Subject

@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from erdctl.cli.options import Maps, Text, Where
+from erdctl.cli.options import Damper, Date, Maps, Operator, Text, Where
 from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
 from erdctl.cli.rig import Accept, Strict
 
 if TYPE_CHECKING:
+    from erdctl.core.recording import Recording
     from erdctl.score.nrmse import Score, Validation
 
 
@@ -35,6 +36,9 @@ def command(
     maps: Maps = [],
     text: Text = [],
     where: Where = [],
+    date: Date = None,
+    damper: Damper = None,
+    operator: Operator = None,
     plot: Plots = [],
     accept: Accept = [],
     strict: Strict = False,
@@ -54,15 +58,17 @@ def command(
     """
     from erdctl.bench.rig import look
     from erdctl.cli.pictures import draw, wanted, wants
-    from erdctl.cli.reading import read_logs
+    from erdctl.cli.reading import labelled, read_logs
     from erdctl.cli.rig import fail, show
     from erdctl.core.errors import CheckFailed, InputProblem, UsageProblem
+    from erdctl.core.labels import labels_of
     from erdctl.report.text import progress, say
     from erdctl.score.nrmse import Normalise, validate
 
     if normalise not in list(Normalise):
         raise UsageProblem(f"--normalise takes {', '.join(Normalise)}, not '{normalise}'")
     check_report(report)
+    labels = labels_of(date, damper, operator)
     want_hash = report is not None
     asked, parameters = wanted(plot, "loops"), None
     if len(arguments) == 1:
@@ -101,8 +107,8 @@ def command(
         for line in remarks(parameters, log.recording):
             say(line)
         with progress() as step:
-            step("simulating", f"{len(log.recording)} samples")
-            modelled = simulate(parameters, log.recording)
+            modelled = simulate(parameters, log.recording, progress=step)
+    log = labelled(log, labels)
     rig = look(log.recording).accept(accept)
     show(rig)
     found = validate(log.recording, modelled, Normalise(normalise))
@@ -110,9 +116,9 @@ def command(
         from erdctl.io import documents
         from erdctl.io.validation import to_json
 
-        documents.write(to_json(found, rig.to_json()), "-")
+        documents.write(to_json(found, labels, rig.to_json()), "-")
     else:
-        _show(found)
+        _show(found, log.recording)
     if report is not None:
         import sys
 
@@ -121,7 +127,7 @@ def command(
         from erdctl.report.page.render import Run
         from erdctl.report.page.validation import validation_page
 
-        run = Run(words=sys.argv[1:], logs=log.recording.sources)
+        run = Run(words=sys.argv[1:], logs=log.recording.sources, labels=labels)
         page = validation_page(
             found, log.recording, modelled, noise=of_recording(log.recording, modelled),
             limit=fail_above, run=run, rig=rig.lines(),
@@ -147,13 +153,19 @@ def command(
         fail(rig)
 
 
-def _show(found: Validation) -> None:
+def _show(found: Validation, recording: Recording) -> None:
+    from erdctl.report.readable import largest, number, percent_of, scaled, with_unit
     from erdctl.report.text import table
 
-    def row(label: str, s: Score) -> list[str]:
-        return [label, str(s.samples), f"{s.rms:.4g}", f"{s.nrmse:.4f}"]
+    assert recording.force is not None
+    peak = largest((float(recording.force.max()), float(recording.force.min())))
+    factor, unit = scaled("N", found.overall.rms)
 
-    header = ["", "samples", "RMSE [N]", "NRMSE"]
+    def row(label: str, s: Score) -> list[str]:
+        error = number(s.rms * factor)
+        return [label, str(s.samples), error, f"{s.nrmse:.4f}", percent_of(s.rms, peak)]
+
+    header = ["", "samples", f"RMSE [{unit}]", "NRMSE", f"of peak {with_unit(peak, 'N')}"]
     by = f"NRMSE over the {found.normalise.value} of the measured force"
     rows = [row(f"{100 * d:g} %", s) for d, s in found.by_duty.items()]
     rows.append(row("all", found.overall))

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
+NEAR = 1e-3  # of a standard error
+
 
 class Scale(Enum):
     """How a fit steps through a parameter."""
@@ -41,6 +43,22 @@ class Quantity:
             raise ValueError(f"{self.symbol}: start {self.start} outside {self.low}..{self.high}")
         if self.scale is Scale.LOG and self.low <= 0:
             raise ValueError(f"{self.symbol}: a logarithmic scale needs a low bound above 0")
+
+    def bound_at(self, value: float, stderr: float | None = None) -> float | None:
+        """The bound that an estimate lies at, or None.
+
+        stderr : of the estimate; nearer to the bound than a thousandth of it is at the bound, since
+            a search that steps towards one stops just short of it
+        Check: 4e-13 with an error of 77 is at a bound of 0, 0.5 is not.
+        >>> q = Quantity(symbol="k", unit="N/m", title="", low=0.0, high=1e9, start=1.0)
+        >>> q.bound_at(4e-13, 77.0), q.bound_at(0.5, 77.0)
+        (0.0, None)
+        """
+        near = NEAR * (stderr or 0.0)
+        for bound in (self.low, self.high):
+            if abs(value - bound) <= max(near, NEAR**3 * abs(bound)):
+                return bound
+        return None
 
     def admits(self, value: float) -> bool:
         """Whether a model may have this value: within the bounds, or off."""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -39,6 +39,7 @@ class Recording:
     names : (r,) names of the records
     xdot_note : how xdot was obtained
     excluded : (n,) samples that fits and scores leave out, None for none
+    labels : date, damper and operator of the test, as far as somebody said
     """
 
     t: Array
@@ -52,6 +53,7 @@ class Recording:
     xdot_note: str = "measured"
     sources: tuple[Source, ...] = ()
     excluded: npt.NDArray[np.bool_] | None = None
+    labels: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for channel in (getattr(self, name) for name in (*CHANNELS, "excluded")):

@@ -11,8 +11,6 @@ from multiprocessing import get_context, parent_process
 from threading import Thread
 from typing import Any
 
-Progress = Callable[[str, str], None]  # called with a stage and what is being done in it
-
 
 def cores() -> int:
     """Cores that this process may use."""

@@ -13,8 +13,8 @@ from erdctl.bench.identifiability import untestable
 from erdctl.bench.rig import Rig, look
 from erdctl.core.blocks import thinned
 from erdctl.core.errors import InputProblem
+from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Array, Recording
-from erdctl.core.workers import Progress
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import Comparison, compare
 from erdctl.diagnose.discriminating_drive import DiscriminatingDrive, discriminating_drive
@@ -29,6 +29,7 @@ from erdctl.diagnose.search import Selection, refit, search
 from erdctl.estimate.covariance import Fit, assess
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
+from erdctl.model.simulate import simulate
 from erdctl.score.nrmse import Normalise, Validation, validate
 
 
@@ -119,6 +120,7 @@ def diagnose(
     thin = prepare(thinned(recording, thresholds.SEARCH_SAMPLES), free)
     survey = Survey(recording, problem.block.signals)
     if given is not None:
+        simulate(given, recording)  # one that diverges is refused before the search, not judged
         lacking = untestable(survey, given.model.effects)
         problem, thin = (with_given(s, given, lacking) for s in (problem, thin))
         candidates = [e for e in candidates if e not in given.model.effects]
@@ -130,7 +132,7 @@ def diagnose(
         selection = search(thin, testable, most, workers, seed, given)
         selection = refit(problem, selection, workers)
     best = selection.best
-    progress("lack of fit", "")
+    progress("lack of fit", part_of("regression of the residual", 1, 1))
     lack_of_fit = lack_of_fit_test(best.problem, best.residual, seed)
     noise = lack_of_fit.noise_rms
     left = lack_of_fit.significant and _matters(problem, selection, lack_of_fit)

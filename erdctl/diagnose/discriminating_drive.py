@@ -13,6 +13,7 @@ from erdctl.core.signals import Signals
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
+from erdctl.model.divergence import diverged
 
 
 @dataclass(frozen=True)
@@ -30,16 +31,25 @@ class DiscriminatingDrive:
 def discriminating_drive(
     problem: Problem, best: Hypothesis, look_alikes: Sequence[tuple[str, Hypothesis]]
 ) -> DiscriminatingDrive | None:
-    """The drive within the recorded stroke and speed that tells a hypothesis from a look-alike."""
+    """The drive within the recorded stroke and speed that tells a hypothesis from a look-alike.
+
+    None without a look-alike, and where one of both diverges on every drive.
+    """
     if not look_alikes:
         return None
     name, look_alike = look_alikes[0]
     found = []
     for spec in _specs(problem):
-        signals = Signals.of(drives([spec]))
+        drive = drives([spec])
+        signals = Signals.of(drive)
         a, b = (t.model.force(signals, t.values) for t in (best, look_alike))
+        pair = ((a, best), (b, look_alike))
+        if any(diverged(force, t.model, t.values, drive) for force, t in pair):
+            continue  # such a drive would be no advice
         settled = signals.t > thresholds.DRIVE_SETTLES * thresholds.DRIVE_SECONDS
         found.append((float(np.sqrt(np.mean((a - b)[settled] ** 2))), spec))
+    if not found:
+        return None
     difference, spec = max(found)
     return DiscriminatingDrive(spec, difference, name)
 

@@ -11,8 +11,9 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from erdctl.core.errors import ComputationProblem, EffectFailed, IncompatibleEffects
+from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Array
-from erdctl.core.workers import Progress, pool
+from erdctl.core.workers import pool
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis, rank_starts
 from erdctl.diagnose.problem import Problem
@@ -73,7 +74,10 @@ class Executor:
     def fit(self, problem: Problem, tasks: Sequence[Task]) -> list[Hypothesis | None]:
         """A hypothesis for each task; None for effects that no model can hold together."""
         if self.jobs == 1 or len(tasks) < 2:
-            return [self._here(problem, task) for task in tasks]
+            return [
+                self._here(problem, task, number, len(tasks))
+                for number, task in enumerate(tasks, start=1)
+            ]
         for task in tasks:
             self._check_sendable(task)
         if self._pool is None:
@@ -83,10 +87,12 @@ class Executor:
         number = next(i for i, p in enumerate(self.problems) if p is problem)
         futures = [self._pool.submit(_answer, number, task) for task in tasks]
         of = dict(zip(futures, tasks, strict=True))
-        self.progress(tasks[0].stage, tasks[0].name)
+        self.progress(tasks[0].stage, part_of(tasks[0].name, 1, len(tasks)))
         try:
-            for done in as_completed(futures):
-                self.progress(of[done].stage, of[done].name)
+            for number, done in enumerate(as_completed(futures), start=1):
+                # Of those that are computed at a time the one that ended; the next has its number.
+                begun = min(number + 1, len(tasks))
+                self.progress(of[done].stage, part_of(of[done].name, begun, len(tasks)))
             return [_hypothesis(problem, t, f) for t, f in zip(tasks, futures, strict=True)]
         except BrokenProcessPool:
             raise ComputationProblem(
@@ -99,8 +105,8 @@ class Executor:
         assert len(found) == len(tasks), "effects of a hypothesis can act together"
         return found
 
-    def _here(self, problem: Problem, task: Task) -> Hypothesis | None:
-        self.progress(task.stage, task.name)
+    def _here(self, problem: Problem, task: Task, number: int, count: int) -> Hypothesis | None:
+        self.progress(task.stage, part_of(task.name, number, count))
         return fitted(problem, task)
 
     def _check_sendable(self, task: Task) -> None:

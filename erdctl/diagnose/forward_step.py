@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
+from erdctl.core.progress import part_of
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import is_better
 from erdctl.diagnose.executor import Executor, Task
@@ -96,8 +97,9 @@ def _worth_a_fit(
     """The effects worth a fit together with the parent's, the most promising first."""
     screen = Screen(x.problem, parent)
     found = []
-    for effect in _additions(parent, candidates):
-        x.executor.progress("screening", effect.name)
+    tried = list(_additions(parent, candidates))
+    for number, effect in enumerate(tried, start=1):
+        x.executor.progress("screening", part_of(effect.name, number, len(tried)))
         candidate = screen.candidate(effect)
         if candidate is not None:
             found.append(candidate)

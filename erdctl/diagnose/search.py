@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from erdctl.core.progress import part_of
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.backward_step import as_good_as_explored, eliminate, second_pass, without_each
 from erdctl.diagnose.companion_effects import companion_sets, joint_task
@@ -139,7 +140,8 @@ def _forward_selection(
 
 def _base(problem: Problem, given: Parameters | None, executor: Executor) -> Hypothesis:
     """The model before any effect is added, from fresh starts and from the given values."""
-    executor.progress("base", "the paper's model" if given is None else "the given model")
+    name = "the paper's model" if given is None else "the given model"
+    executor.progress("base", part_of(name, 1, 1))
     fresh = [fresh_start(*thresholds.FRESH), fresh_start(*thresholds.FRESH_SECOND)]
     if given is None:
         return fit_hypothesis(problem, (), fresh)

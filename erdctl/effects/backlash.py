@@ -51,6 +51,8 @@ EFFECT = Effect(
     slot=MotionSlot(backlash, free_play=free_play),
     title="lost motion between the measured rod and the piston",
     equation="x_p = x - q, |q| <= g/2, dq/dt = xdot in the play and 0 on its flanks",
+    said="{g} of free play",
+    alters=(("x", "x_p"), ("xdot", "xdot_p")),
     source="Nordin and Gutman, Automatica 38 (2002) 1633-1649",
     validity="a joint stiffer than the damper and without damping of its own",
     requires=(Requirement.REVERSALS,),

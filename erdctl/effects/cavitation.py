@@ -84,8 +84,10 @@ EFFECT = Effect(
     stage=Stage.FLUID,
     slot=ScaleSlot(cavitation),
     title="release force lost until the void is taken up",
-    equation="F_viscous, F_yield -> (1 - lambda min(1, V / (e x_v))) of them in release;"
-    " dV = g dx up to x_v in compression, dV = dx down to 0 in release",
+    equation="F_viscous -> s F_viscous, F_yield -> s F_yield, s = 1 - lambda min(1, V / (e x_v)) in"
+    " release; dV = g dx up to x_v in compression, dV = dx down to 0 in release",
+    said="{lambda:%} of the release force lost until {x_v} of void are taken up",
+    alters=(("viscous", "s {}"), ("yield", "s {}")),
     source="Duym, Stiens and Reybrouck, Vehicle System Dynamics 27 (1997) 109-127",
     validity="a void that forms and is taken up whatever the speed",
     requires=(Requirement.REVERSALS,),

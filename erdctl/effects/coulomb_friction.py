@@ -32,6 +32,7 @@ EFFECT = Effect(
     slot=TermSlot(),
     title="constant seal friction",
     equation="F = F_c sign(xdot)",
+    said="{F_c} of friction",
     source="Armstrong-Hélouvry, Dupont and Canudas de Wit, Automatica 30 (1994) 1083-1138",
     validity="beyond the pre-sliding of the seal",
     requires=(Requirement.REVERSALS, Requirement.SPEEDS),

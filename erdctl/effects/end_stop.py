@@ -43,6 +43,7 @@ EFFECT = Effect(
     slot=TermSlot(),
     title="stiff contact beyond a stroke limit",
     equation="F = k_c max(x - x_stop, 0) - k_r max(-x - x_stop, 0)",
+    said="contact beyond {x_stop} of stroke",
     source="Dixon, The Shock Absorber Handbook (2007); Hunt and Crossley (1975)",
     validity="elastic stops, x = 0 half-way between them",
     requires=(Requirement.STROKE,),

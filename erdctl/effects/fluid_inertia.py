@@ -35,6 +35,7 @@ EFFECT = Effect(
     slot=TermSlot(),
     title="inertia of the fluid column and of the moving parts",
     equation="F = m d2x/dt2",
+    said="{m} of moving mass",
     source="Peel, Stanway and Bullough, Smart Mater. Struct. 5 (1996) 591-606",
     validity="motion below about 20 Hz",
     requires=(Requirement.FREQUENCIES,),

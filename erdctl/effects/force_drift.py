@@ -35,6 +35,7 @@ EFFECT = Effect(
     slot=TermSlot(),
     title="slow zero drift of the force channel",
     equation="F = d_1 (t - t_0) + d_2 (t - t_0)^2, t_0 the first time of the record",
+    said="{d_1} of drift at the beginning of a record",
     source="VDI/VDE/DKD 2638 (2008)",
     validity="drifts that a parabola follows, the zero set before each record",
     requires=(Requirement.TIME,),

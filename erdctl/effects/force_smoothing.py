@@ -137,6 +137,7 @@ EFFECT = Effect(
     slot=ChannelSlot(force_smoothing),
     title="force recorded as a moving average over a part of the motion's cycle",
     equation="F_rec(t) = mean of F from t - w T/2 to t + w T/2",
+    said="{w:%} of a cycle averaged",
     source="Smith, The Scientist and Engineer's Guide to Digital Signal Processing (1997) ch. 15",
     validity="records smoothed one by one, each over the same part of its cycle",
     requires=(Requirement.REVERSALS,),

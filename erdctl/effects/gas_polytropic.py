@@ -52,6 +52,8 @@ EFFECT = Effect(
     slot=GasSlot(gas_polytropic),
     title="Eq. 3 in place of the linear spring of Eq. 14",
     equation="k_nom x -> F_0 + k_nom ((1 - a x)^-gamma - 1) / (gamma a), a = A_s / V_0",
+    said="gas of {a} of rod area over volume, preloaded by {F_0}",
+    alters=(("gas", "F_0 + k_nom ((1 - a x)^-gamma - 1) / (gamma a)"),),
     source="the ER damper paper, Eq. 3",
     validity="a x < 0.95, the gas at one temperature or without exchange of heat",
     requires=(Requirement.STROKE,),

@@ -35,6 +35,7 @@ EFFECT = Effect(
     slot=TermSlot(),
     title="constant static gas force",
     equation="F = F_0",
+    said="{F_0} of static force",
     source="the ER damper paper, Eqs. 3 and 4",
     validity="on force data alone it is the same as force_offset, a zero error of the channel",
     requires=(Requirement.STROKE,),

@@ -51,6 +51,8 @@ EFFECT = Effect(
     slot=FieldSlot(input_delay),
     title="dead time between duty and yield stress",
     equation="T_d dF_ER/dt + F_ER = sigma v(t - tau)^beta",
+    said="{tau} of dead time",
+    alters=(("v", "v(t - tau)"),),
     source="Koo, Goncalves and Ahmadian, Smart Mater. Struct. 15 (2006) 351-358",
     validity="a constant dead time",
     requires=(Requirement.FIELD, Requirement.STEPS),

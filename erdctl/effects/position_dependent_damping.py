@@ -40,7 +40,13 @@ EFFECT = Effect(
     stage=Stage.POSITION,
     slot=ScaleSlot(position_dependent_damping),
     title="damping varies along the stroke",
-    equation="F_viscous -> max(1 + b_1 x + b_2 x^2, 0) of it, F_yield with e_1, e_2",
+    equation="F_viscous -> max(1 + b_1 x + b_2 x^2, 0) F_viscous,"
+    " F_yield -> max(1 + e_1 x + e_2 x^2, 0) F_yield",
+    said="viscous force changing by {b_1} and yield force by {e_1} along the stroke",
+    alters=(
+        ("viscous", "max(1 + b_1 x + b_2 x^2, 0) {}"),
+        ("yield", "max(1 + e_1 x + e_2 x^2, 0) {}"),
+    ),
     source="Dixon, The Shock Absorber Handbook (2007)",
     validity="the force at x = 0 as reference",
     requires=(Requirement.STROKE,),

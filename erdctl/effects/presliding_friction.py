@@ -44,6 +44,7 @@ EFFECT = Effect(
     slot=TermSlot(),
     title="elastic pre-sliding loop at reversal (Dahl, LuGre)",
     equation="F = F_c z, dz/dx = (1 - z sign(xdot)) / x_d",
+    said="{F_c} of friction that builds up over {x_d}",
     source="Dahl, AIAA Journal 14 (1976) 1675-1682; Canudas de Wit et al. (1995)",
     validity="seals whose friction does not depend on speed",
     requires=(Requirement.REVERSALS,),

@@ -45,6 +45,8 @@ EFFECT = Effect(
     slot=YieldSlot(preyield_elasticity),
     title="the yield force rebuilds over a distance after every reversal (Bouc-Wen)",
     equation="x_d dF_y/d|x| + F_y = F_ER sign(xdot)",
+    said="{x_d} of travel until the yield force is back",
+    alters=(("yield", "F_y"),),
     source="Spencer et al., J. Engineering Mechanics 123 (1997) 230-238, Eqs. 3, 4",
     validity="Bouc-Wen with n = 1 and beta = gamma; rate-independent",
     requires=(Requirement.FIELD, Requirement.REVERSALS),

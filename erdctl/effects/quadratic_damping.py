@@ -33,6 +33,7 @@ EFFECT = Effect(
     slot=TermSlot(),
     title="turbulent loss",
     equation="F = c_2 xdot |xdot|",
+    said="{c_2} of turbulent loss",
     source="Dixon, The Shock Absorber Handbook (2007)",
     validity="turbulent flow, or losses at the ends of a duct",
     requires=(Requirement.SPEEDS,),

@@ -38,6 +38,7 @@ EFFECT = Effect(
     slot=LagSlot(rise_decay_asymmetry),
     title="T_d differs between rising and falling yield force",
     equation="T_d -> r T_d while |F_ER| > |u|",
+    said="decay {r} times as slow as rise",
     source="Koo, Goncalves and Ahmadian, Smart Mater. Struct. 15 (2006) 351-358",
     validity="one ratio for both directions of motion",
     requires=(Requirement.FIELD, Requirement.STEPS),

@@ -43,6 +43,8 @@ EFFECT = Effect(
     slot=YieldSlot(signed_yield_lag),
     title="the lag acts on the signed yield force, which rebuilds after every reversal",
     equation="T_s dF_y/dt + F_y = F_ER sign(xdot)",
+    said="{T_s} of lag in the signed yield force",
+    alters=(("yield", "F_y"),),
     source="Gamota and Filisko, J. Rheol. 35 (1991) 399-425",
     validity="in addition to Eq. 12, whose T_d goes to 0 where this is the only lag",
     requires=(Requirement.FIELD, Requirement.REVERSALS),

@@ -36,6 +36,7 @@ EFFECT = Effect(
     slot=TermSlot(),
     title="friction that falls from static to kinetic with speed",
     equation="F = [F_k + F_sk exp(-(xdot / v_s)^2)] sign(xdot), F_sk = F_s - F_k",
+    said="{F_k} of kinetic friction and {F_sk} more at rest",
     source="Armstrong-Hélouvry, Dupont and Canudas de Wit, Automatica 30 (1994) 1083-1138",
     validity="lubricated seals, beyond their pre-sliding",
     requires=(Requirement.REVERSALS, Requirement.SPEEDS),

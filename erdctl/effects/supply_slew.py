@@ -40,6 +40,8 @@ EFFECT = Effect(
     slot=ControlSlot(supply_slew),
     title="the high-voltage amplifier is slew-rate limited",
     equation="dv_a/dt = sign(v - v_a) / T_full until v_a = v",
+    said="{T_full} from zero to full scale",
+    alters=(("v", "v_a"),),
     source="Horowitz and Hill, The Art of Electronics (2015), Sec. 4.4",
     validity="the same limit up and down",
     requires=(Requirement.FIELD, Requirement.STEPS),

@@ -53,6 +53,8 @@ EFFECT = Effect(
         "F_viscous -> exp(-a_v h) F_viscous, F_yield -> exp(-a_y h) F_yield,"
         " dh/dt = (F_viscous + F_yield) xdot - h / tau"
     ),
+    said="loss of {a_y} of yield stress and {a_v} of viscosity",
+    alters=(("viscous", "exp(-a_v h) {}"), ("yield", "exp(-a_y h) {}")),
     source="Gordaninejad and Breese, J. Intell. Mater. Syst. Struct. 10 (1999) 634-645",
     validity="one lumped temperature, falls of up to a few tenths",
     requires=(Requirement.TIME,),

@@ -52,6 +52,7 @@ EFFECT = Effect(
     slot=ChannelSlot(time_skew),
     title="force channel recorded late (or early) against the motion",
     equation="F_rec(t) = F(t - tau)",
+    said="{tau} of delay of the force channel",
     source="Laakso et al., IEEE Signal Processing Magazine 13 (1996) 30-60",
     validity="a constant delay, with the duty logged on the clock of the motion",
     requires=(Requirement.REVERSALS,),

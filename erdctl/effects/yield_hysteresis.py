@@ -43,6 +43,8 @@ EFFECT = Effect(
     slot=SignSlot(yield_hysteresis),
     title="loop of the yield force: tanh(k_1 x + c_1 xdot), c_1 = 1 / v_y, k_1 = kappa / v_y",
     equation="F_ER sign(xdot) -> F_ER tanh((xdot + kappa x) / v_y)",
+    said="yielding at {v_y}, with a loop {kappa} wide",
+    alters=(("sign", "tanh((xdot + kappa x) / v_y)"),),
     source="Guo, Yang and Pan, J. Intell. Mater. Syst. Struct. 17 (2006) 3-14",
     validity="cycles about x = 0",
     requires=(Requirement.FIELD, Requirement.REVERSALS, Requirement.STROKE),

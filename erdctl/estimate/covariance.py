@@ -139,9 +139,13 @@ def estimates(found: Fit, reasons: Mapping[str, str]) -> dict[str, Estimate]:
     """
     errors, out = found.stderr, {}
     for name, q in found.model.quantities.items():
-        value, reason = found.values[name], reasons.get(name)
-        if reason is None:
-            out[name] = Estimate(value=value, unit=q.unit, stderr=errors.get(name))
+        value, reason, error = found.values[name], reasons.get(name), errors.get(name)
+        bound = q.bound_at(value, error) if name in errors else None
+        if reason is None and bound is not None:
+            # A fit that presses against a bound is no bell curve around it.
+            out[name] = Estimate(value=bound, unit=q.unit, at_bound=True)
+        elif reason is None:
+            out[name] = Estimate(value=value, unit=q.unit, stderr=error)
         else:
             out[name] = Estimate(value=None, unit=q.unit, assumed=value, reason=reason)
     return out

@@ -10,8 +10,8 @@ import numpy as np
 from erdctl.bench.identifiability import held_values, unmet
 from erdctl.core.blocks import Block, pieces, sample
 from erdctl.core.errors import InputProblem
+from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import DIRECTIONS, Recording
-from erdctl.core.workers import Progress
 from erdctl.estimate.covariance import Fit, assess, estimates
 from erdctl.estimate.least_squares import Fitted, fit
 from erdctl.estimate.measurement_noise import measurement_noise
@@ -63,10 +63,12 @@ def identify(
         raise InputProblem(f"the logs identify no parameter at all; for one, {first}")
     search = sample(recording, SEARCH)
     held = held_values(needs)
-    progress("fitting", "the paper's two steps")
+    starts = len(FRESH) + 1  # at most: the two steps give one more
+    progress("fitting", part_of("the paper's two steps", 1, starts + 2))
     steps = two_step(search, held)
     best, evaluations = _search(model, search, held, steps, robust, progress)
-    progress("fitting", f"last step and errors, {len(recording)} samples")
+    last = f"last step and errors, {len(recording)} samples"
+    progress("fitting", part_of(last, starts + 2, starts + 2))
     blocks = pieces(recording)
     found = assess(
         model, blocks, best.values,
@@ -105,7 +107,8 @@ def _search(
         starts.append(default | fresh_start(T_d, beta) | dict(held))
     results = []
     for number, start in enumerate(starts, start=1):
-        progress("fitting", f"all parameters, start {number} of {len(starts)}")
+        what = f"all parameters, start {number}"
+        progress("fitting", part_of(what, number + 1, len(FRESH) + 3))
         results.append(fit(model, block, start=start, fixed=held, robust=robust))
 
     def cost(found: Fitted) -> float:

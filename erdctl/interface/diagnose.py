@@ -169,6 +169,9 @@ def diagnose(
     max_effects: int = 5,
     seed: int = 0,
     jobs: int | None = None,
+    date: str | None = None,
+    damper: str | None = None,
+    operator: str | None = None,
     progress: Callable[[str, str], None] | None = None,
 ) -> Diagnosed:
     """Locate a mismatch between log and model, name the physics left out, show the fit improve.
@@ -183,6 +186,7 @@ def diagnose(
     jobs : worker processes; the result is the same for any number. By default all cores where that
         is worth it, and 1 in a script, since workers import the script again: give a number there
         only below `if __name__ == "__main__":`
+    date, damper, operator : of the test, for provenance; a date as ISO 8601
     progress : called with (stage, what) as the work goes on
 
     Returns a Diagnosed: `.verdict` adequate, explained or unexplained; `.effects` names; `.table()`
@@ -200,7 +204,7 @@ def diagnose(
         raise UsageProblem(f"max_effects is 1 to {MOST_EFFECTS}, not {max_effects}")
     tested = candidates(texts(effects), texts(exclude))
     given = None if parameters is None else given_parameters(parameters)
-    read = log_of(log, need_force=True)
+    read = log_of(log, need_force=True).labelled(date, damper, operator)
     with one_thread():
         found = diagnosed(
             read.recording, tested, most=max_effects, seed=seed,

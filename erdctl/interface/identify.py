@@ -18,6 +18,7 @@ from erdctl.io.identification import parameters_of
 from erdctl.io.parameters import to_document
 from erdctl.model.parameters import Parameters
 from erdctl.model.simulate import simulate
+from erdctl.report.readable import AT_BOUND
 from erdctl.report.subject import Subject
 from erdctl.report.subjects import about
 
@@ -61,7 +62,8 @@ class Identified:
         rows = [
             {
                 "parameter": name, "value": e.value, "stderr": e.stderr, "unit": e.unit,
-                "two_step": steps.get(name), "assumed": e.assumed, "reason": e.reason,
+                "two_step": steps.get(name), "assumed": e.assumed,
+                "reason": AT_BOUND if e.at_bound else e.reason,
             }
             for name, e in self.parameters.estimates.items()
         ]  # fmt: skip
@@ -97,6 +99,7 @@ class Identified:
             f"{name:18} {'not identified' if e.value is None else f'{e.value:.5g}'}"
             + ("" if e.stderr is None else f" +- {e.stderr:.2g}")
             + f" {e.unit}"
+            + (f" ({AT_BOUND})" if e.at_bound else "")
             for name, e in self.parameters.estimates.items()
         ]
         return text(f"Identified: {self._title()}", [*rows, *self.remarks])
@@ -116,6 +119,9 @@ def identify(
     method: Literal["joint", "two-step"] = "joint",
     robust: bool = False,
     accept: Sequence[str] = (),
+    date: str | None = None,
+    damper: str | None = None,
+    operator: str | None = None,
     progress: Callable[[str, str], None] | None = None,
 ) -> Identified:
     """Identify the paper's damper model from a bench log, with standard errors.
@@ -124,6 +130,7 @@ def identify(
     method : "joint" fits all parameters together, "two-step" as the paper does
     robust : weigh outliers down
     accept : codes of rig checks whose findings are right as they are, see `inspect`
+    date, damper, operator : of the test, for provenance; a date as ISO 8601
     progress : called with (stage, what) as the work goes on
 
     Returns an Identified: `.table()` parameters, errors and SI units; `.parameters.values` numbers
@@ -138,7 +145,7 @@ def identify(
         damper.write("damper.json")
     """
     chosen = Method(option(method, list(Method), "method"))
-    given = log_of(log, need_force=True)
+    given = log_of(log, need_force=True).labelled(date, damper, operator)
     rig = look(given.recording).accept(accept)
     rig.refuse()
     recording = rig.usable()

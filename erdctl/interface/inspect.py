@@ -127,10 +127,17 @@ def _record(r: dict[str, Any]) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def inspect(log: LogLike) -> Inspected:
+def inspect(
+    log: LogLike,
+    *,
+    date: str | None = None,
+    damper: str | None = None,
+    operator: str | None = None,
+) -> Inspected:
     """Say what is in a log, and what it can and cannot show, before anything is fitted.
 
     log : what `erdctl.read` gave, or anything that `read` takes; a force is not needed
+    date, damper, operator : of the test, for provenance; a date as ISO 8601
 
     Returns an Inspected: `.table()` has a row for each parameter of the paper's model and each
     effect of the catalogue, whether the log identifies it, else the reason and a drive that would
@@ -143,5 +150,5 @@ def inspect(log: LogLike) -> Inspected:
     Example:
         erdctl.inspect("bench.csv").table().query("not identifiable")
     """
-    given = log_of(log, want_force=True)
+    given = log_of(log, want_force=True).labelled(date, damper, operator)
     return Inspected(inspected(given.recording, catalogue()), given)

@@ -12,6 +12,7 @@ import pyarrow as pa
 
 from erdctl.bench.inspection import inspect
 from erdctl.core.errors import InputProblem
+from erdctl.core.labels import labels_of
 from erdctl.core.recording import Recording
 from erdctl.effects import catalogue
 from erdctl.interface.display import draw, frame_of, html, text
@@ -78,6 +79,16 @@ class BenchLog:
 
     def __len__(self) -> int:
         return len(self.recording)
+
+    def labelled(
+        self, date: str | None = None, damper: str | None = None, operator: str | None = None
+    ) -> BenchLog:
+        """The log with date (ISO 8601), damper and operator of the test, for provenance."""
+        labels = labels_of(date, damper, operator)
+        if not labels:
+            return self
+        recording = replace(self.recording, labels={**self.recording.labels, **labels})
+        return replace(self, log=replace(self.log, recording=recording))
 
     def to_dict(self) -> dict[str, Any]:
         """What the log holds and can show: the document of `erdctl.inspect`."""

@@ -142,6 +142,9 @@ def mimic(
     full_scale: float = 5_000.0,
     max_temperature: float | None = 60.0,
     uncompensated: bool = False,
+    date: str | None = None,
+    damper: str | None = None,
+    operator: str | None = None,
     progress: Callable[[str, str], None] | None = None,
 ) -> Mimicked:
     """The PWM sequence with which a healthy damper acts as a faulty one.
@@ -157,6 +160,7 @@ def mimic(
     carrier, full_scale : PWM frequency [Hz], voltage at duty 1 [V]: for the manifest
     max_temperature : refuse a log in which the damper gets hotter [degC]; None for no limit
     uncompensated : the paper's static inverse, which leaves out the lag T_d
+    date, damper, operator : of the test, for provenance; a date as ISO 8601
     progress : called with (stage, what) as the work goes on
 
     Returns a Mimicked: `.table()` the sequence, `.table("reach")` how near each fault comes,
@@ -178,7 +182,7 @@ def mimic(
     )  # fmt: skip
     chosen = tuple(parse_fault(f) for f in described)
     given = given_parameters(parameters)
-    read = log_of(log, keep_table=True)
+    read = log_of(log, keep_table=True).labelled(date, damper, operator)
     heat = None if max_temperature is None else too_hot(read.recording, max_temperature)
     if heat is not None:
         raise InputProblem(f"{heat}; max_temperature=None overrides (Sec. 5.4)")

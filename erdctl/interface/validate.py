@@ -50,7 +50,9 @@ class Validated:
 
     def to_dict(self) -> dict[str, Any]:
         """The document of `erdctl validate --json`, "schema": "erdctl.validation/1"."""
-        found: dict[str, Any] = documents.plain(to_json(self.scores, self.rig.to_json()))
+        found: dict[str, Any] = documents.plain(
+            to_json(self.scores, self.log.recording.labels, self.rig.to_json())
+        )
         return found
 
     def table(self) -> pd.DataFrame:
@@ -88,7 +90,9 @@ class Validated:
 
     def write(self, path: Place) -> None:
         """Write the document as JSON, as `erdctl validate --json` prints it."""
-        documents.write(to_json(self.scores, self.rig.to_json()), os.fspath(path))
+        documents.write(
+            to_json(self.scores, self.log.recording.labels, self.rig.to_json()), os.fspath(path)
+        )
 
     def __repr__(self) -> str:
         rows = [f"{100 * d:3g} %  {s.nrmse:.4f}" for d, s in self.scores.by_duty.items()]
@@ -107,6 +111,9 @@ def validate(
     log: LogLike,
     *,
     normalise: Literal["range", "std", "mean", "rms"] = "range",
+    date: str | None = None,
+    damper: str | None = None,
+    operator: str | None = None,
 ) -> Validated:
     """Compare a model with a measured force: NRMSE per PWM level, direction and record.
 
@@ -115,6 +122,7 @@ def validate(
     log : what `erdctl.read` or `erdctl.simulate` gave, or anything that `read` takes
     normalise : what the error is divided by, of the measured force of the group; "range" is
         highest less lowest
+    date, damper, operator : of the test, for provenance; a date as ISO 8601
 
     Returns a Validated: `.nrmse` [1], `.table()` one row a group, `.to_dict()` the document of
     `erdctl validate --json`, `.plot()`.
@@ -127,7 +135,7 @@ def validate(
     """
     over = Normalise(option(normalise, list(Normalise), "normalise"))
     found = None if parameters is None else given_parameters(parameters).parameters
-    given = log_of(log, need_force=True)
+    given = log_of(log, need_force=True).labelled(date, damper, operator)
     r, modelled, said = given.recording, given.log.force_model, given.remarks
     if found is not None:
         modelled, said = simulate(found, r), (*said, *remarks(found, r))

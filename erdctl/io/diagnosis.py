@@ -74,7 +74,8 @@ def _records(found: Diagnosis) -> dict[str, Any]:
 def _finding(f: Finding, corrected: Parameters) -> dict[str, Any]:
     def value(symbol: str) -> dict[str, Any]:
         e = corrected.estimates[f.effect.key(symbol)]
-        return {"value": e.value, "unit": e.unit, "stderr": e.stderr}
+        bound = {"at_bound": True} if e.at_bound else {}
+        return {"value": e.value, "unit": e.unit, "stderr": e.stderr, **bound}
 
     out: dict[str, Any] = {
         "effect": f.effect.name,
@@ -105,6 +106,8 @@ def _where(region: Region) -> dict[str, Any]:
 def _scores(v: Validation) -> dict[str, Any]:
     return {
         "nrmse": v.overall.nrmse,
-        "nrmse_by_duty": [{"duty": d, "nrmse": s.nrmse} for d, s in v.by_duty.items()],
+        "nrmse_by_duty": [
+            {"duty": d, "nrmse": s.nrmse, "rms": s.rms} for d, s in v.by_duty.items()
+        ],
         "rms": v.overall.rms,
     }

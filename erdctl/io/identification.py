@@ -34,7 +34,8 @@ def parameters_of(
                     " data?); use --method joint"
                 )
             if e.identified:
-                estimates[name] = replace(e, value=found.two_step[name], stderr=None)
+                value = found.two_step[name]
+                estimates[name] = replace(e, value=value, stderr=None, at_bound=False)
     fits = {
         "joint": {
             "rms": found.fit.rms,

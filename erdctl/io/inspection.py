@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, TypedDict, cast
+from typing import Any, NotRequired, TypedDict, cast
 
 import msgspec
 
@@ -105,11 +105,12 @@ class InspectionFile(TypedDict):
     parameters: list[CoverEntry]
     effects: list[CoverEntry]
     rig: list[RigFaultDocument]
+    provenance: NotRequired[dict[str, str]]
 
 
 def to_json(found: Inspection, log: Log) -> InspectionFile:
     """The document of an inspection."""
-    return {
+    document: InspectionFile = {
         "schema": SCHEMA,
         "logs": [
             {"name": s.name, "sha256": s.sha256, "rows": s.rows} for s in log.recording.sources
@@ -137,6 +138,9 @@ def to_json(found: Inspection, log: Log) -> InspectionFile:
         "effects": covers(found.effects),
         "rig": cast(list[RigFaultDocument], found.rig.to_json()),
     }
+    if log.recording.labels:
+        document["provenance"] = dict(log.recording.labels)
+    return document
 
 
 def covers(found: Sequence[Cover]) -> list[CoverEntry]:

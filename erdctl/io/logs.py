@@ -12,6 +12,7 @@ import numpy as np
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem, UsageProblem
+from erdctl.core.progress import Progress, told
 from erdctl.core.recording import Array, Index, Recording, Source, concatenate
 from erdctl.io import units
 from erdctl.io.arrays import arrow, runs_of_text
@@ -75,6 +76,7 @@ def read_logs(
     others: Sequence[str] = (),
     held: Held = MappingProxyType({}),
     report: Report,
+    progress: Progress = lambda stage, what: None,
 ) -> Log:
     """Read and validate bench logs (any format of `Format`; "-" is standard input).
 
@@ -84,6 +86,7 @@ def read_logs(
     others : columns of numbers to read where they are there, of a single log
     held : bytes of logs that are in memory, by what `paths` calls them
     report : takes a line for everything that was assumed or derived
+    progress : called with what is being read
 
     Records keep their names; of several logs they become "stem:record". A log without a column
     `record` is one record called like the file, or several where its time begins anew.
@@ -109,7 +112,7 @@ def read_logs(
             held=held,
             report=report,
         )
-        for path in paths
+        for path in told(paths, progress, "reading")
     ]
     if len(logs) == 1:
         return logs[0]

@@ -22,7 +22,8 @@ class Value(msgspec.Struct, omit_defaults=True):
     """One parameter: value, SI unit, standard error.
 
     A parameter that the data do not identify has value null, the `reason`, and in `assumed` what a
-    simulation uses in its place.
+    simulation uses in its place. One that a fit pressed against its bound has `at_bound` and no
+    standard error.
     """
 
     value: float | None
@@ -31,6 +32,7 @@ class Value(msgspec.Struct, omit_defaults=True):
     identified: bool = True
     assumed: float | None = None
     reason: str | None = None
+    at_bound: bool = False
 
 
 class Direction(msgspec.Struct):
@@ -141,8 +143,9 @@ def _estimate(given: Value | float, quantity: Quantity, full: str, name: str) ->
             file=name,
         )
     return Estimate(
-        value=value, unit=quantity.unit, stderr=stderr, assumed=assumed, reason=given.reason
-    )
+        value=value, unit=quantity.unit, stderr=stderr, assumed=assumed, reason=given.reason,
+        at_bound=given.at_bound,
+    )  # fmt: skip
 
 
 def to_document(parameters: Parameters) -> ParameterFile:
@@ -157,6 +160,7 @@ def to_document(parameters: Parameters) -> ParameterFile:
             identified=e.identified,
             assumed=e.assumed,
             reason=e.reason,
+            at_bound=e.at_bound,
         )
 
     directions = {

@@ -307,11 +307,8 @@ def _refuse_counts(
     """A force in whole numbers of no unit is what the converter counted, not newtons."""
     for target, (column, _) in plan.items():
         stated = target in given or column in source.units or name_and_unit(column)[1] is not None
-        if (
-            stated
-            or target in ("t", "duty", RECORD)
-            or not pa.types.is_integer(table.schema.field(column).type)
-        ):
+        whole = pa.types.is_integer(table.schema.field(column).type)
+        if stated or not whole or target in ("t", "duty", RECORD):
             continue
         raise InputProblem(
             f"whole numbers ({table.schema.field(column).type}) without a unit or a scaling, which"

@@ -114,6 +114,7 @@ def manifest(
             for channel, c in ((k, p.correction) for k, p in sequence.plans.items())
             if c is not None
         ],
+        **({"provenance": dict(labels)} if (labels := sequence.recording.labels) else {}),
     }
 
 

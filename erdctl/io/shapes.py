@@ -24,11 +24,12 @@ class QuantityDocument(TypedDict):
 
 
 class Measured(TypedDict):
-    """An estimate with its standard error, which is null where there is none."""
+    """An estimate with its standard error, which is null where there is none, as at a bound."""
 
     value: float | None
     unit: str
     stderr: float | None
+    at_bound: NotRequired[bool]
 
 
 class IntervalDocument(TypedDict):
@@ -41,10 +42,11 @@ class IntervalDocument(TypedDict):
 
 
 class AtDuty(TypedDict):
-    """NRMSE at one PWM level."""
+    """NRMSE and rms [N] at one PWM level."""
 
     duty: float
     nrmse: float
+    rms: NotRequired[float]
 
 
 class Scores(TypedDict):
@@ -161,6 +163,14 @@ class DiagnosisFile(TypedDict):
     provenance: dict[str, Any]
 
 
+class LabelsDocument(TypedDict, total=False):
+    """What somebody said of the test: date (ISO 8601), damper, operator."""
+
+    date: str
+    damper: str
+    operator: str
+
+
 class ScoreDocument(TypedDict):
     """Misfit of a group of samples; NRMSE is null for an error on a force without range."""
 
@@ -196,6 +206,7 @@ class ValidationFile(ScoreDocument):
     nrmse_by_direction: list[DirectionScore]
     nrmse_by_record: list[RecordScore]
     rig: NotRequired[list[RigFaultDocument]]
+    provenance: NotRequired[LabelsDocument]
 
 
 class LimitsDocument(TypedDict):
@@ -254,6 +265,7 @@ class PwmManifest(TypedDict):
     schedule: list[str]
     emulation: list[Emulation]
     correction: list[CorrectionDocument]
+    provenance: NotRequired[LabelsDocument]
 
 
 def _of(shape: type) -> Callable[[], dict[str, Any]]:

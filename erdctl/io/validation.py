@@ -10,8 +10,13 @@ from erdctl.score.nrmse import Score, Validation
 SCHEMA = "erdctl.validation/1"
 
 
-def to_json(found: Validation, rig: Sequence[Mapping[str, Any]] = ()) -> dict[str, Any]:
-    """The document of a validation; rig : what is wrong with the recording."""
+def to_json(
+    found: Validation, labels: Mapping[str, str], rig: Sequence[Mapping[str, Any]] = ()
+) -> dict[str, Any]:
+    """The document of a validation.
+
+    labels : of the test, see `Recording`;  rig : what is wrong with the recording
+    """
 
     def score(s: Score) -> dict[str, float]:
         return {"nrmse": s.nrmse, "rms": s.rms, "samples": s.samples}
@@ -24,4 +29,5 @@ def to_json(found: Validation, rig: Sequence[Mapping[str, Any]] = ()) -> dict[st
         "nrmse_by_direction": [{"direction": d, **score(s)} for d, s in found.by_direction.items()],
         "nrmse_by_record": [{"record": r, **score(s)} for r, s in found.by_record.items()],
         "rig": [*rig],
+        **({"provenance": dict(labels)} if labels else {}),
     }

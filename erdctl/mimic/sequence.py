@@ -8,12 +8,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from erdctl.core.errors import UsageProblem
+from erdctl.core.progress import part_of
 from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
 from erdctl.mimic.inverse import follow
 from erdctl.mimic.outcome import Plan
 from erdctl.mimic.plan import mimic
 from erdctl.model.amplifier import Amplifier
+from erdctl.model.divergence import refuse_diverged
 from erdctl.model.faults import Corner, Fault, on_channel
 from erdctl.model.parameters import Parameters
 
@@ -63,10 +65,14 @@ def sequence(
     """
     by_channel = {c.value: on_channel(faults, c) for c in Corner}
     plans = {}
+    faulty = [channel for channel, chosen in by_channel.items() if chosen]
     for channel, chosen in by_channel.items():
         if chosen:
-            progress("computing", f"the sequence of {channel}")
-            plans[channel] = mimic(parameters, recording, chosen, amplifier)
+            number = faulty.index(channel) + 1
+            progress("computing", part_of(f"the sequence of {channel}", number, len(faulty)))
+            plan = plans[channel] = mimic(parameters, recording, chosen, amplifier)
+            for force in (plan.ideal, plan.expected_paper if static else plan.expected):
+                refuse_diverged(force, parameters.model, parameters.values, recording)
     healthy = follow(recording.duty, Signals.of(recording), amplifier)
     duties = dict.fromkeys(by_channel, healthy)
     duties |= {c: p.duty_paper if static else p.duty for c, p in plans.items()}

@@ -74,6 +74,8 @@ class Effect:
     columns : forces for unit amplitudes that the effect adds, in any slot
     of_speed : what it does depends on xdot alone, sample by sample
     equation, source, validity : text for people
+    said : its main numbers as a phrase, e.g. "{g} of free play"; {f:%} in per cent
+    alters : what becomes of a piece of the paper's equations, see `model.corrected_equation`
     requires : what a log must contain;  shows : where the misfit gathers when it is left out
     guesses : starts of a search where the grid would not do (several dips of the cost, a scale that
         depends on the motion, a frequency). The grid is made by unit: m, m/s, m/N, 1/m, 1/m^2, s
@@ -98,6 +100,8 @@ class Effect:
     of_speed: bool = False
     companions: tuple[str, ...] = ()
     equivalents: tuple[str, ...] = ()
+    said: str = ""
+    alters: tuple[tuple[str, str], ...] = ()
     order: int = 0
 
     def __post_init__(self) -> None:

@@ -18,6 +18,7 @@ class Estimate:
 
     value : None when the data do not identify it; `assumed` is then what a simulation uses, and
     `reason` says in plain words why
+    at_bound : the value is a bound of the parameter, where a standard error says nothing
     """
 
     value: float | None
@@ -25,6 +26,7 @@ class Estimate:
     stderr: float | None = None
     assumed: float | None = None
     reason: str | None = None
+    at_bound: bool = False
 
     @property
     def identified(self) -> bool:
@@ -65,8 +67,9 @@ class Parameters:
 def provenance(
     recording: Recording, noise_rms: float, rig: Sequence[Mapping[str, Any]] = ()
 ) -> dict[str, Any]:
-    """Where an estimate comes from: version, logs, what they covered, noise. No date, so that
-    the same logs give the same file.
+    """Where an estimate comes from: version, logs, what they covered, noise, labels of the test.
+
+    No date but one that was given, so that the same logs give the same file.
 
     rig : what is wrong with the recording, as documents say it
     """
@@ -84,4 +87,5 @@ def provenance(
         "xdot": recording.xdot_note,
         "noise_rms": noise_rms,
         **({"rig": [*rig]} if rig else {}),
+        **recording.labels,
     }

@@ -8,27 +8,41 @@ from dataclasses import replace
 import numpy as np
 
 from erdctl.core.blocks import neighbours
+from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import DIRECTIONS, Array, Recording
 from erdctl.core.signals import Signals
+from erdctl.model.divergence import refuse_diverged
 from erdctl.model.parameters import Parameters
 
 UNITS = {"x": "m", "xdot": "m/s", "duty": ""}
 BEYOND = 0.05  # of a range: how far a drive may leave it before that is worth a remark
 
 
-def simulate(parameters: Parameters, recording: Recording, faults: Sequence[str] = ()) -> Array:
+def simulate(
+    parameters: Parameters,
+    recording: Recording,
+    faults: Sequence[str] = (),
+    *,
+    progress: Progress = lambda stage, what: None,
+) -> Array:
     """(n,) modelled force [N]; `faults` as on the command line (Eqs. 20-23).
 
+    Raises ComputationProblem where it diverged: nobody is to take such numbers for advice.
     States restart with each record, so a long log is computed in runs of records that fit into a
     processor's cache, which is twice as fast as all at once.
     """
     runs = neighbours(recording)
     if len(runs) == 1:
-        return _force(parameters, recording, faults)
+        progress("simulating", part_of(f"{len(recording)} samples", 1, 1))
+        out = _force(parameters, recording, faults)
+        refuse_diverged(out, parameters.model, parameters.values, recording)
+        return out
     out = np.empty(len(recording))
     ends = np.cumsum([len(run) for run in runs]).tolist()
-    for run, end in zip(runs, ends, strict=True):
+    for number, (run, end) in enumerate(zip(runs, ends, strict=True), start=1):
+        progress("simulating", part_of(f"{len(recording)} samples", number, len(runs)))
         out[end - len(run) : end] = _force(parameters, run, faults)
+    refuse_diverged(out, parameters.model, parameters.values, recording)
     return out
 
 

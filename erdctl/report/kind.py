@@ -18,6 +18,7 @@ class Picture:
 
     title : above it;  figures : of the paper that it draws
     needs, wants : of `Subject`, what it cannot do without, and what it shows if it is there
+    nothing : why a subject that has all this would still make an empty picture; None if it does not
     draw : puts it into an empty figure
     size : width and height [inch], or how to find them from the subject
     """
@@ -27,4 +28,5 @@ class Picture:
     draw: Callable[[Figure, Subject], None]
     figures: str = ""
     wants: tuple[str, ...] = ()
+    nothing: Callable[[Subject], str | None] = lambda subject: None
     size: tuple[float, float] | Callable[[Subject], tuple[float, float]] = (10.0, 4.6)

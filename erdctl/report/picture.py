@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from erdctl.core.errors import UsageProblem
+from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.report import pictures
 
 if TYPE_CHECKING:
@@ -29,7 +29,8 @@ def suffix(path: str) -> str:
 def figure(kind: str, subject: Subject) -> Figure:
     """A figure of one kind.
 
-    Raises UsageProblem for an unknown kind, or if the subject lacks what the kind draws.
+    Raises UsageProblem for an unknown kind, or if the subject lacks what the kind draws,
+    InputProblem if the log has nothing of that kind.
     """
     import matplotlib as mpl
     from matplotlib.figure import Figure
@@ -38,6 +39,9 @@ def figure(kind: str, subject: Subject) -> Figure:
     lacking = subject.lacks(chosen.needs)
     if lacking is not None:
         raise UsageProblem(f"the picture '{kind}' needs {lacking}")
+    empty = chosen.nothing(subject)
+    if empty is not None:
+        raise InputProblem(f"the picture '{kind}' would show nothing: {empty}")
     size = chosen.size(subject) if callable(chosen.size) else chosen.size
     with mpl.rc_context(fname=_style()):
         out = Figure(figsize=size, layout="constrained")

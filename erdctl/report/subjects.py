@@ -24,12 +24,13 @@ PROGRAMME = ("duty_healthy", "out_of_reach")  # columns of a log that mimic wrot
 
 
 def about(recording: Recording) -> str:
-    """The logs and their size."""
+    """The logs and their size, and the labels of the test."""
     logs = ", ".join(source.name for source in recording.sources[:3])
     more = len(recording.sources) - 3
     if more > 0:
         logs += f" and {more} more"
-    return f"{logs}: {len(recording):,} samples" if logs else f"{len(recording):,} samples"
+    size = f"{logs}: {len(recording):,} samples" if logs else f"{len(recording):,} samples"
+    return ", ".join([size, *recording.labels.values()])
 
 
 def of_diagnosis(found: Diagnosis, parameters: Parameters) -> Subject:

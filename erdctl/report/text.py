@@ -8,21 +8,49 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from typing import TextIO
+
+from erdctl.report.layout import BOX, boxed, lines, wrapped
 
 QUIET = ContextVar("quiet", default=False)  # set for the time of one command by `--quiet`
 SERIOUS = ("warning", "error")
-BAR = 20  # characters
+BAR = 20  # characters of a bar, and the fewest that still show something
+SHORT = 6
+CLOCK = 12  # characters of the sign of life and the time beside a line of progress
 
 
 def say(text: str, kind: str = "note") -> None:
     """One remark for the user; of a quiet program only warnings and errors."""
     if not QUIET.get() or kind in SERIOUS:
-        print(f"erdctl: {kind}: {text}", file=sys.stderr)
+        line = f"erdctl: {kind}: {text}"
+        # Lines in a file stay whole, for whoever searches it; on a terminal a number may not break.
+        print(wrapped(line, width()) if terminal() else line, file=sys.stderr)
+
+
+def show(text: str) -> None:
+    """One line of a command's answer on stdout; broken between words on a terminal."""
+    print(wrapped(text, _columns(sys.stdout)) if sys.stdout.isatty() else text)
 
 
 def terminal() -> bool:
     """Whether stderr can show more than lines of plain text."""
     return sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
+
+
+def width() -> int | None:
+    """Columns to write in: what COLUMNS says, or what the terminal has; None for no limit."""
+    said = os.environ.get("COLUMNS", "")
+    if said.isdecimal() and int(said) > 0:
+        return int(said)
+    return _columns(sys.stderr) if sys.stderr.isatty() else None
+
+
+def _columns(stream: TextIO) -> int | None:
+    """Columns of the terminal behind a stream; None where it does not say."""
+    try:
+        return os.get_terminal_size(stream.fileno()).columns or None
+    except (OSError, ValueError):
+        return None
 
 
 def table(
@@ -33,20 +61,23 @@ def table(
 ) -> None:
     """A table whose first column is text and whose other columns are numbers.
 
+    One that is too wide is folded (see `layout`), without rules and bars: nothing in it is cut.
+
     bars : values of columns to draw as bars on a terminal, all to one scale; one a row, and NaN
         for a row without
     """
     if QUIET.get():
         return
-    if terminal():
-        _rich(title, header, rows, bars or {})
+    room = width()
+    spare = math.inf if room is None else room - boxed(header, rows)
+    if terminal() and spare >= 0:
+        # Bars take what the columns leave.
+        most = BAR if math.isinf(spare) else int(spare) // max(len(bars or {}), 1) - BOX
+        _rich(title, header, rows, (bars or {}) if most >= SHORT else {}, min(BAR, most))
         return
-    widths = [max(len(row[i]) for row in [header, *rows]) for i in range(len(header))]
-    print(title, file=sys.stderr)
-    for row in [header, *rows]:
-        first = row[0].ljust(widths[0])
-        rest = [cell.rjust(w) for cell, w in zip(row[1:], widths[1:], strict=True)]
-        print("  " + "  ".join([first, *rest]).rstrip(), file=sys.stderr)
+    print(wrapped(title, room), file=sys.stderr)
+    for line in lines(header, rows, room):
+        print(line, file=sys.stderr)
 
 
 def _rich(
@@ -54,6 +85,7 @@ def _rich(
     header: Sequence[str],
     rows: Sequence[Sequence[str]],
     bars: Mapping[int, Sequence[float]],
+    length: int,
 ) -> None:
     # Imported here: it costs a third of the time of a whole run in a batch script.
     from rich.bar import Bar
@@ -64,11 +96,12 @@ def _rich(
     values = [v for column in bars.values() for v in column if 0.0 < v < math.inf]
     top = max(values, default=1.0)
     console = Console(stderr=True)
-    out = Table(title=Text(title), title_justify="left", title_style="bold")
+    print(wrapped(title, width()), file=sys.stderr)
+    out = Table()
     for i, name in enumerate(header):
-        out.add_column(Text(name), justify="left" if i == 0 else "right")
+        out.add_column(Text(name), justify="left" if i == 0 else "right", no_wrap=True)
         if i in bars:
-            out.add_column("", width=BAR)
+            out.add_column("", width=length)
     for k, row in enumerate(rows):
         cells: list[Bar | Text] = []
         for i, cell in enumerate(row):
@@ -76,28 +109,36 @@ def _rich(
             if i in bars:
                 value = bars[i][k]
                 # Infinite is full, unknown is empty.
-                length = min(value, top) if value > 0.0 else 0.0
-                cells.append(Bar(top, 0.0, length, width=BAR, color="cyan"))
+                filled = min(value, top) if value > 0.0 else 0.0
+                cells.append(Bar(top, 0.0, filled, width=length, color="cyan"))
         out.add_row(*cells)
     console.print(out)
 
 
-def number(value: float | None, digits: int = 4) -> str:
-    """A number with so many significant digits, or a dash."""
-    return "-" if value is None else f"{value:.{digits}g}"
-
-
 @contextmanager
 def progress() -> Iterator[Callable[[str, str], None]]:
-    """A line on stderr that shows stage, item and time, on a terminal only."""
+    """A line on stderr that shows stage, item, fraction and time, on a terminal only."""
     if QUIET.get() or not terminal():
         yield lambda stage, what: None
         return
     from rich.console import Console
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
+    console = Console(stderr=True)
     columns = SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn()
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task("")
         # Drawn at once: a stage may be over before the next of ten pictures a second.
-        yield lambda stage, what: bar.update(task, description=f"{stage}: {what}", refresh=True)
+        yield lambda stage, what: bar.update(
+            task, description=_fitting(f"{stage}: {what}", console.width - CLOCK), refresh=True
+        )
+
+
+def _fitting(text: str, room: int) -> str:
+    """A line of progress in so many characters; what gives way is the middle, not the fraction."""
+    from rich.markup import escape
+
+    if len(text) > room:
+        tail = text[-room // 2 :]
+        text = f"{text[: max(room - len(tail) - 1, 0)]}\u2026{tail}"
+    return escape(text)

@@ -15,5 +15,7 @@ def test_stage_effect_and_elapsed() -> None:
         "--effects", "coulomb_friction,time_skew", "--jobs", "1",
     )  # fmt: skip
     text = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", shown)
-    assert re.search(r"each effect: (coulomb_friction|time_skew).*0:00:\d\d", text), text
+    fraction = r"[12] of 2 \((0|50) %\)"
+    line = rf"each effect: (coulomb_friction|time_skew), {fraction}.*0:00:\d\d"
+    assert re.search(line, text), text
     assert "Verdict" in text

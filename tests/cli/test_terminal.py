@@ -49,12 +49,12 @@ def test_a_dumb_terminal_and_a_pipe_get_the_same_plain_text() -> None:
 @pytest.mark.parametrize(
     ("words", "stages"),
     [
-        (["identify", LOG], ["reading", "fitting: all parameters, start 2 of"]),
-        (["validate", TABLE_2, LOG], ["reading", "simulating"]),
-        (["inspect", LOG], ["reading", "inspecting"]),
+        (["identify", LOG], ["reading", "fitting: all parameters, start 2, 3 of 5 (40 %)"]),
+        (["validate", TABLE_2, LOG], ["1 of 1 (0 %)", "simulating: 8000 samples, 1 of 1 (0 %)"]),
+        (["inspect", LOG], ["reading", "inspecting: 8000 samples, 1 of 1 (0 %)"]),
         (["simulate", TABLE_2, LOG], ["reading", "simulating"]),
         (["mimic", TABLE_2, str(FIXTURES / "schedule_60s.csv"), "--fault", "oil=0.5"],
-         ["reading", "computing: the sequence of fl"]),
+         ["reading", "computing: the sequence of fl, 1 of 1 (0 %)"]),
     ],
     ids=lambda v: v[0],
 )  # fmt: skip
@@ -84,9 +84,44 @@ def test_quiet_keeps_warnings_and_errors(tmp_path: Path) -> None:
     assert bad.stderr.startswith("erdctl: error:")
 
 
-@pytest.mark.parametrize(("words", "expected"), [("ins", "inspect"), ("inspect --js", "--json")])
-def test_shell_completion(words: str, expected: str) -> None:
+def completed(words: str) -> set[str]:
+    """What a shell offers behind these words, by the protocol that bash and Typer speak."""
     env = {**os.environ, "_ERDCTL_COMPLETE": "complete_bash", "COMP_WORDS": f"erdctl {words}",
-           "COMP_CWORD": str(len(words.split()))}  # fmt: skip
+           "COMP_CWORD": str(len(words.split()) + words.endswith(" "))}  # fmt: skip
     run = subprocess.run([sys.executable, "-m", "erdctl"], capture_output=True, text=True, env=env)
-    assert expected in run.stdout.split()
+    assert run.stderr == ""
+    return set(run.stdout.split())
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        ("ins", "inspect"),
+        ("inspect --js", "--json"),
+        ("effects back", "backlash"),
+        ("diagnose a.csv --effects back", "backlash"),
+        ("diagnose a.csv --effects backlash,mount", "backlash,mount_compliance"),
+        ("diagnose a.csv --exclude thermal", "thermal_fade"),
+        ("prove --effects cav", "cavitation"),
+        ("plot a.csv --kind sl", "slow"),
+        ("plot a.csv --kind before", "before-after"),
+        ("validate p.json a.csv --plot mis", "misfit:"),
+        ("simulate p.json a.csv --fault el", "electrical="),
+        ("schema diag", "diagnosis"),
+        ("schema pro", "proof"),
+    ],
+)
+def test_shell_completion(words: str, expected: str) -> None:
+    assert completed(words) == {expected} or expected in completed(words)
+    start = words.split()[-1]
+    assert all(w.startswith(start) for w in completed(words))
+
+
+@pytest.mark.parametrize("words", ["effects ", "schema ", "plot a.csv --kind "])
+def test_shell_completion_of_all(words: str) -> None:
+    from erdctl.effects import names
+    from erdctl.io.shapes import SCHEMAS
+    from erdctl.report import pictures
+
+    known = {"effects": {*names()}, "schema": {*SCHEMAS, "proof"}, "plot": {*pictures.names()}}
+    assert completed(words) == known[words.split()[0]]

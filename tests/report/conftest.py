@@ -11,6 +11,7 @@ from typing import Any
 
 import pages
 import pytest
+from opened import Opened
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "prove"))  # the proof's made-up results
 
@@ -46,3 +47,16 @@ def browser() -> Iterator[Any]:
         found = driver.chromium.launch(executable_path=path, args=FLAGS)
         yield found
         found.close()
+
+
+@pytest.fixture
+def window(browser: Any, made: Callable[[str], Path]) -> Iterator[Callable[..., Opened]]:
+    opened: list[Opened] = []
+
+    def one(name: str, **options: Any) -> Opened:
+        opened.append(Opened(browser, made(name), **options))
+        return opened[-1]
+
+    yield one
+    for each in opened:
+        each.context.close()

@@ -9,7 +9,7 @@ import pytest
 
 from erdctl.effects import catalogue
 from erdctl.model.paper import EQUATIONS
-from erdctl.report.page.mathml import GREEK, NAMESPACE, equation, symbol
+from erdctl.report.page.mathml import FUNCTIONS, GREEK, NAMESPACE, equation, flowing, symbol
 
 ALL = {e.name: e.equation for e in catalogue()} | {
     f"paper-{i}": text for i, text in enumerate(EQUATIONS)
@@ -57,3 +57,37 @@ def test_what_cannot_be_read_stays_text(text: str) -> None:
     assert markup.startswith('<code class="equation">')
     assert "<script" not in markup
     assert words(markup) == text
+
+
+def test_a_derivative_by_travel() -> None:
+    """dF_y/d|x| is one fraction, with a d and the bars below."""
+    root = ElementTree.fromstring(str(equation("x_d dF_y/d|x| + F_y = F_ER sign(xdot)")))
+    (fraction,) = root.iter(f"{{{NAMESPACE}}}mfrac")
+    over, under = ("".join(part.itertext()) for part in fraction)
+    assert over == "dFy"
+    assert under == "d|x|"
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_no_sign_of_the_notation_is_left(name: str) -> None:
+    """Every stroke is a fraction's bar, every `_` an index, every `^` a power."""
+    text = ALL[name]
+    markup = str(equation(text))
+    root = ElementTree.fromstring(markup)
+    shown = [e for e in root.iter() if e.tag.endswith(("}mi", "}mo", "}mn"))]
+    assert not [e.text for e in shown if re.search(r"[_^/]|dot", e.text or "")]
+    strokes = len(re.findall(r"/", text.replace("m/s", "")))
+    assert markup.count("<mfrac>") == strokes
+    powers = text.count("^") + 2 * len(re.findall(r"d2\w+/d", text))
+    assert markup.count("<msup>") == powers
+    # A name of several letters is a function, a word or the name of a group, never a mistake.
+    named = {e.text for e in shown if e.tag.endswith("}mi") and len(e.text or "") > 1}
+    indices = {i for n in re.findall(r"[A-Za-z]+_(\w+)", text) for i in [n]}
+    assert named <= FUNCTIONS | {"gas", "viscous", "yield"} | indices
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_an_equation_in_pieces_is_the_same(name: str) -> None:
+    whole = words(str(equation(ALL[name]))).replace("\u2002", "")
+    pieces = words(f"<body>{flowing(ALL[name])}</body>").replace("\u2002", "")
+    assert pieces.replace(" ", "") == whole.replace(" ", "")

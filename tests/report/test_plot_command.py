@@ -238,3 +238,56 @@ def test_nothing_to_draw_is_said() -> None:
 
     with pytest.raises(UsageProblem, match="needs a measured force"):
         figure("loops", Subject(recording=drives(["sine:duration=1"])))
+
+
+FAST = "--drive sine:freq=2,amp=0.01,duration=6"
+NOTHING = {
+    "slow": ("plot fast.csv --kind slow", "no slow strokes"),
+    "slow-under-field": ("plot field.csv --kind slow", "no slow strokes"),
+    "peak-force": ("plot ramp.csv --kind peak-force", "no stroke goes from one reversal"),
+    "yield-force": (f"plot fast.csv --params {TABLE_2} --kind yield-force", "the duty is 0"),
+    "faults": (f"plot fast.csv --params {TABLE_2} --fault oil=0.5@100", "no fault acts"),
+    "loops": ("plot hold.csv", "the piston never moves"),
+    "average": ("plot hold.csv --kind average", "the piston never moves"),
+    "before-after": (
+        f"plot hold.csv --params {TABLE_2} --before {TABLE_2} --kind before-after",
+        "the piston never moves",
+    ),
+    "duty": ("plot fast.csv --kind duty", "a mimic sequence"),
+    "time": ("plot bare.csv --kind time", "a measured force"),
+}
+
+
+@pytest.mark.parametrize("kind", NOTHING)
+def test_a_picture_of_nothing_is_refused(kind: str, folder: Path) -> None:
+    t = np.arange(0.0, 6.0, 0.005)
+    x = 0.01 * np.sin(4 * np.pi * t)
+    logs = {
+        "fast": (x, 0.0), "field": (0.01 * np.sin(0.1 * t), 0.3), "ramp": (1e-3 * t, 0.0),
+        "hold": (0.0 * t, 0.0), "bare": (x, 0.0),
+    }  # fmt: skip
+    for name, (motion, duty) in logs.items():
+        frame = pd.DataFrame({"t": t, "x": motion, "duty": duty, "force": 200.0 * motion})
+        columns = ["t", "x", "duty"] if name == "bare" else list(frame)
+        frame[columns].to_csv(f"{name}.csv", index=False)
+    command, reason = NOTHING[kind]
+    said = erdctl(*command.split(), "-o", "a.png", code=2 if kind in ("duty", "time") else 3)
+    assert reason in said
+    assert not Path("a.png").exists()
+
+
+@pytest.mark.parametrize("noise", [0.0, 5e-4])
+def test_slow_strokes_between_fast_ones_are_found(noise: float, folder: Path) -> None:
+    """A fast part of the same log does not hide the slow test, nor does noise of the speed."""
+    step = 0.005
+    slow = 0.01 * np.concatenate([np.linspace(0, 1, 1000), np.linspace(1, -1, 2000),
+                                  np.linspace(-1, 0, 1000)])  # fmt: skip
+    fast = 0.01 * np.sin(2 * np.pi * 2.0 * np.arange(0.0, 5.0, step))
+    x = np.concatenate([fast, slow, fast])
+    rng = np.random.default_rng(0)
+    xdot = np.gradient(x, step) + rng.normal(0.0, noise, len(x))
+    t = step * np.arange(len(x))
+    force = 200.0 * x + 3.0 * np.sign(np.gradient(x)) + 60.0 * np.gradient(x, step)
+    pd.DataFrame({"t": t, "x": x, "xdot": xdot, "duty": 0.0, "force": force}).to_csv("a.csv")
+    erdctl("plot", "a.csv", "--kind", "slow", "-o", "a.png")
+    assert Path("a.png").exists()

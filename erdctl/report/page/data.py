@@ -13,6 +13,7 @@ import numpy.typing as npt
 from erdctl.core.recording import Array, Index, Recording
 from erdctl.diagnose.residual.localisation import UNITS
 from erdctl.model.effect import Variable
+from erdctl.report import style
 from erdctl.report.page.thin import keep, lines, reversals
 from erdctl.score.nrmse import MAX_LEVELS, duty_levels
 
@@ -75,7 +76,17 @@ def samples(recording: Recording, levels: Levels, models: Mapping[str, Array]) -
         "joined": encoded(joined, "u1"),
         "models": list(models),
         "levels": levels.names,
+        "colours": level_colours(len(levels.duty)),
         "choices": _choices(r, levels, misfits[0]),
+    }
+
+
+def level_colours(count: int) -> Json:
+    """The colours of so many PWM levels as pictures have them, and lighter ones on dark paper."""
+    found = style.shades(count)
+    return {
+        "light": [style.hexadecimal(c) for c in found],
+        "dark": [style.hexadecimal(style.on_dark(c)) for c in found],
     }
 
 
@@ -135,6 +146,7 @@ def misfit_maps(
         tops.append(float(rms.max()))
         out[name] = {
             "kind": "map",
+            "colours": list(style.HEAT),
             "x": {"label": "Velocity", "unit": "mm/s", "edges": edges.tolist()},
             "y": {"label": "PWM level", "unit": "", "names": levels.names},
             "value": {"label": "RMS misfit", "unit": "N"},

@@ -2,23 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
 
-from erdctl.core.quantity import Quantity
-from erdctl.core.recording import DIRECTIONS, Array, Recording
+from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
 from erdctl.diagnose.problem import prepare
 from erdctl.diagnose.residual.localisation import variables
 from erdctl.effects import get
+from erdctl.model.corrected_equation import corrected_equation
 from erdctl.model.effect import Variable
-from erdctl.model.paper import EQUATIONS, QUANTITIES
+from erdctl.model.paper import EQUATIONS
 from erdctl.report.page import data
 from erdctl.report.page.data import Json, Levels
+from erdctl.report.page.diagnosis_tables import (
+    heldout_table,
+    notes_of,
+    paper_table,
+    record_table,
+)
 from erdctl.report.page.render import Run, digits, render
-from erdctl.report.page.words import extent, joined, logs_text, plain, rig_line
+from erdctl.report.page.words import (
+    extent,
+    joined,
+    logs_text,
+    peak_of,
+    plain,
+    rig_line,
+    shown_value,
+)
+from erdctl.report.readable import headline, percent_of, with_unit
 
 MOOD = {"adequate": "good", "explained": "mid", "unexplained": "bad"}
 
@@ -55,16 +69,18 @@ def diagnosis_page(
         loops=[key for key in figures if key.startswith("loop")],
         maps=[key for key in figures if key.startswith("map")],
         profiles=[key for key in figures if key.startswith("profile")],
-        **_answers(doc, name),
+        **_answers(doc, name, peak_of(recording.force)),
         rig=[rig_line(f) for f in doc["rig"]],
         levels=_levels(doc, recording, levels, "refitted" if given else plain_name),
         misfit_words=_misfit_words(doc),
         findings=[_finding(f) for f in doc["findings"]],
         paper_equations=EQUATIONS,
-        paper=_paper(doc),
-        notes=_notes(doc),
-        records=_records(doc.get("records")),
-        heldout=_heldout(doc),
+        corrected=corrected_equation([get(f["effect"]) for f in doc["findings"]]),
+        shared=_shared(doc),
+        paper=paper_table(doc),
+        notes=notes_of(doc),
+        records=record_table(doc.get("records")),
+        heldout=heldout_table(doc, peak_of(recording.force)),
         untestable=[[k, v] for k, v in doc["not_testable"].items()],
     )
 
@@ -102,8 +118,8 @@ def _figures(
     return out
 
 
-def _answers(doc: Json, name: str) -> Json:
-    """The first screen's answers, in words."""
+def _answers(doc: Json, name: str, peak: float) -> Json:
+    """The first screen's answers, in words; peak : of the measured force [N]."""
     verdict, noise = doc["verdict"], doc["noise_rms"]
     rms = doc["heldout"]["before"]["rms"]
     named = [plain(f["effect"]) for f in doc["findings"]]
@@ -135,38 +151,55 @@ def _answers(doc: Json, name: str) -> Json:
             "Everywhere alike: no interval of speed, deflection, duty, time or energy holds"
             " more than its share."
         )  # fmt: skip
-        why = " ".join(_cause(f) for f in doc["findings"]) or _sentence(doc["remaining"]["text"])
+        why = _sentence(doc["remaining"]["text"])
     if "refitted" in doc:
         holds += (
             f" That is fitted to these logs; as given, {digits(doc['baseline']['rms'], 3)} N rms."
         )
-    return {"head": head, "holds": holds, "where": where, "why": why, "better": _better(doc)}
+    return {
+        "head": head, "holds": holds, "where": where, "why": why,
+        "causes": [_cause(f) for f in doc["findings"]], "better": _better(doc, peak),
+    }  # fmt: skip
 
 
-def _cause(f: Json) -> str:
-    text = f"{plain(f['effect']).capitalize()}: {get(f['effect']).title}"
+def _cause(f: Json) -> Json:
+    """An effect with its main number, and what it is."""
+    effect = get(f["effect"])
+    text = f"{plain(effect.name)}, {effect.title}"
     if f["equivalent"]:
         text += f"; or {joined([plain(e) for e in f['equivalent']], 'or')}, which would look alike"
-    return f"{text}."
+    values = {symbol: v["value"] for symbol, v in f["parameters"].items()}
+    return {"number": headline(effect, values), "text": f"{text}."}
 
 
-def _better(doc: Json) -> Json:
+def _shared(doc: Json) -> bool:
+    """Whether two findings have a parameter of the same symbol."""
+    symbols = [s for f in doc["findings"] for s in f["parameters"]]
+    return len(symbols) > len(set(symbols))
+
+
+def _better(doc: Json, peak: float) -> Json:
     before, after = doc["heldout"]["before"], doc["heldout"]["after"]
-    noise = digits(doc["noise_rms"], 3)
+    noise = with_unit(doc["noise_rms"], "N", 3)
+
+    def size(rms: float) -> str:
+        """An error as people judge it."""
+        return f"{with_unit(rms, 'N', 3)} rms ({percent_of(rms, peak)})"
+
+    of_peak = f"per cent of the peak force of {with_unit(peak, 'N', 3)}; noise {noise} rms"
     unit = "NRMSE on data that the fit has not seen"
     if not doc["findings"]:
         return {
             "question": "How well does it predict?", "before": "",
             "after": f"{before['nrmse']:.4f}", "unit": unit,
-            "words": f"RMS error {digits(before['rms'], 3)} N; noise {noise} N."
-            " Nothing was corrected.",
+            "errors": [size(before["rms"])], "words": f"{of_peak}. Nothing was corrected.",
         }  # fmt: skip
     part = 1.0 - after["nrmse"] / before["nrmse"]
     return {
         "question": "How much better is the corrected model?",
         "before": f"{before['nrmse']:.4f}", "after": f"{after['nrmse']:.4f}", "unit": unit,
-        "words": f"{100 * part:.0f} % less: RMS error {digits(before['rms'], 3)} N →"
-        f" {digits(after['rms'], 3)} N; noise {noise} N.",
+        "errors": [size(before["rms"]), size(after["rms"])],
+        "words": f"{of_peak}. {100 * part:.0f} % less.",
     }  # fmt: skip
 
 
@@ -223,73 +256,8 @@ def _finding(f: Json) -> Json:
         "test": f.get("test"),
         "evidence": evidence,
         "parameters": [
-            {"symbol": symbol, "title": titles[symbol], **value}
+            {"symbol": symbol, "title": titles[symbol], **shown_value(value)}
             for symbol, value in f["parameters"].items()
-        ],
-    }
-
-
-def _paper(doc: Json) -> Json:
-    """The paper's parameters, before and after, for both directions."""
-    files = {"before": doc["baseline"]["params"], "after": doc["corrected"]["params"]}
-    if not doc["findings"]:
-        files.pop("before")
-    rows = []
-    for symbol, q in QUANTITIES.items():
-        cells = [_cell(file[d][symbol], q) for d in DIRECTIONS for file in files.values()]
-        rows.append({"symbol": symbol, "title": q.title, "unit": q.unit, "cells": cells})
-    names = {"before": "before", "after": "corrected" if "before" in files else "value"}
-    return {"directions": DIRECTIONS, "columns": [names[k] for k in files], "rows": rows}
-
-
-def _cell(given: Any, q: Quantity) -> str:
-    value = given if isinstance(given, dict) else {"value": given}
-    if value.get("value") is None:
-        return "not identified"
-    error = value.get("stderr")
-    return digits(value["value"]) + ("" if error is None else f" ± {digits(error, 2)}")
-
-
-def _notes(doc: Json) -> list[str]:
-    """Why a parameter has no value, one line for each reason."""
-    reasons: dict[str, list[str]] = {}
-    for direction in DIRECTIONS:
-        for symbol, value in doc["corrected"]["params"][direction].items():
-            if isinstance(value, dict) and value.get("value") is None:
-                reasons.setdefault(value.get("reason") or "no value given", []).append(
-                    f"{direction}.{symbol}"
-                )
-    return [f"Not identified: {', '.join(names)}: {why}." for why, names in reasons.items()]
-
-
-def _records(records: Sequence[Json] | None) -> Json | None:
-    if not records:
-        return None
-    kinds = [k for k in ("gain", "offset") if k in records[0]]
-    return {
-        "header": ["record", *(f"{k} [{records[0][k]['unit']}]" for k in kinds)],
-        "rows": [
-            [
-                v["name"],
-                *(f"{digits(v[k]['value'])} ± {digits(v[k]['stderr'], 2)}" for k in kinds),
-            ]
-            for v in records
-        ],
-    }
-
-
-def _heldout(doc: Json) -> Json:
-    before, after = doc["heldout"]["before"], doc["heldout"]["after"]
-    rows = [
-        (data.percent(duty), value, _by_duty(after)[duty])
-        for duty, value in _by_duty(before).items()
-    ]
-    rows.append(("all", before["nrmse"], after["nrmse"]))
-    return {
-        "header": ["PWM level", "NRMSE before", "NRMSE after", "change"],
-        "rows": [
-            [label, f"{a:.4f}", f"{b:.4f}", f"{100 * (b / a - 1):+.0f} %".replace("-", "−")]
-            for label, a, b in rows
         ],
     }
 

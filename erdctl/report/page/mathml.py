@@ -11,6 +11,8 @@ from dataclasses import dataclass
 
 from markupsafe import Markup, escape
 
+from erdctl.model.corrected_equation import split
+
 NAMESPACE = "http://www.w3.org/1998/Math/MathML"
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "kappa": "κ", "lambda": "λ", "mu": "μ",
@@ -22,14 +24,23 @@ OPERATORS = {
     ",": ",", ";": ";",
 }  # fmt: skip
 CLOSING = {"(": ")", "[": "]", "|": "|"}
+D = Markup('<mi mathvariant="normal">d</mi>')
+DIFFERENTIAL = re.compile(r"d[A-Za-z](?<!do)")
 MO = "<mo>", "<mo "  # but not <mover>
 TOKEN = re.compile(
     r"\s*(?:"
-    r"(?P<derivative>d(?P<order>\d?)(?P<upper>[A-Za-z]\w*?)/d(?P<lower>[A-Za-z])\d?(?!\w))"
+    r"(?P<derivative>d(?P<order>\d?)(?P<upper>[A-Za-z]\w*?)"
+    r"/d(?:(?P<lower>[A-Za-z])\d?(?!\w)|\|(?P<size>[A-Za-z]\w*)\|))"
     r"|(?P<number>\d+(?:\.\d+)?(?:e-?\d+)?(?:\s*(?P<unit>m/s)(?!\w))?)"
     r"|(?P<name>[A-Za-z]\w*)"
     r"|(?P<sign>->|<=|>=|[-+*/^()\[\]|=<>,;])"
     r")"
+)
+# Of running text: what bears an index, or is no English word, is a symbol.
+_LETTERS = "|".join(sorted(GREEK, key=len, reverse=True))
+SYMBOL = re.compile(
+    rf"(?<![\w/])(?P<head>xdot|{_LETTERS}|[A-Za-z](?=_))(?:_(?P<index>[A-Za-z0-9]+))?(?![\w(])"
+    r"|(?<=[\w)|])\^(?P<power>-?\w+)"
 )
 
 
@@ -63,6 +74,30 @@ def equation(text: str) -> Markup:
     )
 
 
+def flowing(text: str) -> Markup:
+    """An equation in pieces between which a line may break: sums at their terms, and clauses.
+
+    A browser breaks no formula, and a long one would be wider than a telephone.
+    Check: "F = a + b, b = 1" comes in 3 pieces.
+    >>> str(flowing("F = a + b, b = 1")).count("<math")
+    3
+    """
+    pieces = []
+    for part in split(text, ";"):
+        for clause in split(part, ","):
+            first, *more = split(clause.strip(), " + ")
+            pieces += [first, *(f"+ {term}" for term in more)]
+            pieces[-1] += ","
+        pieces[-1] = f"{pieces[-1][:-1]};"
+    pieces[-1] = pieces[-1][:-1]
+    piece = Markup('<span class="piece">{}</span>')
+    typeset = [equation(p) for p in pieces]
+    if not all(t.startswith("<math") for t in typeset):
+        typeset = [equation(text)]
+    inline = [piece.format(_inline(t)) for t in typeset]
+    return Markup('<p class="flow">{}</p>').format(Markup(" ").join(inline))
+
+
 def symbol(name: str) -> Markup:
     """MathML of a parameter's symbol.
 
@@ -71,6 +106,35 @@ def symbol(name: str) -> Markup:
     '<msub><mi>T</mi><mi mathvariant="normal">d</mi></msub></math>'
     """
     return Markup('<math xmlns="{}">{}</math>').format(NAMESPACE, _name(name))
+
+
+def prose(text: str) -> Markup:
+    """A sentence with the symbols in it set as symbols: k_1, xdot, beta, a^2.
+
+    Check: "k_m = 1 / s_m" has an index m twice, and no underscore.
+    >>> str(prose("of stiffness k_m"))
+    'of stiffness <i>k</i><sub>m</sub>'
+    """
+    out, at = Markup(), 0
+    for match in SYMBOL.finditer(text):
+        out += escape(text[at : match.start()])
+        at = match.end()
+        if match.group("power"):
+            out += Markup("<sup>{}</sup>").format(match.group("power").replace("-", "−"))
+            continue
+        head, index = match.group("head"), match.group("index")
+        letter = "ẋ" if head == "xdot" else GREEK.get(head, head)
+        out += Markup("<i>{}</i>").format(letter)
+        out += Markup("<sub>{}</sub>").format(index) if index else ""
+    return out + escape(text[at:])
+
+
+def _inline(typeset: Markup) -> Markup:
+    """A formula for a line of text, as large as one by itself; a sum goes on with its sign."""
+    text = str(typeset).replace(' display="block"', ' displaystyle="true"')
+    if 'alttext="+ ' in text:
+        text = text.replace('<mo form="prefix">+</mo>', '<mo form="infix">+</mo>', 1)
+    return Markup(text)
 
 
 def _tokens(text: str) -> list[_Token]:
@@ -123,7 +187,9 @@ class _Parser:
                 break
             words.append(token.text)
             self.at += 1
-        return Markup("<mtext>\u2002{}\u2002</mtext>").format(" ".join(words))
+        more = self.at < len(self.tokens) and self.tokens[self.at].text not in ",;"
+        after = "\u2002" if more else ""
+        return Markup("<mtext>\u2002{}{}</mtext>").format(" ".join(words), after)
 
     def _quotient(self) -> Markup:
         upper, bare_upper = self._power()
@@ -178,6 +244,7 @@ class _Parser:
 def _is_word(name: str) -> bool:
     """Whether a name is English rather than a symbol: letters alone, and none of the known."""
     known = name in GREEK or name in FUNCTIONS or re.fullmatch(r"[A-Za-z]|[a-z]+dot", name)
+    known = known or DIFFERENTIAL.fullmatch(name)
     return name.isalpha() and not known and name not in {"gas", "viscous", "yield"}
 
 
@@ -213,6 +280,8 @@ def _number(token: _Token) -> Markup:
 def _name(text: str) -> Markup:
     """A symbol: Greek letter, dot for a derivative, what follows `_` as upright index."""
     head, _, index = text.partition("_")
+    if DIFFERENTIAL.fullmatch(text):
+        return _row([D, Markup("<mi>{}</mi>").format(text[1:])])
     if head in FUNCTIONS or head in {"gas", "viscous", "yield"}:
         out = Markup('<mi mathvariant="normal">{}</mi>').format(head)
     elif head.endswith("dot") and len(head) > 3:
@@ -222,13 +291,15 @@ def _name(text: str) -> Markup:
         out = Markup("<mi>{}</mi>").format(GREEK.get(head, head))
     if not index:
         return out
-    return Markup('<msub>{}<mi mathvariant="normal">{}</mi></msub>').format(out, escape(index))
+    upright = Markup('<msub>{}<mi mathvariant="normal">{}</mi></msub>')
+    return upright.format(out, escape(index.replace("_", ",")))
 
 
 def _derivative(match: re.Match[str]) -> Markup:
-    """dF_ER/dt, d2x/dt2."""
-    order, d = match.group("order"), Markup('<mi mathvariant="normal">d</mi>')
-    below = _name(match.group("lower"))
+    """dF_ER/dt, d2x/dt2, dF_y/d|x|."""
+    order, d = match.group("order"), D
+    size = match.group("size")
+    below = _name(match.group("lower")) if size is None else _fenced("|", _name(size))
     upper = d
     if order:
         power = Markup("<msup>{}<mn>{}</mn></msup>")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 from base64 import b64encode
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from hashlib import sha256
 from importlib.resources import files
@@ -15,7 +15,8 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from erdctl.core.recording import Source
 from erdctl.core.version import __version__
-from erdctl.report.page.mathml import equation, symbol
+from erdctl.report.page.mathml import equation, flowing, prose, symbol
+from erdctl.report.readable import typeset
 
 RAISED = str.maketrans("−0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 SCRIPTS = ("d3.min.js", "plot.js", "kinds.js", "page.js")
@@ -23,11 +24,12 @@ SCRIPTS = ("d3.min.js", "plot.js", "kinds.js", "page.js")
 
 @dataclass(frozen=True, kw_only=True)
 class Run:
-    """How a result came about: the command's words, the logs, other files, remarks."""
+    """How a result came about: command, logs, other files, remarks, labels of the test."""
 
     words: Sequence[str]
     logs: Sequence[Source] = ()
     details: Sequence[tuple[str, str]] = ()
+    labels: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def command(self) -> str:
@@ -37,7 +39,7 @@ class Run:
     @property
     def rows(self) -> list[tuple[str, str]]:
         """Provenance, for a table."""
-        out = [("erdctl", __version__), ("command", self.command)]
+        out = [*self.labels.items(), ("erdctl", __version__), ("command", self.command)]
         for log in self.logs:
             out.append((f"log {log.name}", f"{log.rows} rows, SHA-256 {log.sha256 or 'unknown'}"))
         return [*out, *self.details]
@@ -97,7 +99,14 @@ def _environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    out.filters |= {"equation": equation, "symbol": symbol, "digits": digits}
+    out.filters |= {
+        "equation": equation,
+        "flowing": flowing,
+        "symbol": symbol,
+        "prose": prose,
+        "unit": typeset,
+    }
+    out.filters["digits"] = digits
     return out
 
 

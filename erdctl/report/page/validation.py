@@ -11,7 +11,8 @@ from erdctl.model.effect import Variable
 from erdctl.report.page import data
 from erdctl.report.page.data import Json, Levels
 from erdctl.report.page.render import Run, digits, render
-from erdctl.report.page.words import extent, joined, logs_text
+from erdctl.report.page.words import extent, joined, logs_text, peak_of
+from erdctl.report.readable import percent_of, with_unit
 from erdctl.score.nrmse import Score, Validation
 
 K = TypeVar("K")
@@ -61,10 +62,10 @@ def validation_page(
         samples=samples,
         logs=logs_text(recording),
         extent=extent(recording, len(levels.duty)),
-        **_answers(found, over, noise, limit),
+        **_answers(found, over, noise, limit, peak_of(recording.force)),
         levels=_levels(found, noise, limit),
         rig=[*rig],
-        tables=_tables(found),
+        tables=_tables(found, peak_of(recording.force)),
     )
 
 
@@ -79,7 +80,11 @@ def _over(found: Validation, noise: float | None, limit: float | None) -> list[s
 
 
 def _answers(
-    found: Validation, over: list[str] | None, noise: float | None, limit: float | None
+    found: Validation,
+    over: list[str] | None,
+    noise: float | None,
+    limit: float | None,
+    peak: float,
 ) -> Json:
     whole = found.overall
     bar = f"the limit of {limit:g}" if limit is not None else "the noise"
@@ -95,7 +100,7 @@ def _answers(
         holds = f"Yes: all of {len(found.by_duty)} PWM levels are within {bar}."
     compared = ""
     if noise:
-        compared = f" = {whole.rms / noise:.2f} × the noise of the force, {digits(noise, 3)} N"
+        compared = f"; {whole.rms / noise:.2f} × the noise of the force, {digits(noise, 3)} N"
     duty, level = _worst(found.by_duty)
     side, direction = _worst(found.by_direction) if found.by_direction else ("", whole)
     where = f"At {data.percent(duty)} PWM: NRMSE {level.nrmse:.4f}"
@@ -111,7 +116,8 @@ def _answers(
         "where": f"{where}.",
         "nrmse": f"{whole.nrmse:.4f}",
         "normalise": found.normalise.value,
-        "rms": f"RMS error {digits(whole.rms, 3)} N{compared}.",
+        "rms": f"{with_unit(whole.rms, 'N', 3)} rms ({percent_of(whole.rms, peak)})",
+        "words": f"per cent of the peak force of {with_unit(peak, 'N', 3)}{compared}.",
     }
 
 
@@ -131,11 +137,14 @@ def _levels(found: Validation, noise: float | None, limit: float | None) -> Json
     return {"rows": rows, "most": most, "mark": meaning}
 
 
-def _tables(found: Validation) -> list[Json]:
-    header = ["samples", "RMSE [N]", "NRMSE"]
+def _tables(found: Validation, peak: float) -> list[Json]:
+    header = ["samples", "RMSE [N]", "NRMSE", f"of {with_unit(peak, 'N', 3)} peak"]
 
     def rows(scores: Mapping[str, Score]) -> list[list[str]]:
-        return [[k, str(s.samples), digits(s.rms), f"{s.nrmse:.4f}"] for k, s in scores.items()]
+        return [
+            [k, str(s.samples), digits(s.rms), f"{s.nrmse:.4f}", percent_of(s.rms, peak)]
+            for k, s in scores.items()
+        ]
 
     levels = {data.percent(d): s for d, s in found.by_duty.items()} | {"all": found.overall}
     out = [

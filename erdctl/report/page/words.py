@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from erdctl.core.recording import Recording
+from erdctl.core.recording import Array, Recording
+from erdctl.report.readable import error_of, number, scaled
 
 
 def plain(name: str) -> str:
@@ -43,3 +44,19 @@ def rig_line(fault: Mapping[str, Any]) -> str:
     """A fault of the rig, as a document holds it, in one line."""
     where = f"record {fault['record']}: " if fault["record"] else ""
     return f"{where}{fault['text']}; {fault['remedy']}"
+
+
+def peak_of(force: Array) -> float:
+    """The highest force either way [N]."""
+    return max(float(force.max()), -float(force.min()))
+
+
+def shown_value(given: dict[str, Any]) -> dict[str, str]:
+    """Value, standard error and unit of a document's parameter, as people read them."""
+    value = given["value"]
+    factor, unit = scaled(given["unit"], value or 0.0)
+    return {
+        "value": "not identified" if value is None else number(value * factor),
+        "stderr": error_of(given["stderr"], factor, at_bound=given.get("at_bound", False)),
+        "unit": unit,
+    }

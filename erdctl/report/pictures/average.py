@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from erdctl.bench.dyno import averaged
 from erdctl.report import draw, style
 from erdctl.report.kind import Picture
+from erdctl.report.pictures.loops import still
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -42,6 +43,7 @@ def average(figure: Figure, subject: Subject) -> None:
 PICTURE = Picture(
     title="Averaged force against velocity",
     needs=("force",),
+    nothing=still,
     draw=average,
     size=(7.4, 4.6),
 )

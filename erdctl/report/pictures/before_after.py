@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from erdctl.report import draw, style
 from erdctl.report.kind import Picture
+from erdctl.report.pictures.loops import still
 from erdctl.score.nrmse import nrmse
 
 if TYPE_CHECKING:
@@ -38,6 +39,7 @@ def before_after(figure: Figure, subject: Subject) -> None:
 PICTURE = Picture(
     title="Before and after the correction",
     needs=("measured", "modelled", "before"),
+    nothing=still,
     draw=before_after,
     size=(10.0, 7.2),
 )

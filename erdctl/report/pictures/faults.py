@@ -45,10 +45,19 @@ def shown_levels(subject: Subject) -> list[int]:
     return sorted(set(np.linspace(0, count - 1, min(count, COLUMNS)).round().astype(int).tolist()))
 
 
+def no_fault(subject: Subject) -> str | None:
+    """Whether no fault changes anything."""
+    healthy, *faulty = subject.cases.values()
+    if any(not np.array_equal(healthy, force) for force in faulty):
+        return None
+    return "no fault acts during this log; look at their factors, starts and ends"
+
+
 PICTURE = Picture(
     title="Healthy and faulty damper",
     figures="14, 15, 17, 18",
     needs=("cases",),
+    nothing=no_fault,
     draw=faults,
     size=lambda s: (1.2 + 3.6 * len(shown_levels(s)), 6.4),
 )

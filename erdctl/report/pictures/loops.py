@@ -31,9 +31,17 @@ def loops(figure: Figure, subject: Subject) -> None:
     draw.key_of_levels(figure, subject, key)
 
 
+def still(subject: Subject) -> str | None:
+    """Whether nothing moves."""
+    r = subject.recording
+    moves = style.spread(r.x) > 0.0 or style.spread(r.xdot) > 0.0
+    return None if moves else "the piston never moves; --kind motion shows the log over time"
+
+
 PICTURE = Picture(
     title="Force against deflection and velocity",
     figures="4, 5, 7, 9, 11, 13",
     needs=("force",),
+    nothing=still,
     draw=loops,
 )

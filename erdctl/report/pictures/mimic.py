@@ -50,10 +50,18 @@ def _shape(subject: Subject) -> tuple[int, int]:
     return -(-len(subject.acting) // ACROSS), columns
 
 
+def no_mimicry(subject: Subject) -> str | None:
+    """Whether no mimicked fault acts."""
+    if any(acting.any() for acting in subject.acting.values()):
+        return None
+    return "no fault acts during this log; look at their starts and ends"
+
+
 PICTURE = Picture(
     title="Force against velocity while a fault is mimicked",
     figures="23, 25, 27, 30",
     needs=("acting", "measured", "modelled"),
+    nothing=no_mimicry,
     draw=mimic,
     size=lambda s: (1.0 + 3.6 * max(_shape(s)[1], 2), 1.0 + 3.6 * _shape(s)[0]),
 )

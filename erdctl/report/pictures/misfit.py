@@ -32,6 +32,8 @@ NAMES = {
 
 def misfit(figure: Figure, subject: Subject) -> None:
     """The map shows the model before a correction, if there is one; the profile shows both."""
+    from matplotlib.colors import LinearSegmentedColormap
+
     assert subject.measured is not None
     before = subject.modelled if subject.before is None else subject.before
     assert before is not None
@@ -46,10 +48,11 @@ def misfit(figure: Figure, subject: Subject) -> None:
     left.set_ylabel(style.AXES["duty"].label)
     left.set_facecolor("0.93")
     # Even misfit, as noise is, gets a middle shade: only what stands out is dark.
+    heat = LinearSegmentedColormap.from_list("heat", style.HEAT)
     top = max(float(np.nanmax(found.rms)), 2.0 * float(np.nanmedian(found.rms)))
     mesh = left.pcolormesh(
         found.edges * speed.scale, np.arange(len(found.levels) + 1), found.rms,
-        cmap="viridis_r", vmin=0.0, vmax=top or 1.0, edgecolors="white", linewidth=0.3,
+        cmap=heat, vmin=0.0, vmax=top or 1.0, edgecolors="white", linewidth=0.3,
     )  # fmt: skip
     left.set_yticks(
         np.arange(len(found.levels)) + 0.5, [f"{100 * v:.4g}" for v in found.levels.tolist()]

@@ -55,9 +55,17 @@ def _apart(v: Array, force: Array) -> tuple[Array, Array]:
     return np.insert(v, at, np.nan), np.insert(force, at, np.nan)
 
 
+def no_stroke(subject: Subject) -> str | None:
+    """Whether there is no stroke that counts."""
+    if len(peaks_of(subject.recording, subject.force).velocity):
+        return None
+    return "no stroke goes from one reversal to the next under a duty that has settled"
+
+
 PICTURE = Picture(
     title="Peak force against velocity",
     needs=("force",),
+    nothing=no_stroke,
     draw=peak_force,
     size=(7.4, 4.6),
 )

@@ -54,10 +54,18 @@ def yield_force(figure: Figure, subject: Subject) -> None:
     ax.legend(loc="lower right")
 
 
+def no_field(subject: Subject) -> str | None:
+    """Whether the log was recorded without any field."""
+    if float(subject.levels.max()) > 0.0:
+        return None
+    return "the duty is 0 in the whole log; record one under a field"
+
+
 PICTURE = Picture(
     title="Yield force against duty",
     figures="10",
     needs=("parameters",),
+    nothing=no_field,
     draw=yield_force,
     size=(6.4, 4.4),
 )

@@ -50,7 +50,7 @@ erd.loops = (spec, samples, choice) => {
     draw(ctx, sx, sy, theme) {
       const size = shown.length > 4000 ? 1.6 : 2.4;
       for (let level = 0; level < count; level += 1) {
-        const colour = theme.level(level, count);
+        const colour = theme.level(samples.colours, level);
         if (choice.layers.has("measured")) {
           ctx.globalAlpha = shown.length > 4000 ? 0.4 : 0.55;
           ctx.fillStyle = colour;
@@ -60,10 +60,10 @@ erd.loops = (spec, samples, choice) => {
         }
       }
       for (let level = 0; model && choice.layers.has("modelled") && level < count; level += 1) {
-        const colour = d3.hsl(theme.level(level, count));
+        const colour = theme.level(samples.colours, level);
         ctx.globalAlpha = 1;
         ctx.lineWidth = 1.3;
-        ctx.strokeStyle = ctx.fillStyle = String(theme.dark ? colour.brighter(0.5) : colour.darker(0.6));
+        ctx.strokeStyle = ctx.fillStyle = colour;
         ctx.beginPath();
         let last = -2;
         for (const i of shown) {
@@ -178,6 +178,8 @@ erd.lines = (spec) => {
 // Root mean square misfit in cells of velocity and PWM level.
 erd.map = (spec) => {
   const { edges } = spec.x, rows = spec.y.names, n = edges.length - 1;
+  const last = spec.colours.length - 1;
+  const heat = d3.scaleLinear().domain(spec.colours.map((_, i) => i / last)).range(spec.colours).clamp(true);
   const centre = (i, j) => ({
     x: (edges[j] + edges[j + 1]) / 2, y: i + 0.5, bare: true, index: i * n + j,
     text: `PWM ${rows[i]}\n${erd.number(edges[j])} to ${erd.number(edges[j + 1])} ${spec.x.unit}\n`
@@ -188,12 +190,14 @@ erd.map = (spec) => {
     left: 52,
     yTicks: { values: rows.map((_, i) => i + 0.5), format: (v) => rows[Math.floor(v)] },
     extent: () => [[edges[0], edges[n]], [0, rows.length]],
-    draw(ctx, sx, sy, theme) {
+    draw(ctx, sx, sy, theme, inner) {
       let drawn = 0;
+      ctx.fillStyle = theme.band; // what the log does not hold
+      ctx.fillRect(inner.left, inner.top, inner.right - inner.left, inner.bottom - inner.top);
       for (let i = 0; i < rows.length; i += 1) {
         for (let j = 0; j < n; j += 1) {
           if (!spec.counts[i][j]) continue;
-          ctx.fillStyle = theme.heat(spec.values[i][j] / (spec.most || 1));
+          ctx.fillStyle = heat(spec.values[i][j] / (spec.most || 1));
           const left = sx(edges[j]), top = sy(i + 1);
           ctx.fillRect(left, top + 1, sx(edges[j + 1]) - left + 0.5, sy(i) - top - 2);
           drawn += 1;

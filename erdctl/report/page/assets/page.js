@@ -34,10 +34,11 @@
   const colour = () => {
     const theme = erd.theme();
     for (const swatch of document.querySelectorAll("[data-swatch]")) {
-      swatch.style.background = theme.level(+swatch.dataset.swatch, samples.levels.length);
+      swatch.style.background = theme.level(samples.colours, +swatch.dataset.swatch);
     }
     for (const bar of document.querySelectorAll(".ramp")) {
-      bar.style.background = `linear-gradient(to right, ${d3.range(0, 1.01, 0.1).map(theme.heat).join(",")})`;
+      const map = data.figures[bar.closest("figure").dataset.figure];
+      bar.style.background = `linear-gradient(to right, ${map.colours.join(",")})`;
     }
   };
 
@@ -59,6 +60,14 @@
   toggles("button[data-layer]", (b) => b.dataset.layer, choice.layers, () => ["measured", "modelled"]);
   const select = document.getElementById("records");
   if (select) select.addEventListener("change", () => { choose(+select.value); again(); erd.frames.forEach((frame) => frame.home()); });
+
+  // Without a font made for formulas an index is not lowered: it then begins where its letter ends.
+  const index = document.querySelector("math msub");
+  if (index) {
+    const [letter, low] = [...index.children].map((part) => part.getBoundingClientRect());
+    const lowered = low.bottom > letter.bottom + 0.08 * letter.height;
+    document.documentElement.classList.toggle("no-math-font", !lowered);
+  }
 
   const all = () => { colour(); erd.redraw(); };
   erd.dark.addEventListener("change", all);

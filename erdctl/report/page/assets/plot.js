@@ -14,9 +14,8 @@ erd.theme = () => {
     dark, ink: colour("--ink"), rule: colour("--rule"), muted: colour("--muted"), paper: colour("--paper"),
     before: colour("--before"), after: colour("--after"), band: colour("--band"),
     bad: colour("--bad"),
-    // Lightness falls or rises steadily with the level, so that it is readable in grey as well.
-    level: (i, n) => d3.interpolateViridis((dark ? 0.3 : 0) + (dark ? 0.7 : 0.85) * (n > 1 ? i / (n - 1) : 0.35)),
-    heat: (part) => d3.interpolateInferno(dark ? 0.08 + 0.87 * part : 0.97 - 0.87 * part),
+    // Colours come with the data, so that pictures and pages show a level alike.
+    level: (colours, i) => colours[dark ? "dark" : "light"][i],
   };
 };
 
