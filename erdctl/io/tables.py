@@ -13,8 +13,9 @@ from erdctl.core.errors import UsageProblem
 from erdctl.core.recording import CHANNELS, Array, Recording
 from erdctl.io import csv_out
 from erdctl.io.arrays import arrow, runs_of_text
-from erdctl.io.atomic import STDOUT, output
+from erdctl.io.atomic import output
 from erdctl.io.formats import CONTAINERS, SUFFIXES, Format, by_suffix
+from erdctl.io.identity import STDOUT
 from erdctl.io.stored import with_si
 
 BATCH = 1 << 20  # rows of an Arrow batch: what a reader of a stream must hold at least

@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 
+from erdctl.core.messages import CELL, shown, tell
+
 QUIET = ContextVar("quiet", default=False)  # set for the time of one command by `--quiet`
 SERIOUS = ("warning", "error")
 BAR = 20  # characters
@@ -17,7 +19,7 @@ BAR = 20  # characters
 def say(text: str, kind: str = "note") -> None:
     """One remark for the user; of a quiet program only warnings and errors."""
     if not QUIET.get() or kind in SERIOUS:
-        print(f"erdctl: {kind}: {text}", file=sys.stderr)
+        tell(shown(f"erdctl: {kind}: {text}"))
 
 
 def terminal() -> bool:
@@ -38,15 +40,17 @@ def table(
     """
     if QUIET.get():
         return
+    title, header = shown(title), [shown(cell, CELL) for cell in header]
+    rows = [[shown(cell, CELL) for cell in row] for row in rows]
     if terminal():
         _rich(title, header, rows, bars or {})
         return
     widths = [max(len(row[i]) for row in [header, *rows]) for i in range(len(header))]
-    print(title, file=sys.stderr)
+    tell(title)
     for row in [header, *rows]:
         first = row[0].ljust(widths[0])
         rest = [cell.rjust(w) for cell, w in zip(row[1:], widths[1:], strict=True)]
-        print("  " + "  ".join([first, *rest]).rstrip(), file=sys.stderr)
+        tell("  " + "  ".join([first, *rest]).rstrip())
 
 
 def _rich(
@@ -96,8 +100,10 @@ def progress() -> Iterator[Callable[[str, str], None]]:
     from rich.console import Console
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-    columns = SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn()
+    columns = SpinnerColumn(), TextColumn("{task.description}", markup=False), TimeElapsedColumn()
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("")
         # Drawn at once: a stage may be over before the next of ten pictures a second.
-        yield lambda stage, what: bar.update(task, description=f"{stage}: {what}", refresh=True)
+        yield lambda stage, what: bar.update(
+            task, description=shown(f"{stage}: {what}", CELL), refresh=True
+        )
