@@ -99,14 +99,20 @@ class Guarded(TyperGroup):
         except MemoryError:
             raise _end("out of memory", ExitCode.NOT_COMPLETED) from None
         except OSError as error:
-            if error.errno not in FULL:
-                raise
-            raise _end(f"cannot write: {error.strerror}", ExitCode.NOT_COMPLETED) from None
+            raise _full(error) from None
 
 
 def _end(message: str, code: ExitCode) -> typer.Exit:
     tell(f"erdctl: error: {shown(' '.join(message.split()))}")
     return typer.Exit(code)
+
+
+def _full(error: OSError) -> typer.Exit:
+    """What a print to standard output may raise; any other error is raised as it is."""
+    if error.errno not in FULL:
+        raise error
+    reason = "it is closed" if error.errno == errno.EBADF else (error.strerror or "").lower()
+    return _end(f"cannot write standard output: {reason}", ExitCode.NOT_COMPLETED)
 
 
 COMMANDS = (
@@ -170,9 +176,7 @@ def run(words: Sequence[str]) -> int:
     except BrokenPipeError:
         return ExitCode.DONE  # the reader has seen enough of a help text
     except OSError as error:
-        if error.errno not in FULL:
-            raise
-        return _end(f"cannot write: {error.strerror}", ExitCode.NOT_COMPLETED).exit_code
+        return _full(error).exit_code
     return ExitCode.DONE
 
 

@@ -293,6 +293,8 @@ def _explained(name: str, outcome: str) -> Iterator[None]:
 
 
 def _reason(error: OSError) -> str:
+    if error.errno == errno.EBADF:
+        return "it is closed"
     return (error.strerror or str(error)).lower()
 
 

@@ -14,6 +14,7 @@ from erdctl.core.messages import CELL, shown, tell
 QUIET = ContextVar("quiet", default=False)  # set for the time of one command by `--quiet`
 SERIOUS = ("warning", "error")
 BAR = 20  # characters
+ROWS = 200  # of a table for eyes; documents have all
 
 
 def say(text: str, kind: str = "note") -> None:
@@ -41,9 +42,21 @@ def table(
     if QUIET.get():
         return
     title, header = shown(title), [shown(cell, CELL) for cell in header]
-    rows = [[shown(cell, CELL) for cell in row] for row in rows]
+    left_out = len(rows) - ROWS
+    rows = [[shown(cell, CELL) for cell in row] for row in rows[:ROWS]]
+    _table(title, header, rows, bars or {})
+    if left_out > 0:
+        tell(f"  and {left_out} more rows")
+
+
+def _table(
+    title: str,
+    header: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    bars: Mapping[int, Sequence[float]],
+) -> None:
     if terminal():
-        _rich(title, header, rows, bars or {})
+        _rich(title, header, rows, bars)
         return
     widths = [max(len(row[i]) for row in [header, *rows]) for i in range(len(header))]
     tell(title)
