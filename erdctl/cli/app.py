@@ -20,7 +20,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 from erdctl.cli import files
 from erdctl.cli.options import EXIT_CODES
 from erdctl.cli.streams import open_streams
-from erdctl.core.errors import ErdctlError, ExitCode
+from erdctl.core.errors import ErdctlError, ExitCode, InputProblem
 from erdctl.core.leftovers import end_cleanly
 from erdctl.core.messages import CELL, shown, tell
 from erdctl.core.version import __version__
@@ -40,8 +40,12 @@ class Command(TyperCommand):
         self.params.append(quiet_option())
 
     def invoke(self, ctx: Any) -> Any:
-        with together(files.names(self.params, ctx.params)):
-            return super().invoke(ctx)
+        names = files.names(self.params, ctx.params)
+        with together(names):
+            try:
+                return super().invoke(ctx)
+            except InputProblem as problem:
+                raise files.placed(problem, names) from None
 
 
 def quiet_option() -> TyperOption:

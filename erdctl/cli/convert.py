@@ -31,6 +31,9 @@ def command(
     (`p [bar]`; columns of a bench log are SI and have plain names), in field metadata of Parquet
     and Arrow, as the channel's unit in MDF4 and TDMS, and in the struct `units` of MAT.
 
+    A time that does not grow and records that come back are refused, as by every other command;
+    values out of range are converted with a warning.
+
     Time bases: channels with several rates are resampled to the times of force (without it, of x),
     motion and force linearly, the duty held; a gap that would be bridged is refused. The command
     says what it did. Libraries: MAT v5 to v7 needs none, the others pip install 'erdctl[formats]'.
@@ -49,6 +52,6 @@ def command(
     output_format(output, wanted)  # a wrong suffix shows before a long reading
     with progress() as step:
         step("reading", log)
-        table = read_converted(log, maps=maps, say=say)
+        table = read_converted(log, maps=maps, say=say, warn=lambda line: say(line, "warning"))
         step("writing", output)
         write_table(table, output, wanted)

@@ -6,10 +6,11 @@ options of all commands and fails for a text that is in none of these sets.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from erdctl.io.identity import STDOUT, Named
+from erdctl.core.errors import InputProblem
+from erdctl.io.identity import STDIN, STDOUT, Named
 
 READS = frozenset({"log", "logs", "params", "before", "geometry", "arguments"})
 WRITES = frozenset({"output", "report", "manifest", "plot"})
@@ -17,6 +18,7 @@ WRITES = frozenset({"output", "report", "manifest", "plot"})
 FOLDERS = frozenset({"keep"})
 # With this flag a document goes to standard output.
 TO_STDOUT = "as_json"
+MOST = 3  # files that a message names
 # Texts that name no file.
 OTHERS = frozenset({
     "maps", "fault", "drive", "kind", "record", "span", "normalise", "only", "exclude", "name",
@@ -31,6 +33,15 @@ def names(parameters: list[Any], given: Mapping[str, Any]) -> list[Named]:
     """
     found = [n for p in parameters for n in _named(p, given.get(p.name))]
     return sorted(found, key=lambda n: not n.reads)
+
+
+def placed(problem: InputProblem, names: Sequence[Named]) -> InputProblem:
+    """The problem with the file that it is in, which a computation over several does not know."""
+    read = list(dict.fromkeys("stdin" if n.path == STDIN else n.path for n in names if n.reads))
+    if problem.file is not None or not read or any(name in str(problem) for name in read):
+        return problem
+    more = f" and {len(read) - MOST} more" if len(read) > MOST else ""
+    return InputProblem(str(problem), file=", ".join(read[:MOST]) + more)
 
 
 def _named(parameter: Any, value: Any) -> Iterator[Named]:

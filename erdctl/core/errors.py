@@ -61,6 +61,7 @@ class InputProblem(ErdctlError):
         place = [f"row {row}"] if row is not None else []
         if column is not None:
             place.append(f"column '{column}'")
+        self.file = file
         head = [file] if file else []
         if place:
             head.append(", ".join(place))

@@ -51,7 +51,7 @@ class ExtraEffect(msgspec.Struct):
 
 
 class KnownProvenance(msgspec.Struct):
-    """What commands read of the provenance: ranges [SI] that the logs covered, and the noise [N]."""
+    """What commands read of the provenance: ranges of the logs [SI], and the noise [N]."""
 
     ranges: dict[str, tuple[float, float]] = {}
     noise_rms: float | None = None

@@ -91,6 +91,8 @@ def open_source(path: str, held: Data | None = None) -> TableSource:
         columns = csv_in.column_names(data, name)
     else:
         schema, columns, units = _guarded(name, found, lambda: _described(data, found))
+    if not columns:
+        raise InputProblem("a table without columns; expected a bench log", file=name)
     for i, column in enumerate(columns):
         if column in columns[:i]:
             raise InputProblem(
