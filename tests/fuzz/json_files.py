@@ -26,13 +26,15 @@ GEOMETRY = json.loads((FIXTURES / "geometry_inove.json").read_text())
 SCHEMAS = ("diagnosis", "inspection", "validation", "pwm", "proof")
 VALUES: tuple[Any, ...] = (
     None, True, False, 0, -1, 1, -0.0, 1e-300, 5e-324, 1e300, -1e300, 1e12, 2**63, 10**40, "", "x",
-    "1.5", "nan", "\x1b[2J\x07", "\u202e", "x" * 10_000, "\ud800", [], [1, 2], [[]], {}, {"value": 1},
+    "1.5", "nan", "\x1b[2J\x07", "\u202e", "x" * 10_000, "\ud800", [], [1, 2], [[]], {},
+    {"value": 1},
     {"value": None}, {"value": None, "assumed": -1.0}, {"value": "1"}, {"value": 1.0, "unit": "mm"},
     {"value": 1.0, "unit": "m*" * 800 + "m"}, {"value": 1.0, "unit": "\x1b[2J"},
     {"value": 1.0, "unit": None, "stderr": -1.0}, {"value": 1.0, "stderr": 1e308},
 )  # fmt: skip
 NAMES = (
-    "__init__", "__pycache__", "..", "../effects/backlash", "a.b", "", "os", "backlash\x00", "\x1b[2J",
+    "__init__", "__pycache__", "..", "../effects/backlash", "a.b", "", "os", "backlash\x00",
+    "\x1b[2J",
     "Backlash", "x" * 10_000, "erdctl.effects.backlash", "class", "ﬁ",
 )  # fmt: skip
 FRAGMENTS = (
@@ -73,7 +75,9 @@ def _parameters(rng: Rng) -> dict[str, Any]:
     out["effects"] = [
         {
             "effect": known[i].name,
-            "parameters": {q.symbol: _within(q.low, q.high, q.start, rng) for q in known[i].quantities},
+            "parameters": {
+                q.symbol: _within(q.low, q.high, q.start, rng) for q in known[i].quantities
+            },
         }
         for i in chosen.tolist()
     ]  # fmt: skip

@@ -75,6 +75,8 @@ def test_the_harness_sees(kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyP
     """A command that does what must not be, in place of erdctl."""
     package = tmp_path / "fake" / "erdctl" / "cli"
     package.mkdir(parents=True)
+    for folder in (package, package.parent):
+        (folder / "__init__.py").write_text("")
     (package / "app.py").write_text(f"import os, time\ndef run(words):\n    {SPOILED[kind]}\n")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path / "fake"))
     monkeypatch.setattr(fuzz_harness, "HANG", 2.0)
