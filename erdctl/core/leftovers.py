@@ -68,16 +68,26 @@ def _end(number: int, frame: FrameType | None) -> None:
     if _holding:
         _held.append(number)
         return
-    processes = sys.modules.get("multiprocessing.process")
-    if processes is not None:
-        # They write into temporary directories, too.
-        for child in processes.active_children():
-            child.kill()
-            child.join(1.0)
+    for each in SIGNALS:  # a second one ends the program wherever it is
+        signal.signal(each, signal.SIG_DFL)
+    _end_workers()
     outcome = "; no file was written" if _paths else ""
     remove_all()
     if sys.stderr is not None and sys.stderr.isatty():
         tell("\x1b[?25h")  # the cursor, which a progress line hides
     tell(f"erdctl: error: stopped by {signal.Signals(number).name}{outcome}")
-    signal.signal(number, signal.SIG_DFL)
     os.kill(os.getpid(), number)
+
+
+def _end_workers() -> None:
+    """Worker processes write into temporary directories, and hold semaphores."""
+    processes = sys.modules.get("multiprocessing.process")
+    if processes is None:
+        return
+    for child in processes.active_children():
+        child.kill()
+        child.join(1.0)
+    # Otherwise a process that watches over semaphores complains of them when this one has gone.
+    from multiprocessing import util
+
+    util._run_finalizers(0)  # type: ignore[attr-defined]

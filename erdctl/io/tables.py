@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import BinaryIO
 
 import numpy as np
@@ -54,16 +56,31 @@ def write_table(table: pa.Table, path: str, format: str | None = None) -> None:
         return
     if kind is not Format.CSV:
         table = with_si(csv_out.typed(table))
-    with output(path) as stream:
+    with output(path) as stream, _writable(kind):
         if kind is Format.CSV:
             for chunk in csv_out.chunks(table):
                 stream.write(chunk)
         elif kind is Format.PARQUET:
             _write_parquet(table, stream)
         else:
-            new = pa.ipc.new_file if path.lower().endswith(".feather") else pa.ipc.new_stream
+            new = pa.ipc.new_stream
+            if path.lower().endswith(".feather"):
+                # A file, unlike a stream, holds one dictionary for each column.
+                new, table = pa.ipc.new_file, table.unify_dictionaries()
             with new(stream, table.schema) as writer:
                 writer.write_table(table, max_chunksize=BATCH)
+
+
+@contextmanager
+def _writable(kind: Format) -> Iterator[None]:
+    """Raise UsageProblem for types that the format's writer does not take."""
+    try:
+        yield
+    except (pa.ArrowInvalid, pa.ArrowNotImplementedError, pa.ArrowTypeError) as error:
+        reason = str(error).splitlines()[0][:200]
+        raise UsageProblem(
+            f"the log has a column that {kind.value} cannot hold ({reason}); choose another format"
+        ) from None
 
 
 def container(table: pa.Table, kind: Format) -> memoryview:

@@ -30,7 +30,7 @@ def main() -> None:
 
 
 def answer(run: Any, request: dict[str, Any]) -> dict[str, Any]:
-    """Exit code, or the traceback of what was raised; seconds; peak of memory [bytes]."""
+    """Exit code, or the traceback of what was raised; seconds; peak of memory, and held [bytes]."""
     os.chdir(request["folder"])
     streams = [os.open(request["stdin"] or os.devnull, os.O_RDONLY)]
     streams += [os.open(f, os.O_WRONLY | os.O_CREAT | os.O_TRUNC) for f in (".out", ".err")]
@@ -50,8 +50,12 @@ def answer(run: Any, request: dict[str, Any]) -> dict[str, Any]:
     sys.stdout.flush()
     sys.stderr.flush()
     return {
-        "code": code, "trace": trace, "seconds": time.perf_counter() - begin, "peak": _peak(),
-    }  # fmt: skip
+        "code": code,
+        "trace": trace,
+        "seconds": time.perf_counter() - begin,
+        "peak": _memory("VmHWM"),
+        "held": _memory("VmRSS"),
+    }
 
 
 def _forget_peak() -> None:
@@ -62,10 +66,10 @@ def _forget_peak() -> None:
         return
 
 
-def _peak() -> int:
+def _memory(what: str) -> int:
     try:
         lines = Path("/proc/self/status").read_text().splitlines()
-        return next(int(x.split()[1]) * 1024 for x in lines if x.startswith("VmHWM"))
+        return next(int(x.split()[1]) * 1024 for x in lines if x.startswith(what))
     except (OSError, StopIteration):
         return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
 

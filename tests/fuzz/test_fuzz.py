@@ -64,7 +64,7 @@ SPOILED = {
     "message": "os.write(2, b'erdctl: error: it went wrong\\n'); return 3",
     "half written": "os.write(1, b'half'); os.write(2, b'erdctl: error: case.csv: x\\n'); return 3",
     "left over": "open('.erdctl-12.tmp', 'w'); return 0",
-    "memory": "bytearray(3 << 30); return 0",
+    "memory": "bytearray(300 << 20); return 0",
     "input": "open('case.csv', 'w'); return 0",
     "nan": "os.write(1, b'{\"nrmse\": NaN}'); return 0",
 }
@@ -79,7 +79,8 @@ def test_the_harness_sees(kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyP
         (folder / "__init__.py").write_text("")
     (package / "app.py").write_text(f"import os, time\ndef run(words):\n    {SPOILED[kind]}\n")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path / "fake"))
-    monkeypatch.setattr(fuzz_harness, "HANG", 2.0)
+    monkeypatch.setattr(fuzz_harness, "HANG", 2.0 if kind == "hang" else 60.0)
+    monkeypatch.setattr(fuzz_harness, "MEMORY", 200 << 20)
     (tmp_path / "place").mkdir()
     worker = Worker(tmp_path / "place")
     trial = Trial(0, "csv: sound", b"t,x\n", ".csv", "validate P {} --json")
