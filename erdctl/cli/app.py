@@ -6,6 +6,7 @@ import errno
 import io
 import os
 import sys
+import warnings
 from collections.abc import Sequence
 from importlib import import_module
 from typing import Annotated, Any
@@ -80,6 +81,9 @@ class Guarded(TyperGroup):
             for line in text.getvalue().splitlines():
                 tell(shown(line))
             sys.exit(problem.exit_code)
+        except SystemExit as end:
+            # Typer's word for a reader of a help text who has seen enough.
+            sys.exit(ExitCode.DONE if end.code == 1 else end.code)
         except typer.Abort:
             if not standalone_mode:
                 raise
@@ -168,6 +172,7 @@ def build(names: Sequence[str] = COMMANDS) -> typer.Typer:
 
 def run(words: Sequence[str]) -> int:
     """The exit code of a call; what nobody foresaw is raised as it is."""
+    warnings.showwarning = _show_warning
     # One command is all that most calls need: building every other costs them 15 ms.
     named = [word for word in words[:1] if word in COMMANDS]
     try:
@@ -182,6 +187,11 @@ def run(words: Sequence[str]) -> int:
     except OSError as error:
         return _full(error).exit_code
     return ExitCode.DONE
+
+
+def _show_warning(message: Warning | str, category: type[Warning], *_: Any) -> None:
+    """A remark of a library, in one line; it may quote what stands in a file."""
+    tell(shown(f"erdctl: note: {category.__name__}: {message}"))
 
 
 def main() -> None:

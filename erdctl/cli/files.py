@@ -22,7 +22,7 @@ MOST = 3  # files that a message names
 # Texts that name no file.
 OTHERS = frozenset({
     "maps", "fault", "drive", "kind", "record", "span", "normalise", "only", "exclude", "name",
-    "concealment", "motion", "colour",
+    "concealment", "motion", "colour", "text", "where", "date", "damper", "operator",
 })  # fmt: skip
 
 

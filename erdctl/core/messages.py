@@ -35,6 +35,11 @@ def shown(text: str, most: int = LONGEST) -> str:
 _SPACES = "\u00a0\u2009\u202f"
 
 
+def as_text(name: str) -> str:
+    r"""The name of a file as text that can be stored: bytes that are no UTF-8 as `\udcff`."""
+    return name.encode(errors="backslashreplace").decode()
+
+
 def _escaped(character: str) -> str:
     return character.encode("unicode_escape").decode("ascii")
 

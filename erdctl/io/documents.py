@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 import msgspec
 
 from erdctl.core.errors import InputProblem, UsageProblem
+from erdctl.core.messages import as_text
 from erdctl.io.atomic import output
 
 T = TypeVar("T", bound=msgspec.Struct)
@@ -96,16 +97,16 @@ def encode(document: object) -> bytes:
     try:
         packed = msgspec.json.encode(document)
     except UnicodeEncodeError:
-        packed = msgspec.json.encode(_as_text(msgspec.to_builtins(document)))
+        packed = msgspec.json.encode(_all_text(msgspec.to_builtins(document)))
     return msgspec.json.format(packed, indent=2) + b"\n"
 
 
-def _as_text(value: Any) -> Any:
+def _all_text(value: Any) -> Any:
     if isinstance(value, str):
-        return value.encode(errors="backslashreplace").decode()
+        return as_text(value)
     if isinstance(value, dict):
-        return {_as_text(k): _as_text(v) for k, v in value.items()}
-    return [_as_text(v) for v in value] if isinstance(value, list) else value
+        return {_all_text(k): _all_text(v) for k, v in value.items()}
+    return [_all_text(v) for v in value] if isinstance(value, list) else value
 
 
 def plain(document: object) -> Any:

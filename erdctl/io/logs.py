@@ -11,6 +11,7 @@ import numpy as np
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem, UsageProblem
+from erdctl.core.messages import as_text
 from erdctl.core.recording import Array, Index, Recording, Source, concatenate
 from erdctl.io import units
 from erdctl.io.arrays import arrow, runs_of_text
@@ -173,7 +174,7 @@ def _read(
     recording = replace(
         recording,
         names=names or (_stem(path),),
-        sources=(Source(path, digest, rows),),
+        sources=(Source(as_text(path), digest, rows),),
     )
     return Log(
         recording,
@@ -268,7 +269,7 @@ def _refuse_repeated(paths: Sequence[str]) -> None:
 
 
 def _stem(path: str) -> str:
-    return "stdin" if path == STDIN else os.path.splitext(os.path.basename(path))[0]
+    return "stdin" if path == STDIN else as_text(os.path.splitext(os.path.basename(path))[0])
 
 
 def _labels(paths: Sequence[str]) -> list[str]:
