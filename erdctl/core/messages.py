@@ -16,11 +16,12 @@ def shown(text: str, most: int = LONGEST) -> str:
     A file can hold sequences that clear the screen, set its title or turn the direction of
     writing; they are shown as what they are (`\x1b[2J`). Of a long text the beginning and the end
     stay, since a message begins with the place and ends with what to do.
-    Check: an ESC and a right-to-left mark are escaped, letters of any script are not.
-    >>> print(shown("a\x1b[2Jb\u202eµ"))
-    a\x1b[2Jb\u202eµ
-    >>> shown("0123456789" * 10, 60)
-    '0123456789012345678901234 [... 61 characters ...] 56789'
+    Check: an ESC and a right-to-left mark become \x1b and \u202e, and µ stays; of 5000 characters
+    in a message of 300, 300 are shown.
+    >>> print(shown("\x1b \u202e µ"))
+    \x1b \u202e µ
+    >>> len(shown("x" * 5000, 300))
+    300
     """
     if len(text) > most:
         room = max(most - len(_CUT.format(len(text))), 2)
