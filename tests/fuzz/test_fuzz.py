@@ -79,7 +79,7 @@ def test_the_harness_sees(kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyP
         (folder / "__init__.py").write_text("")
     (package / "app.py").write_text(f"import os, time\ndef run(words):\n    {SPOILED[kind]}\n")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path / "fake"))
-    monkeypatch.setattr(fuzz_harness, "HANG", 2.0 if kind == "hang" else 60.0)
+    monkeypatch.setattr(fuzz_harness, "HANG", 0.4 if kind == "hang" else 60.0)
     monkeypatch.setattr(fuzz_harness, "MEMORY", 200 << 20)
     (tmp_path / "place").mkdir()
     worker = Worker(tmp_path / "place")
