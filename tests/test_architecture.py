@@ -133,7 +133,7 @@ def test_one_class_has_one_name() -> None:
 
 def test_tests_mirror_the_rooms() -> None:
     known = {p.relative_to(PACKAGE) for p in PACKAGE.rglob("*") if p.is_dir()}
-    besides = {Path("benchmarks"), Path("ci"), Path("docs"), Path("fixtures"), Path("fuzz")}
+    besides = {Path(p) for p in ("benchmarks", "ci", "docs", "fixtures", "fuzz")}
     folders = {p.parent.relative_to(ROOT / "tests") for p in (ROOT / "tests").rglob("test_*.py")}
     assert folders - {Path(".")} - besides <= known
     assert {Path(r) for r in ROOMS} <= folders

@@ -70,20 +70,21 @@ class Survey:
         duty = s.duty[moving]
         above = duty[duty > 0]
         speed = np.abs(s.xdot[moving])
-        parts = zip(self.recording.slices, self._duty_ranges, strict=True)
+        moves = np.logical_or.reduceat(moving, self.recording.starts[:-1])
         return Excitation(
             moving=int(moving.sum()),
             null=int((moving & null).sum()),
             field=len(above),
             levels=_ends(above) if len(above) else (0.0, 0.0),
-            steps=max((width for part, width in parts if moving[part].any()), default=0.0),
+            steps=float(self._duty_ranges[moves].max(initial=0.0)),
             stroke=float(np.ptp(s.x[moving])) if moving.any() else 0.0,
             speeds=float(speed.std() / speed.mean()) if moving.any() else 0.0,
         )
 
     @cached_property
-    def _duty_ranges(self) -> list[float]:
-        return [float(np.ptp(self.signals.duty[part])) for part in self.recording.slices]
+    def _duty_ranges(self) -> Array:
+        first, duty = self.recording.starts[:-1], self.signals.duty
+        return np.asarray(np.maximum.reduceat(duty, first) - np.minimum.reduceat(duty, first))
 
     @property
     def reversals(self) -> int:
@@ -109,7 +110,7 @@ class Survey:
     @property
     def steps(self) -> float:
         """Widest range of the duty within a record [1]."""
-        return max(self._duty_ranges)
+        return float(self._duty_ranges.max())
 
     @cached_property
     def speeds(self) -> float:

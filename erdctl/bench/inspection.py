@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from erdctl.bench import identifiability as coverage
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import Cover
 from erdctl.bench.rig import Rig, look
-from erdctl.core.recording import Array, Recording
+from erdctl.core.recording import CHANNELS, Array, Recording
 from erdctl.model.effect import Effect
 from erdctl.score.nrmse import duty_levels
 
@@ -113,7 +114,7 @@ def inspect(recording: Recording, candidates: Sequence[Effect]) -> Inspection:
 
 def _inspected(recording: Recording, candidates: Sequence[Effect], rig: Future[Rig]) -> Inspection:
     survey = Survey.of(recording)
-    records = tuple(_record(recording, i) for i in range(len(recording.names)))
+    records = tuple(_records(recording))
     noise = None if recording.force is None else force_noise(recording)
     free = survey.acceleration
     return Inspection(
@@ -130,38 +131,54 @@ def _inspected(recording: Recording, candidates: Sequence[Effect], rig: Future[R
     )
 
 
-def _record(recording: Recording, index: int) -> RecordSummary:
-    part = recording.slices[index]
+def _records(recording: Recording) -> Iterator[RecordSummary]:
+    """Every record. Channels are looked at as a whole, since a log may hold many thousand tests."""
+    spans = {name: _spans(getattr(recording, name), recording) for name in CHANNELS}
+    for i, part in enumerate(recording.slices):
+        yield _record(recording, i, part, {name: span[i] for name, span in spans.items()})
+
+
+def _spans(channel: Array | None, recording: Recording) -> Sequence[Span | None]:
+    if channel is None:
+        return [None] * len(recording.names)
+    first = recording.starts[:-1]
+    ends = (ufunc.reduceat(channel, first).tolist() for ufunc in (np.minimum, np.maximum))
+    return [Span(low, high) for low, high in zip(*ends, strict=True)]
+
+
+def _record(
+    recording: Recording, index: int, part: slice, span: Mapping[str, Any]
+) -> RecordSummary:
     t = recording.t[part]
     steps = recording.step[part][:-1]
-    step = float(np.median(steps))
+    step = _median(steps)
     long = steps > GAP * step
     gaps = int(np.count_nonzero(long))
-    lost = np.round(steps[long] / step) - 1.0
     # Rounded times make no gaps, so most records need no copy of their steps.
     even = steps if gaps == 0 else steps[~long]
     away = max(float(even.max()) - step, step - float(even.min())) / step
     at = int(steps.argmax()) if gaps else None
-
-    def span(channel: Array | None) -> Span | None:
-        return None if channel is None else Span.of(channel[part])
-
+    length = float(t[-1] - t[0])
     return RecordSummary(
         name=recording.names[index],
         samples=len(t),
-        duration=float(t[-1] - t[0]),
-        step=step if gaps else float(t[-1] - t[0]) / len(steps),
+        duration=length,
+        step=step if gaps else length / len(steps),
         jitter=max(away, 0.0),
         gaps=gaps,
-        missing=int(lost.sum()),
+        missing=int((np.round(steps[long] / step) - 1.0).sum()) if gaps else 0,
         longest_gap=float(steps.max()) if gaps else 0.0,
         gap_at=None if at is None else float(t[at]),
-        x=Span.of(recording.x[part]),
-        xdot=Span.of(recording.xdot[part]),
-        duty=Span.of(recording.duty[part]),
-        force=span(recording.force),
-        temperature=span(recording.temperature),
+        **{name: span[name] for name in CHANNELS if name != "t"},
     )
+
+
+def _median(values: Array) -> float:
+    """As `np.median`, whose checks take ten times as long as a short record."""
+    middle = len(values) // 2
+    if len(values) % 2:
+        return float(np.partition(values, middle)[middle])
+    return float(np.partition(values, (middle - 1, middle))[middle - 1 : middle + 1].mean())
 
 
 def _seconds_at(recording: Recording) -> dict[float, float]:
@@ -170,7 +187,7 @@ def _seconds_at(recording: Recording) -> dict[float, float]:
     return dict(zip(levels.tolist(), seconds.tolist(), strict=True))
 
 
-def force_noise(recording: Recording) -> NoiseFloor:
+def force_noise(recording: Recording) -> NoiseFloor | None:
     """Noise of the force that motion cannot make: what third differences hold of it.
 
         rms = median |d3 F| / (0.6745 sqrt(20)),   d3 F = F_i - 3 F_i-1 + 3 F_i-2 - F_i-3
@@ -193,9 +210,9 @@ def force_noise(recording: Recording) -> NoiseFloor:
         for a in range(part.start, part.stop, PIECE)
         if min(a + PIECE, part.stop) - a > ORDER
     ]
+    if not pieces:
+        return None
     chosen = pieces[:: -(-len(pieces) // STRETCHES)]
-    if not chosen:
-        return NoiseFloor(0.0, 0.0)
     differences = np.concatenate([np.diff(force[p], ORDER) for p in chosen])
     values = np.sort(np.concatenate([force[p] for p in chosen]))
     between = np.diff(values)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import errno
+import io
 import os
 import sys
+import warnings
 from collections.abc import Sequence
 from importlib import import_module
-from typing import Annotated, Any
+from typing import Annotated, Any, TextIO
 
 import typer
 from typer.core import TyperCommand, TyperGroup, TyperOption
@@ -16,18 +18,35 @@ from typer.core import TyperCommand, TyperGroup, TyperOption
 # cores: on 10 million rows they made `identify` ten times slower. NumPy reads this when it loads.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+from erdctl.cli import files
 from erdctl.cli.options import EXIT_CODES
-from erdctl.core.errors import ErdctlError, ExitCode
+from erdctl.cli.streams import open_streams
+from erdctl.core.errors import ErdctlError, ExitCode, InputProblem
+from erdctl.core.leftovers import end_cleanly
+from erdctl.core.messages import CELL, shown, tell
 from erdctl.core.version import __version__
+from erdctl.io.atomic import together
 from erdctl.report.text import QUIET
+
+# What Typer raises for a wrong command line; of its own Click, or of the one that is installed.
+WrongCommandLine: Any = typer.BadParameter.__mro__[2]
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG, errno.EBADF)
 
 
 class Command(TyperCommand):
-    """A command with the options that all of them share."""
+    """A command with the options that all of them share, whose files appear together."""
 
     def __init__(self, *arguments: Any, **options: Any) -> None:
         super().__init__(*arguments, **options)
         self.params.append(quiet_option())
+
+    def invoke(self, ctx: Any) -> Any:
+        names = files.names(self.params, ctx.params)
+        with together(names):
+            try:
+                return super().invoke(ctx)
+            except InputProblem as problem:
+                raise files.placed(problem, names) from None
 
 
 def quiet_option() -> TyperOption:
@@ -50,6 +69,29 @@ def quiet_option() -> TyperOption:
 class Guarded(TyperGroup):
     """Turns every foreseen error into one line on stderr and the documented exit code."""
 
+    def main(self, args: Any = None, *, standalone_mode: bool = True, **options: Any) -> Any:  # type: ignore[override]
+        """As Typer, but what it says of a wrong command line is shown as all else is."""
+        try:
+            code = super().main(args, standalone_mode=False, **options)
+        except WrongCommandLine as problem:
+            if not standalone_mode:
+                raise
+            text = io.StringIO()
+            problem.show(file=text)
+            for line in text.getvalue().splitlines():
+                tell(shown(line))
+            sys.exit(problem.exit_code)
+        except SystemExit as end:
+            # Typer's word for a reader of a help text who has seen enough.
+            sys.exit(ExitCode.DONE if end.code == 1 else end.code)
+        except typer.Abort:
+            if not standalone_mode:
+                raise
+            sys.exit(_end("stopped", ExitCode.NOT_COMPLETED).exit_code)
+        if standalone_mode:
+            sys.exit(code if isinstance(code, int) else ExitCode.DONE)
+        return code
+
     def invoke(self, ctx: Any) -> Any:
         try:
             result = super().invoke(ctx)
@@ -65,15 +107,20 @@ class Guarded(TyperGroup):
         except MemoryError:
             raise _end("out of memory", ExitCode.NOT_COMPLETED) from None
         except OSError as error:
-            if error.errno not in (errno.ENOSPC, errno.EDQUOT, errno.EIO):
-                raise
-            raise _end(f"cannot write: {error.strerror}", ExitCode.NOT_COMPLETED) from None
+            raise _full(error) from None
 
 
 def _end(message: str, code: ExitCode) -> typer.Exit:
-    line = " ".join(message.split())
-    print(f"erdctl: error: {line}", file=sys.stderr)
+    tell(f"erdctl: error: {shown(' '.join(message.split()))}")
     return typer.Exit(code)
+
+
+def _full(error: OSError) -> typer.Exit:
+    """What a print to standard output may raise; any other error is raised as it is."""
+    if error.errno not in FULL:
+        raise error
+    reason = "it is closed" if error.errno == errno.EBADF else (error.strerror or "").lower()
+    return _end(f"cannot write standard output: {reason}", ExitCode.NOT_COMPLETED)
 
 
 COMMANDS = (
@@ -123,27 +170,67 @@ def build(names: Sequence[str] = COMMANDS) -> typer.Typer:
     return app
 
 
+def run(words: Sequence[str]) -> int:
+    """The exit code of a call; what nobody foresaw is raised as it is."""
+    warnings.showwarning = _show_warning
+    # One command is all that most calls need: building every other costs them 15 ms.
+    named = [word for word in words[:1] if word in COMMANDS]
+    try:
+        try:
+            build(named or COMMANDS)(args=list(words), prog_name="erdctl")
+        finally:
+            sys.stdout.flush()
+    except SystemExit as end:
+        return end.code if isinstance(end.code, int) else ExitCode.DONE
+    except BrokenPipeError:
+        return ExitCode.DONE  # the reader has seen enough of a help text
+    except OSError as error:
+        return _full(error).exit_code
+    return ExitCode.DONE
+
+
+def _show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
+    """A remark of a library, in one line; it may quote what stands in a file."""
+    tell(shown(f"erdctl: note: {category.__name__}: {message}"))
+
+
 def main() -> None:
     """Entry point of the console script.
 
     Ends the process at once when all is written: taking the libraries down in order costs a batch
     script 30 ms at every call, and nothing is left that it would save.
     """
-    # One command is all that most calls need: building every other costs them 15 ms.
-    named = [word for word in sys.argv[1:2] if word in COMMANDS]
+    open_streams()
+    end_cleanly()
     try:
-        try:
-            build(named or COMMANDS)(prog_name="erdctl")
-        finally:
-            sys.stdout.flush()
-    except SystemExit as end:
-        code = end.code if isinstance(end.code, int) else ExitCode.DONE
-    except BrokenPipeError:
-        code = ExitCode.DONE  # the reader has seen enough of a help text
-    except OSError as error:
-        code = _end(f"cannot write: {error.strerror}", ExitCode.NOT_COMPLETED).exit_code
-    sys.stderr.flush()
+        code = run(sys.argv[1:])
+    except Exception as error:  # noqa: BLE001  # exit code 1 is for a check that was asked for
+        code = _defect(error)
     os._exit(code)
+
+
+def _defect(error: Exception) -> int:
+    """A line for an error that erdctl should have foreseen; all of it for whoever mends it."""
+    import traceback
+
+    if os.environ.get("ERDCTL_TRACEBACK"):
+        tell("".join(traceback.format_exception(error)))
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [f for f in frames if f"{os.sep}erdctl{os.sep}" in f.filename] or frames
+    place = f" in {os.path.basename(own[-1].filename)}, line {own[-1].lineno}" if own else ""
+    found = shown(f"{type(error).__name__}: {error}", CELL)
+    what = (
+        f"internal error{place}: {found}; this is a defect of erdctl, please report it with the"
+        " command; ERDCTL_TRACEBACK=1 shows where it arose"
+    )
+    return _end(what, ExitCode.NOT_COMPLETED).exit_code
 
 
 if __name__ == "__main__":

@@ -36,6 +36,8 @@ def command(
     and one line says what was assumed. Where two readings are possible, the command stops and names
     the key of --text that decides. Columns are taken for those of a bench log where name and unit
     are clear, as in `Displacement (mm)`; else --map says it, for a file in volts with a factor.
+    A time that does not grow and records that come back are refused, as by every other command;
+    values out of range are converted with a warning.
 
     Time bases: channels with several rates are resampled to the times of force (without it, of x),
     motion and force linearly, the duty held; a gap that would be bridged is refused. The command
@@ -57,6 +59,8 @@ def command(
     output_format(output, wanted)  # a wrong suffix shows before a long reading
     with progress() as step:
         step("reading", part_of(log, 1, 2))
-        table = read_converted(log, maps=maps, text=text, say=say)
+        table = read_converted(
+            log, maps=maps, text=text, say=say, warn=lambda line: say(line, "warning")
+        )
         step("writing", part_of(output, 2, 2))
         write_table(table, output, wanted)

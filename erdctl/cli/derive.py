@@ -40,7 +40,7 @@ def command(
 
     labels = labels_of(date, damper, operator)
     given = read_geometry(geometry)
-    found = derive(given, file=geometry)
+    found = derive(given, file="stdin" if geometry == "-" else geometry)
     values = {"k_nom": found.k_nom, "c_vis": found.c_vis, "sigma": found.sigma, "beta": found.beta}
     T_d = Estimate(
         value=None, unit="s", assumed=0.0, reason="the lag of Eq. 12 follows from no geometry"

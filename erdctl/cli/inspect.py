@@ -142,14 +142,18 @@ def _show(found: Inspection, document: InspectionFile) -> None:
 
 def _remarks(found: Inspection, document: InspectionFile) -> Iterator[str]:
     yield f"xdot: {found.xdot}"
-    for r in found.records:
-        if r.gaps:
-            yield (
-                f"record '{r.name}': {r.missing} samples are missing in {r.gaps} gaps, the longest"
-                f" of {r.longest_gap:.4g} s at t = {r.gap_at:.6g} s"
-            )
-    if found.noise is None:
+    gapped = [r for r in found.records if r.gaps]
+    for r in gapped[:LISTED]:
+        yield (
+            f"record '{r.name}': {r.missing} samples are missing in {r.gaps} gaps, the longest"
+            f" of {r.longest_gap:.4g} s at t = {r.gap_at:.6g} s"
+        )
+    if len(gapped) > LISTED:
+        yield f"{len(gapped) - LISTED} more records have gaps; --json lists all"
+    if all(r.force is None for r in found.records):
         yield "no column force: what follows is what this motion and duty would show with one"
+    elif found.noise is None:
+        yield "every record is too short for a guess at the force noise, which takes 4 samples"
     else:
         yield (
             f"force noise, from sample to sample: about {found.noise.rms:.2g} N rms (a guess,"

@@ -36,4 +36,5 @@ def write_report(page: str, path: str) -> None:
     from erdctl.io.atomic import output
 
     with output(path) as stream:
-        stream.write(page.encode())
+        # The command line in it may name files by bytes that are no text.
+        stream.write(page.encode(errors="backslashreplace"))

@@ -87,7 +87,7 @@ def command(
       erdctl prove --kind null --colour pink --cases 40
       erdctl prove --seed 5017 --cases 1 --keep case
     """
-    from erdctl.core.errors import ComputationProblem
+    from erdctl.core.errors import PartlyDone
     from erdctl.io import documents
     from erdctl.prove.case import Wish, check
     from erdctl.prove.document import to_json
@@ -121,12 +121,11 @@ def command(
         write_report(proof_page(document, list(tables(proof.summary)), run=run), report)
     _show(proof)
     if proof.failed:
-        raise ComputationProblem(f"{len(proof.failed)} of {cases} cases could not be scored")
+        raise PartlyDone(f"{len(proof.failed)} of {cases} cases could not be scored")
 
 
 def _run(wish: Wish, seeds: Sequence[int], folder: Path, jobs: int | None) -> Proof:
-    import sys
-
+    from erdctl.core.messages import shown, tell
     from erdctl.core.workers import cores
     from erdctl.prove.document import proof_of
     from erdctl.prove.run import Outcome, prove
@@ -145,7 +144,7 @@ def _run(wish: Wish, seeds: Sequence[int], folder: Path, jobs: int | None) -> Pr
             nonlocal scored
             scored += 1
             if not QUIET.get():
-                print(wrapped(line(outcome), width()), file=sys.stderr, flush=True)
+                tell(wrapped(shown(line(outcome)), width()))
             step("scored", f"{scored} of {len(seeds)} ({100 * scored // len(seeds)} %)")
 
         step("scored", f"0 of {len(seeds)} (0 %)")
@@ -170,13 +169,16 @@ def _folder(keep: str | None) -> AbstractContextManager[Path]:
     from pathlib import Path
     from tempfile import TemporaryDirectory
 
+    from erdctl.core import leftovers
     from erdctl.core.errors import UsageProblem
 
     @contextmanager
     def place() -> Iterator[Path]:
         if keep is None:
             with TemporaryDirectory(prefix="erdctl-") as name:
+                leftovers.remember(name)
                 yield Path(name)
+            leftovers.forget(name)
             return
         path = Path(keep)
         try:

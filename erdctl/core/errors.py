@@ -18,15 +18,20 @@ class ExitCode(IntEnum):
 
 
 class ErdctlError(Exception):
-    """Base of all errors with a one-line message for the user."""
+    """Base of all errors with a one-line message for the user.
+
+    after_the_work : whether it is said of a finished work, whose files are then written
+    """
 
     exit_code: ExitCode = ExitCode.NOT_COMPLETED
+    after_the_work: bool = False
 
 
 class CheckFailed(ErdctlError):
     """A check that the user asked for (`--fail-above`, `--fail-on-mismatch`) failed."""
 
     exit_code = ExitCode.CHECK_FAILED
+    after_the_work = True
 
 
 class UsageProblem(ErdctlError):
@@ -56,6 +61,7 @@ class InputProblem(ErdctlError):
         place = [f"row {row}"] if row is not None else []
         if column is not None:
             place.append(f"column '{column}'")
+        self.file = file
         head = [file] if file else []
         if place:
             head.append(", ".join(place))
@@ -66,6 +72,12 @@ class ComputationProblem(ErdctlError):
     """The computation could not be completed (no convergence, full disk, out of memory)."""
 
     exit_code = ExitCode.NOT_COMPLETED
+
+
+class PartlyDone(ComputationProblem):
+    """Some of many computations could not be completed; the others stand, and are written."""
+
+    after_the_work = True
 
 
 class IncompatibleEffects(ErdctlError):

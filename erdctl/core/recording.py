@@ -67,11 +67,11 @@ class Recording:
     def __len__(self) -> int:
         return int(self.starts[-1])
 
-    @property
-    def slices(self) -> list[slice]:
+    @cached_property
+    def slices(self) -> tuple[slice, ...]:
         """One slice of the samples for every record."""
         bounds = self.starts.tolist()
-        return [slice(a, b) for a, b in pairwise(bounds)]
+        return tuple(slice(a, b) for a, b in pairwise(bounds))
 
     @cached_property
     def step(self) -> Array:

@@ -13,6 +13,7 @@ from importlib.util import find_spec
 from pkgutil import iter_modules
 
 from erdctl.core.errors import EffectFailed, ErdctlError, InputProblem, UsageProblem
+from erdctl.core.messages import shown
 from erdctl.model.effect import Effect
 
 GROUP = "erdctl.effects"
@@ -35,13 +36,15 @@ def get(name: str) -> Effect:
     Raises InputProblem, with the names there are, if the catalogue has none of that name, and
     EffectFailed if its file cannot be used.
     """
-    if name.isidentifier() and find_spec(f"{__name__}.{name}") is not None:
+    # `__init__` would be found, too, and is this file.
+    own = name.isidentifier() and name.isascii() and not name.startswith("_")
+    if own and find_spec(f"{__name__}.{name}") is not None:
         return _loaded(name, f"{__name__}.{name}", "EFFECT")
     from importlib.metadata import entry_points
 
     for entry in entry_points(group=GROUP, name=name):
         return _loaded(name, entry.module, entry.attr)
-    raise InputProblem(f"unknown effect '{name}'; known are {', '.join(names())}")
+    raise InputProblem(f"unknown effect '{shown(name, 80)}'; known are {', '.join(names())}")
 
 
 def catalogue() -> tuple[Effect, ...]:

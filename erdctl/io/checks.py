@@ -120,6 +120,19 @@ def check_time(
         raise place.problem(
             f"record{of} has a single sample; a record needs at least two", int(starts[record])
         )
+    check_growth(t, starts, names, place, source=source, narrow=narrow)
+
+
+def check_growth(
+    t: Array,
+    starts: Index,
+    names: Sequence[str] | None,
+    place: Place,
+    *,
+    source: str,
+    narrow: bool,
+) -> None:
+    """Raise InputProblem where t does not grow within a record; see `check_time`."""
     for begin in range(0, t.size - 1, _BLOCK):
         end = min(begin + _BLOCK, t.size - 1)
         grows = t[begin + 1 : end + 1] > t[begin:end]

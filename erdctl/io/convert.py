@@ -8,21 +8,30 @@ import numpy as np
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem
+from erdctl.io.checks import Place, check_growth, check_values
+from erdctl.io.columns import to_numbers, to_records
 from erdctl.io.memory import check_fits
-from erdctl.io.plan import in_contract_names, plan_columns, read_planned
-from erdctl.io.sources import open_source
+from erdctl.io.plan import ColumnPlan, in_contract_names, plan_columns, read_planned
+from erdctl.io.sources import TableSource, open_source
 from erdctl.io.stored import si, units_apart, with_unit
 from erdctl.io.text.options import TextOptions, TextSpec, parse_text_options
 from erdctl.io.units import RECORD, Conversion, parse_maps
 
 
 def read_converted(
-    path: str, *, maps: Sequence[str] = (), text: TextSpec = None, say: Callable[[str], None]
+    path: str,
+    *,
+    maps: Sequence[str] = (),
+    text: TextSpec = None,
+    say: Callable[[str], None],
+    warn: Callable[[str], None],
 ) -> pa.Table:
     """All columns of a file; those of the contract under its names and in SI, others as they are.
 
-    Nothing is required of it: it need not be a whole log.
+    Nothing is required of it: it need not be a whole log. But where it has a time or records, they
+    must be in order, as every other command demands.
     maps, text : options `--map` and `--text`;  say : takes a line for all that was assumed
+    warn : takes a line for every column with values that no other command would accept
     Raises UsageProblem, InputProblem as `read_logs` does.
     """
     mappings = parse_maps(maps)
@@ -45,7 +54,31 @@ def read_converted(
             values = _converted(values, convert, source.name, column)
         field = with_unit(field.with_type(values.type), si(target))
         table = table.set_column(index, field, values)
+    if table.num_rows:
+        _check(table, plan, source, warn)
     return units_apart(table)
+
+
+def _check(
+    table: pa.Table, plan: ColumnPlan, source: TableSource, warn: Callable[[str], None]
+) -> None:
+    """Refuse a time and records out of order; warn of values out of range."""
+    rows = table.num_rows
+    place = Place(source.name, lambda sample: source.row_of(sample, rows))
+    starts, names = np.array([0, rows], dtype=np.intp), None
+    if RECORD in plan:
+        starts, names = to_records(table.column(RECORD), plan[RECORD][0], place)
+    if "t" in plan:
+        t, column = to_numbers(table.column("t"), plan["t"][0], place), plan["t"][0]
+        check_values("t", t, place, source=column)
+        narrow = table.schema.field("t").type == pa.float32()
+        check_growth(t, starts, names, place, source=column, narrow=narrow)
+    for target in [name for name in plan if name not in ("t", RECORD)]:
+        try:
+            values = to_numbers(table.column(target), plan[target][0], place)
+            check_values(target, values, place, source=plan[target][0])
+        except InputProblem as problem:
+            warn(f"{problem}; converted as it is, and refused by other commands")
 
 
 def _converted(

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+import numpy as np
 import pyarrow as pa
 
 from erdctl.core.errors import UsageProblem
@@ -57,11 +58,24 @@ def chunks(table: pa.Table) -> Iterator[pa.Buffer]:
     line = pc.binary_join(pa.array([_quoted(names).to_pylist()]), ",")[0].as_py()
     yield pa.py_buffer((line + "\n").encode())
     for batch in table.to_batches(ROWS):
+        if not batch.num_rows:
+            continue
         cells = [_cells(c, f.name) for c, f in zip(batch.columns, batch.schema, strict=True)]
         # Joined with the line end as a last, empty column, the cells are the lines.
         cells[-1] = pc.binary_join_element_wise(cells[-1], "\n", "")
         lines = pc.binary_join_element_wise(*cells, ",")
-        yield lines.buffers()[2]
+        yield _characters(lines)
+
+
+def _characters(lines: pa.Array) -> pa.Buffer:
+    """All characters of an array of text, one after the other, without copying them.
+
+    The buffer behind an array may hold more than belongs to it, before, between and after.
+    """
+    _, ends, characters = lines.buffers()
+    bounds = np.frombuffer(ends, np.int32)[lines.offset : lines.offset + len(lines) + 1]
+    first, last = int(bounds[0]), int(bounds[-1])
+    return characters.slice(first, last - first)
 
 
 def _cells(column: pa.Array, name: str) -> pa.Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from pathlib import Path
 from typing import Any, TypeVar
@@ -9,6 +10,7 @@ from typing import Any, TypeVar
 import msgspec
 
 from erdctl.core.errors import InputProblem, UsageProblem
+from erdctl.core.messages import as_text
 from erdctl.io.atomic import output
 
 T = TypeVar("T", bound=msgspec.Struct)
@@ -30,27 +32,81 @@ def decode(data: bytes, kind: type[T], *, name: str, schema: str) -> T:
     """A document of the given kind.
 
     name : for messages;  schema : what its field "schema" must say
+    Raises InputProblem with the path of the field that is missing or wrong, or is there twice.
+    """
+    raw = _parsed(data, name)
+    found = raw.get("schema") if isinstance(raw, dict) else None
+    if found != schema:
+        says = f"it says {str(found)[:80]!r}" if found is not None else 'it has no field "schema"'
+        raise InputProblem(f'expected a document of schema "{schema}", but {says}', file=name)
+    return converted(raw, kind, name=name)
+
+
+def converted(raw: object, kind: type[T], *, name: str, path: str = "") -> T:
+    """What JSON holds as an object of the given kind.
+
+    path : of `raw` within its document, like `.provenance`
     Raises InputProblem with the path of the field that is missing or wrong.
     """
+    try:
+        return msgspec.convert(raw, kind)
+    except msgspec.ValidationError as error:
+        message = str(error).replace("`$", f"`${path}")
+        if path and "`$" not in message:
+            message = f"{message} - at `${path}`"
+        raise InputProblem(message, file=name) from None
+
+
+def _parsed(data: bytes, name: str) -> Any:
     if not data.strip():
         raise InputProblem("empty; expected a JSON document", file=name)
     try:
         raw = msgspec.json.decode(data)
-    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        # msgspec takes the last of two fields of one name, and says nothing.
+        json.loads(data, object_pairs_hook=_without_repeats)
+    except RecursionError:
+        raise InputProblem(
+            "not a document of erdctl: brackets within brackets, hundreds deep", file=name
+        ) from None
+    except _Repeated as error:
+        raise InputProblem(
+            f"the field {error} is there twice in one object; keep one of the two", file=name
+        ) from None
+    except ValueError as error:  # of either parser, and of the encoding
         raise InputProblem(f"not a JSON document: {error}", file=name) from None
-    found = raw.get("schema") if isinstance(raw, dict) else None
-    if found != schema:
-        says = f"it says {found!r}" if found is not None else 'it has no field "schema"'
-        raise InputProblem(f'expected a document of schema "{schema}", but {says}', file=name)
-    try:
-        return msgspec.convert(raw, kind)
-    except msgspec.ValidationError as error:
-        raise InputProblem(str(error), file=name) from None
+    return raw
+
+
+class _Repeated(Exception):
+    """Names a field that is in one object twice."""
+
+
+def _without_repeats(pairs: list[tuple[str, Any]]) -> None:
+    seen: set[str] = set()
+    for key, _ in pairs:
+        if key in seen:
+            raise _Repeated(json.dumps(key[:80], ensure_ascii=False))
+        seen.add(key)
 
 
 def encode(document: object) -> bytes:
-    """A document as indented JSON with a final newline."""
-    return msgspec.json.format(msgspec.json.encode(document), indent=2) + b"\n"
+    """A document as indented JSON with a final newline.
+
+    Bytes of a file's name that are no text, which JSON cannot hold, are written as `\\udcff`.
+    """
+    try:
+        packed = msgspec.json.encode(document)
+    except UnicodeEncodeError:
+        packed = msgspec.json.encode(_all_text(msgspec.to_builtins(document)))
+    return msgspec.json.format(packed, indent=2) + b"\n"
+
+
+def _all_text(value: Any) -> Any:
+    if isinstance(value, str):
+        return as_text(value)
+    if isinstance(value, dict):
+        return {_all_text(k): _all_text(v) for k, v in value.items()}
+    return [_all_text(v) for v in value] if isinstance(value, list) else value
 
 
 def plain(document: object) -> Any:

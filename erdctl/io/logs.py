@@ -12,6 +12,7 @@ import numpy as np
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem, UsageProblem
+from erdctl.core.messages import as_text
 from erdctl.core.progress import Progress, told
 from erdctl.core.recording import Array, Index, Recording, Source, concatenate
 from erdctl.io import units
@@ -203,7 +204,7 @@ def _read(
     recording = replace(
         recording,
         names=names or (_stem(path),),
-        sources=(Source(path, digest, rows),),
+        sources=(Source(as_text(path), digest, rows),),
     )
     return Log(
         recording,
@@ -298,7 +299,7 @@ def _refuse_repeated(paths: Sequence[str]) -> None:
 
 
 def _stem(path: str) -> str:
-    return "stdin" if path == STDIN else os.path.splitext(os.path.basename(path))[0]
+    return "stdin" if path == STDIN else as_text(os.path.splitext(os.path.basename(path))[0])
 
 
 def _labels(paths: Sequence[str]) -> list[str]:

@@ -52,6 +52,13 @@ class ExtraEffect(msgspec.Struct):
     parameters: dict[str, Value | float]
 
 
+class KnownProvenance(msgspec.Struct):
+    """What commands read of the provenance: ranges of the logs [SI], and the noise [N]."""
+
+    ranges: dict[str, tuple[float, float]] = {}
+    noise_rms: float | None = None
+
+
 class ParameterFile(msgspec.Struct, kw_only=True):
     """Parameters of a damper."""
 
@@ -82,7 +89,10 @@ def parse_parameters(data: bytes, name: str) -> Parameters:
     for i, extra in enumerate(document.effects):
         from erdctl.effects import get  # only where there are any: most parameter files have none
 
-        effect = get(extra.effect)
+        try:
+            effect = get(extra.effect)
+        except InputProblem as problem:
+            raise InputProblem(f"effects[{i}]: {problem}", file=name) from None
         if effect in chosen:
             raise InputProblem(f"effects[{i}]: '{effect.name}' is listed twice", file=name)
         chosen.append(effect)
@@ -96,6 +106,7 @@ def parse_parameters(data: bytes, name: str) -> Parameters:
         for symbol, quantity in known.items():
             full = effect.key(symbol)
             estimates[full] = _estimate(extra.parameters[symbol], quantity, full, name)
+    documents.converted(document.provenance, KnownProvenance, name=name, path=".provenance")
     found = Parameters(
         model=Model(tuple(chosen)),
         estimates=estimates,
@@ -133,9 +144,9 @@ def _estimate(given: Value | float, quantity: Quantity, full: str, name: str) ->
         factor = factor_between(given.unit, quantity.unit, f"{name}: {full}")
     numbers = (given.value, given.stderr, given.assumed)
     value, stderr, assumed = (None if v is None else v * factor for v in numbers)
-    for number in (value, assumed):
+    for what, number in (("", value), ("the standard error of ", stderr), ("assumed ", assumed)):
         if number is not None and not math.isfinite(number):
-            raise InputProblem(f"{full} is not a finite number", file=name)
+            raise InputProblem(f"{what}{full} is not a finite number", file=name)
     used = assumed if value is None else value
     if used is not None and not quantity.admits(used):
         raise InputProblem(

@@ -212,14 +212,23 @@ def _data(path: str) -> Data:
         if stat.S_ISDIR(mode):
             raise UsageProblem(f"'{path}' is a directory; name the files in it")
         with open(path, "rb") as file:
-            # A pipe (`<(zcat log.csv.gz)`) can be read only once.
-            return path if stat.S_ISREG(mode) else _all_of(file)
+            # A pipe (`<(zcat log.csv.gz)`) can be read only once; and the readers of formats open
+            # no name that is not UTF-8.
+            return path if stat.S_ISREG(mode) and _is_text(path) else _all_of(file)
     except FileNotFoundError:
         raise UsageProblem(f"'{path}' does not exist") from None
     except OSError as error:
         raise UsageProblem(
             f"cannot read '{path}': {(error.strerror or str(error)).lower()}"
         ) from None
+
+
+def _is_text(path: str) -> bool:
+    try:
+        path.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _all_of(stream: BinaryIO) -> bytearray:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import BinaryIO
 
 import numpy as np
@@ -13,8 +15,9 @@ from erdctl.core.errors import UsageProblem
 from erdctl.core.recording import CHANNELS, Array, Recording
 from erdctl.io import csv_out
 from erdctl.io.arrays import arrow, runs_of_text
-from erdctl.io.atomic import STDOUT, output
+from erdctl.io.atomic import output
 from erdctl.io.formats import CONTAINERS, SUFFIXES, Format, by_suffix
+from erdctl.io.identity import STDOUT
 from erdctl.io.stored import with_si
 
 BATCH = 1 << 20  # rows of an Arrow batch: what a reader of a stream must hold at least
@@ -53,7 +56,7 @@ def write_table(table: pa.Table, path: str, format: str | None = None) -> None:
         return
     if kind is not Format.CSV:
         table = with_si(csv_out.typed(table))
-    with output(path) as stream:
+    with output(path) as stream, _writable(kind):
         if kind is Format.CSV:
             for chunk in csv_out.chunks(table):
                 stream.write(chunk)
@@ -61,6 +64,18 @@ def write_table(table: pa.Table, path: str, format: str | None = None) -> None:
             _write_parquet(table, stream)
         else:
             _write_arrow(table, stream, file=path.lower().endswith(".feather"))
+
+
+@contextmanager
+def _writable(kind: Format) -> Iterator[None]:
+    """Raise UsageProblem for types that the format's writer does not take."""
+    try:
+        yield
+    except (pa.ArrowInvalid, pa.ArrowNotImplementedError, pa.ArrowTypeError) as error:
+        reason = str(error).splitlines()[0][:200]
+        raise UsageProblem(
+            f"the log has a column that {kind.value} cannot hold ({reason}); choose another format"
+        ) from None
 
 
 def container(table: pa.Table, kind: Format) -> memoryview:

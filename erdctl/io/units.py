@@ -58,6 +58,7 @@ _KINDS = {
     "a plain number": "",
 }
 # Signs for "no unit", and the letters that mean a temperature wherever one is expected.
+_LONGEST = 80  # characters of a unit
 _PLAIN = {"-", "1", ""}
 _TEMPERATURES = {"C": "degC", "F": "degF", "°C": "degC", "°F": "degF"}
 
@@ -263,12 +264,17 @@ def between(given: str, wanted: str) -> Conversion:
         return Conversion(Fraction(scaled["factor"]) * of_one.factor, of_one.offset)
     import pint
 
+    # A unit of hundreds of factors would take its parser beyond what Python can nest.
+    if len(given) > _LONGEST:
+        raise WrongUnit(f"'{given[:30]}...' of {len(given)} characters, which is not a unit")
     if given and not re.fullmatch(_UNIT, given):
         raise WrongUnit(f"'{given}', which is not a unit")
     registry = _registry()
     try:
         unit, target = registry.parse_units(given), registry.parse_units(wanted)
         zero, one = (_quantity(v, unit).to(target).magnitude for v in (0, 1))
+        if float(one - zero) == 0.0:
+            raise OverflowError("a factor that is no float")
     except pint.DimensionalityError:
         raise WrongUnit(f"unit '{given}', which is {_kind(unit)}") from None
     except (pint.PintError, *_SLIPS) as error:

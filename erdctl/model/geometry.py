@@ -84,13 +84,24 @@ def derive(geometry: Geometry, *, file: str | None = None) -> Derived:
     [250.0, 85.94, 12.0, 25.0]
     """
     check(geometry, file=file)
-    return Derived(
-        k_nom=gas_stiffness(geometry),
-        c_vis=viscous_damping(geometry),
-        sigma=full_yield_force(geometry),
-        beta=geometry.beta,
-        preload=preload(geometry),
-    )
+    try:
+        found = Derived(
+            k_nom=gas_stiffness(geometry),
+            c_vis=viscous_damping(geometry),
+            sigma=full_yield_force(geometry),
+            beta=geometry.beta,
+            preload=preload(geometry),
+        )
+        sound = all(math.isfinite(getattr(found, f.name)) for f in fields(found))
+    except ArithmeticError:  # a power too high, a gap whose cube is 0
+        sound = False
+    if not sound:
+        raise InputProblem(
+            "these dimensions give a stiffness, damping or force beyond any number; look for a"
+            " wrong unit or power of ten",
+            file=file,
+        )
+    return found
 
 
 def check(geometry: Geometry, *, file: str | None = None) -> None:

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import TextIO
 
+from erdctl.core.messages import CELL, shown, tell
 from erdctl.report.layout import BOX, boxed, lines, wrapped
 
 QUIET = ContextVar("quiet", default=False)  # set for the time of one command by `--quiet`
@@ -17,19 +18,21 @@ SERIOUS = ("warning", "error")
 BAR = 20  # characters of a bar, and the fewest that still show something
 SHORT = 6
 CLOCK = 12  # characters of the sign of life and the time beside a line of progress
+ROWS = 200  # of a table for eyes; documents have all
 
 
 def say(text: str, kind: str = "note") -> None:
     """One remark for the user; of a quiet program only warnings and errors."""
     if not QUIET.get() or kind in SERIOUS:
-        line = f"erdctl: {kind}: {text}"
+        line = shown(f"erdctl: {kind}: {text}")
         # Lines in a file stay whole, for whoever searches it; on a terminal a number may not break.
-        print(wrapped(line, width()) if terminal() else line, file=sys.stderr)
+        tell(wrapped(line, width()) if terminal() else line)
 
 
 def show(text: str) -> None:
     """One line of a command's answer on stdout; broken between words on a terminal."""
-    print(wrapped(text, _columns(sys.stdout)) if sys.stdout.isatty() else text)
+    line = shown(text)
+    print(wrapped(line, _columns(sys.stdout)) if sys.stdout.isatty() else line)
 
 
 def terminal() -> bool:
@@ -68,16 +71,30 @@ def table(
     """
     if QUIET.get():
         return
+    title, header = shown(title), [shown(cell, CELL) for cell in header]
+    left_out = len(rows) - ROWS
+    rows = [[shown(cell, CELL) for cell in row] for row in rows[:ROWS]]
+    _table(title, header, rows, bars or {})
+    if left_out > 0:
+        tell(f"  and {left_out} more rows")
+
+
+def _table(
+    title: str,
+    header: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    bars: Mapping[int, Sequence[float]],
+) -> None:
     room = width()
     spare = math.inf if room is None else room - boxed(header, rows)
     if terminal() and spare >= 0:
         # Bars take what the columns leave.
-        most = BAR if math.isinf(spare) else int(spare) // max(len(bars or {}), 1) - BOX
-        _rich(title, header, rows, (bars or {}) if most >= SHORT else {}, min(BAR, most))
+        most = BAR if math.isinf(spare) else int(spare) // max(len(bars), 1) - BOX
+        _rich(title, header, rows, bars if most >= SHORT else {}, min(BAR, most))
         return
-    print(wrapped(title, room), file=sys.stderr)
+    tell(wrapped(title, room))
     for line in lines(header, rows, room):
-        print(line, file=sys.stderr)
+        tell(line)
 
 
 def _rich(
@@ -125,20 +142,20 @@ def progress() -> Iterator[Callable[[str, str], None]]:
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
     console = Console(stderr=True)
-    columns = SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn()
+    columns = SpinnerColumn(), TextColumn("{task.description}", markup=False), TimeElapsedColumn()
     with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task("")
         # Drawn at once: a stage may be over before the next of ten pictures a second.
         yield lambda stage, what: bar.update(
-            task, description=_fitting(f"{stage}: {what}", console.width - CLOCK), refresh=True
+            task,
+            description=_fitting(shown(f"{stage}: {what}"), console.width - CLOCK),
+            refresh=True,
         )
 
 
 def _fitting(text: str, room: int) -> str:
     """A line of progress in so many characters; what gives way is the middle, not the fraction."""
-    from rich.markup import escape
-
     if len(text) > room:
         tail = text[-room // 2 :]
         text = f"{text[: max(room - len(tail) - 1, 0)]}\u2026{tail}"
-    return escape(text)
+    return text

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cProfile import Profile
 from dataclasses import replace
 
 import numpy as np
@@ -12,6 +13,7 @@ from rig import campaign, noisy
 
 from erdctl.bench.inspection import force_noise, inspect
 from erdctl.core.recording import Recording, concatenate
+from erdctl.effects import catalogue
 
 
 def without(r: Recording, *rows: int) -> Recording:
@@ -21,6 +23,35 @@ def without(r: Recording, *rows: int) -> Recording:
 
 def one(rate: float = 200.0) -> Recording:
     return campaign(rate, 12.0).select([0])
+
+
+@pytest.mark.parametrize("samples", [2, 3, 4])
+def test_records_of_a_few_samples(samples: int) -> None:
+    r = one()
+    short = r.window(slice(0, samples))
+    found = inspect(short, catalogue())
+    assert found.records[0].samples == samples
+    assert found.records[0].rate == pytest.approx(200.0)
+    assert (found.noise is None) == (samples < 4)
+
+
+def test_every_record_is_what_it_is_alone() -> None:
+    """Spans are taken of all records at once."""
+    r = campaign(200.0, 12.0)
+    together = inspect(r, []).records
+    alone = [inspect(r.select([i]), []).records[0] for i in range(len(r.names))]
+    assert list(together) == alone
+
+
+def test_work_grows_with_the_records_and_no_faster() -> None:
+    """Counted in calls, not seconds: a look at all records for each would be a thousand times."""
+    counts = []
+    for times in (20, 40):
+        r = concatenate([one().window(slice(i, i + 5)) for i in range(times)])
+        with Profile() as profile:
+            inspect(r, [])
+        counts.append(sum(e.callcount for e in profile.getstats()))
+    assert counts[1] < 2.2 * counts[0]
 
 
 def test_an_even_record() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -155,3 +156,24 @@ def test_any_bytes_on_stdin(noise: bytes) -> None:
         result = run(*arguments, data=noise)
         check_clean(result)
         assert result.exit_code in (0, 3), result.stderr
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names of files are text here")
+@pytest.mark.parametrize(
+    "words",
+    [
+        "inspect {} --json", "identify {} -o out.json", "convert {} out.mat", "plot {} -o a.png",
+        "simulate {p} {} -o out.parquet", "validate {p} {} --report r.html --plot time:a.svg",
+        "mimic {p} {} --fault oil=0.5 -o out.csv --report r.html", "identify {} {good} -o out.json",
+    ],
+)  # fmt: skip
+def test_names_of_files_that_are_no_text(
+    words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    name = os.fsdecode(b"\x1b[2Jlog\xff.csv")
+    Path(name).write_bytes((BAD / "good.csv").read_bytes())
+    known = {"{}": name, "{p}": str(FIXTURES / "table_2.json"), "{good}": str(BAD / "good.csv")}
+    result = run(*(known.get(w, w) for w in words.split()))
+    assert result.exit_code == 0, result.stderr
+    assert "\x1b" not in result.stderr

@@ -126,3 +126,49 @@ def test_mimic_lays_mat_out_for_simulink_on_stdout_too(tmp_path: Path) -> None:
     arguments[2] = str(tmp_path / "one.csv")
     path.write_bytes(erdctl(*arguments, "--format", "mat").stdout_bytes)
     assert loadmat(path)["pwm"].shape == (5, len(keep) - 1)
+
+
+@pytest.mark.parametrize(
+    ("lines", "row", "what"),
+    [
+        (["0,1", "0.1,1", "0.1,1"], 4, "0.1 s is there twice"),
+        (["0,1", "0.2,1", "0.1,1"], 4, "falls from 0.2 s to 0.1 s"),
+        (["0,1", "nan,1", "0.1,1"], 3, "expected a number"),
+    ],
+)
+def test_a_time_that_does_not_grow_is_refused(
+    lines: list[str], row: int, what: str, tmp_path: Path
+) -> None:
+    log, out = tmp_path / "log.csv", tmp_path / "out.parquet"
+    log.write_text("\n".join(["t,p [bar]", *lines, ""]))
+    result = erdctl("convert", log, out, code=3)
+    assert f"{log}: row {row}, column 't'" in result.stderr
+    assert what in result.stderr
+    assert not out.exists()
+
+
+def test_records_that_come_back_are_refused(tmp_path: Path) -> None:
+    log, out = tmp_path / "log.csv", tmp_path / "out.parquet"
+    log.write_text("t,record\n0,a\n0,b\n1,a\n")
+    result = erdctl("convert", log, out, code=3)
+    assert "row 4, column 'record': record 'a' comes back" in result.stderr
+    assert not out.exists()
+
+
+def test_values_out_of_range_are_converted_and_said(tmp_path: Path) -> None:
+    log, out = tmp_path / "log.csv", tmp_path / "out.csv"
+    log.write_text("t,x,duty,p\n0,0.01,30,5\n1,12,40,6\n")
+    result = erdctl("convert", log, out)
+    warnings = [x for x in result.stderr.splitlines() if x.startswith("erdctl: warning")]
+    assert len(warnings) == 2
+    assert f"{log}: row 3, column 'x': found 12" in warnings[0]
+    assert f"{log}: row 2, column 'duty': found 30" in warnings[1]
+    assert out.read_text() == "t,x,duty,p\n0,0.01,30,5\n1,12,40,6\n"
+
+
+def test_one_row_and_no_rows_are_converted(tmp_path: Path) -> None:
+    for rows in ("", "0,1\n"):
+        log, out = tmp_path / "log.csv", tmp_path / "out.csv"
+        log.write_text(f"t,x\n{rows}")
+        erdctl("convert", log, out)
+        assert out.read_text() == f"t,x\n{rows}"

@@ -22,6 +22,7 @@ from hypothesis import strategies as st
 
 from erdctl.core.errors import ComputationProblem, InputProblem, UsageProblem
 from erdctl.core.recording import Recording
+from erdctl.io import csv_out
 from erdctl.io.formats import Format
 from erdctl.io.sources import open_source, read_source, read_table
 from erdctl.io.tables import append_column, output_format, table_of, write_table
@@ -174,6 +175,25 @@ def test_slices_are_written_from_their_beginning(tmp_path: Path) -> None:
     path = str(tmp_path / "a.csv")
     write_table(pa.table({"t": np.arange(10.0), "s": list("abcdefghij")}).slice(4, 2), path)
     assert Path(path).read_text() == "t,s\n4,e\n5,f\n"
+
+
+@given(
+    st.lists(st.lists(st.sampled_from(["", "a", '"', "é", "x" * 70]), max_size=4), max_size=6),
+    st.integers(0, 3),
+)
+def test_batches_of_any_size_leave_no_bytes_of_their_buffers(
+    parts: list[list[str]], offset: int
+) -> None:
+    """A batch without rows has a buffer that nobody has written to."""
+    batches = [pa.record_batch({"a": pa.array(p, pa.string()), "b": p}) for p in parts if p] or [
+        pa.record_batch({"a": pa.array(["q"]), "b": pa.array(["q"])})
+    ]
+    empty = batches[0].slice(0, 0)
+    table = pa.Table.from_batches([empty, *(x for b in batches for x in (b, empty))])
+    table = table.slice(min(offset, table.num_rows))
+    text = b"".join(bytes(chunk) for chunk in csv_out.chunks(table)).decode()
+    rows = [*csv.reader(io.StringIO(text))]
+    assert rows == [["a", "b"], *([v, v] for v in table.column("a").to_pylist())]
 
 
 @pytest.mark.parametrize(

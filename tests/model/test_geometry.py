@@ -175,3 +175,9 @@ def test_an_impossible_geometry_is_refused(change: dict[str, float], names: str)
 
 def test_an_unknown_stroke_is_allowed() -> None:
     assert derive(replace(ROUND, stroke=0.0)) == derive(ROUND)
+
+
+@pytest.mark.parametrize("wrong", [{"d": 5e-324}, {"beta": 1e19}, {"alpha": 1e308, "U_m": 1e308}])
+def test_dimensions_beyond_any_number_are_refused(wrong: dict[str, float]) -> None:
+    with pytest.raises(InputProblem, match=r"^g.json: these dimensions give"):
+        derive(replace(ROUND, **wrong), file="g.json")

@@ -49,6 +49,8 @@ def _line(problem: Problem, values: Array) -> tuple[SpectralLine, float]:
     for a, b in pairwise(s.starts.tolist()):
         spectrum += periodogram(weighted[a:b], nfft=bins)[1]
     size, lowest = 2 * thresholds.LINE_AROUND, thresholds.LINE_LOWEST
+    if len(spectrum) <= lowest:  # records of some ten samples have no spectrum to speak of
+        return SpectralLine(0.0, 0.0), 0.0
     around = np.maximum(median_filter(spectrum, size=size, mode="nearest"), 1e-300)
     at = lowest + int(np.argmax(spectrum[lowest:]))
     total = max(float(np.dot(weighted, values)), 1e-300)
