@@ -10,12 +10,13 @@ import pyarrow as pa
 from erdctl.core.errors import InputProblem
 from erdctl.io.checks import Place, check_growth, check_values
 from erdctl.io.columns import to_numbers, to_records
+from erdctl.io.maps import parse_maps
 from erdctl.io.memory import check_fits
 from erdctl.io.plan import ColumnPlan, in_contract_names, plan_columns, read_planned
 from erdctl.io.sources import TableSource, open_source
 from erdctl.io.stored import si, units_apart, with_unit
 from erdctl.io.text.options import TextOptions, TextSpec, parse_text_options
-from erdctl.io.units import RECORD, Conversion, parse_maps
+from erdctl.io.units import RECORD, Conversion
 
 
 def read_converted(

@@ -15,20 +15,21 @@ from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.core.messages import as_text
 from erdctl.core.progress import Progress, told
 from erdctl.core.recording import Array, Index, Recording, Source, concatenate
-from erdctl.io import units
 from erdctl.io.arrays import arrow, runs_of_text
 from erdctl.io.checks import Place, check_time, check_values, remark_on_time
 from erdctl.io.columns import to_numbers, to_records
 from erdctl.io.consistency import check_consistency
 from erdctl.io.dampers import Where, chosen_rows, needed_columns, parse_where
 from erdctl.io.joins import runs
+from erdctl.io.maps import Mapping as ColumnMapping
+from erdctl.io.maps import parse_maps
 from erdctl.io.memory import check_fits
 from erdctl.io.plan import ColumnPlan, Report, in_contract_names, plan_columns, read_planned
 from erdctl.io.problems import Problems
 from erdctl.io.sources import STDIN, TableSource, open_source
 from erdctl.io.stored import si, with_unit
 from erdctl.io.text.options import TextOptions, TextSpec, parse_text_options
-from erdctl.io.units import RECORD, Conversion, parse_maps
+from erdctl.io.units import RECORD, Conversion
 
 Held = Mapping[str, bytearray]
 
@@ -137,7 +138,7 @@ def read_logs(
 
 def _read(
     path: str,
-    mappings: Sequence[units.Mapping],
+    mappings: Sequence[ColumnMapping],
     *,
     text: TextOptions | None,
     where: Sequence[Where],

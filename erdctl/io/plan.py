@@ -9,6 +9,7 @@ import pyarrow as pa
 
 from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.io.instants import in_seconds
+from erdctl.io.maps import Mapping
 from erdctl.io.meaning import Meant, blocks, meant, unit_of_column
 from erdctl.io.problems import Problems
 from erdctl.io.roles import Roles
@@ -20,7 +21,6 @@ from erdctl.io.units import (
     TARGETS,
     UNITS,
     Conversion,
-    Mapping,
     listed,
     name_and_unit,
 )

@@ -85,23 +85,18 @@ def derive(geometry: Geometry, *, file: str | None = None) -> Derived:
     """
     check(geometry, file=file)
     try:
-        found = Derived(
-            k_nom=gas_stiffness(geometry),
-            c_vis=viscous_damping(geometry),
-            sigma=full_yield_force(geometry),
-            beta=geometry.beta,
-            preload=preload(geometry),
+        k, c, sigma, P = (
+            f(geometry) for f in (gas_stiffness, viscous_damping, full_yield_force, preload)
         )
-        sound = all(math.isfinite(getattr(found, f.name)) for f in fields(found))
     except ArithmeticError:  # a power too high, a gap whose cube is 0
-        sound = False
-    if not sound:
+        k = c = sigma = P = math.inf
+    if not all(map(math.isfinite, (k, c, sigma, P))):
         raise InputProblem(
             "these dimensions give a stiffness, damping or force beyond any number; look for a"
             " wrong unit or power of ten",
             file=file,
         )
-    return found
+    return Derived(k_nom=k, c_vis=c, sigma=sigma, beta=geometry.beta, preload=P)
 
 
 def check(geometry: Geometry, *, file: str | None = None) -> None:

@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from erdctl.core.errors import ExitCode, InputProblem, UsageProblem
-from erdctl.io.units import TARGETS, conversion, factor_between, parse_maps
+from erdctl.io.maps import parse_maps
+from erdctl.io.units import TARGETS, conversion, factor_between
 
 # unit, column, a value in that unit, the value in SI from the unit's definition
 DEFINITIONS = [
@@ -182,7 +183,7 @@ def test_factor_between_refuses_other_dimensions() -> None:
 
 def test_si_needs_no_unit_library() -> None:
     program = (
-        "import sys; from erdctl.io.units import parse_maps;"
+        "import sys; from erdctl.io.maps import parse_maps;"
         "parse_maps(['force=F[N]', 'x=A', 'duty=P[-]', 'temperature=T[°C]']);"
         "sys.exit('pint' in sys.modules)"
     )
