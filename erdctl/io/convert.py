@@ -25,14 +25,15 @@ def read_converted(
     maps: Sequence[str] = (),
     text: TextSpec = None,
     say: Callable[[str], None],
-    warn: Callable[[str], None],
+    warn: Callable[[str], None] | None = None,
 ) -> pa.Table:
     """All columns of a file; those of the contract under its names and in SI, others as they are.
 
     Nothing is required of it: it need not be a whole log. But where it has a time or records, they
     must be in order, as every other command demands.
     maps, text : options `--map` and `--text`;  say : takes a line for all that was assumed
-    warn : takes a line for every column with values that no other command would accept
+    warn : takes a line for every column with values that no other command would accept; by default
+        that is said like the rest
     Raises UsageProblem, InputProblem as `read_logs` does.
     """
     mappings = parse_maps(maps)
@@ -56,7 +57,7 @@ def read_converted(
         field = with_unit(field.with_type(values.type), si(target))
         table = table.set_column(index, field, values)
     if table.num_rows:
-        _check(table, plan, source, warn)
+        _check(table, plan, source, warn or say)
     return units_apart(table)
 
 
