@@ -122,13 +122,14 @@ def _ended(body: bytes, separator: str, notes: list[str]) -> bytes:
 
 def _padded(body: bytes, layout: TextLayout) -> bytes:
     """Rows that end before their last cells, which are texts, with these cells empty."""
-    sign = re.escape(_between(layout).encode())
-    cell = b"[^" + sign + b"\n]*"
-    width = len(layout.header.names)
-    for count in range(layout.shortest, width):
-        form = b"(?m)^(" + cell + (b"(?:" + sign + cell + b"){%d}" % (count - 1)) + b")$"
-        body = re.sub(form, rb"\g<1>" + _between(layout).encode() * (width - count), body)
-    return body
+    sign, most = _between(layout).encode(), len(layout.header.names) - 1
+    least = layout.shortest - 1
+    lines = body.split(b"\n")
+    for i, line in enumerate(lines):
+        signs = line.count(sign)
+        if line and least <= signs < most:
+            lines[i] = line + sign * (most - signs)
+    return b"\n".join(lines)
 
 
 def _between(layout: TextLayout) -> str:
