@@ -11,10 +11,7 @@ from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from erdctl.cli.pictures import Wanted
-    from erdctl.mimic import Plan
     from erdctl.mimic.sequence import PwmSequence
     from erdctl.model.parameters import Parameters
 
@@ -147,7 +144,7 @@ def command(
         write_report(page, report)
     if asked:
         _draw(asked, found, parameters)
-    _show(found.plans)
+    _show(found)
 
 
 def _draw(asked: list[Wanted], sequence: PwmSequence, parameters: Parameters) -> None:
@@ -165,10 +162,11 @@ def _draw(asked: list[Wanted], sequence: PwmSequence, parameters: Parameters) ->
         draw(named, of_plan(plan, parameters, sequence.recording, static=sequence.static))
 
 
-def _show(plans: Mapping[str, Plan]) -> None:
-    from erdctl.mimic.sequence import held_back, worth
+def _show(found: PwmSequence) -> None:
+    from erdctl.mimic.sequence import held_back, strain, way_back, worth
     from erdctl.report.text import say, table
 
+    plans = found.plans
     reaches = [(channel, r) for channel, plan in plans.items() for r in plan.reaches]
     corrected = any(r.plain is not None for _, r in reaches)
     plain = ["without effects"] if corrected else []
@@ -184,7 +182,9 @@ def _show(plans: Mapping[str, Plan]) -> None:
         for channel, r in reaches
     ]  # fmt: skip
     table("Expected force against the ideal faulty force, while each fault acts", header, rows)
-    for line in worth(plans):
+    for line in (*worth(plans), *way_back(found)):
         say(line)
+    for line in strain(found):
+        say(line, "warning")
     for line in held_back(plans):
         say(f"{line}; --duty-max raises it", "warning")

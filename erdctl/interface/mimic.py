@@ -13,7 +13,16 @@ from erdctl.interface.arguments import Given, ParametersLike, given_parameters
 from erdctl.interface.display import draw, frame_of, html, option, text
 from erdctl.interface.log import BenchLog, LogLike, Place, log_of, samples, texts
 from erdctl.io import documents, pwm
-from erdctl.mimic.sequence import PwmSequence, at_duty, held_back, sequence, too_hot, worth
+from erdctl.mimic.sequence import (
+    PwmSequence,
+    at_duty,
+    held_back,
+    sequence,
+    strain,
+    too_hot,
+    way_back,
+    worth,
+)
 from erdctl.model.amplifier import Amplifier
 from erdctl.model.faults import Fault, parse_fault
 from erdctl.model.simulate import remarks
@@ -188,5 +197,6 @@ def mimic(
         progress=progress or (lambda stage, what: None),
     )  # fmt: skip
     limited = [f"{line}; duty_max raises it" for line in held_back(found.plans)]
-    said = (*remarks(given.parameters, recording), *worth(found.plans), *limited)
+    seen = (*worth(found.plans), *way_back(found), *strain(found), *limited)
+    said = (*remarks(given.parameters, recording), *seen)
     return Mimicked(found, read, given, chosen, amplifier, (*read.remarks, *said))

@@ -234,6 +234,48 @@ class CorrectionDocument(TypedDict):
     fell_back: bool
 
 
+class ChannelCheck(TypedDict):
+    """How near a channel comes to the limits: highest duty, closest and steepest changes."""
+
+    channel: str
+    highest: float
+    changes: int
+    closest: QuantityDocument | None
+    steepest: QuantityDocument | None
+
+
+class LimitCheck(TypedDict):
+    """That every duty keeps the limits, checked after the computation."""
+
+    held: bool
+    channels: list[ChannelCheck]
+
+
+class BreachDocument(TypedDict):
+    """A limit that the healthy duty as given breaks: how often, where first, by what value."""
+
+    limit: str
+    samples: int
+    row: int
+    time: QuantityDocument
+    value: float
+    allowed: float
+
+
+class HealthyDocument(TypedDict):
+    """Samples at which the healthy duty could not go out as given, and why."""
+
+    samples_changed: int
+    breaks: list[BreachDocument]
+
+
+class WayBack(TypedDict):
+    """Samples after a fault's end until the amplifier is back at the healthy duty."""
+
+    channel: str
+    samples: int
+
+
 class PwmManifest(TypedDict):
     """What whoever pushes a PWM sequence must know."""
 
@@ -243,12 +285,15 @@ class PwmManifest(TypedDict):
     full_scale: QuantityDocument
     channels: list[str]
     limits: LimitsDocument
+    check: LimitCheck
+    healthy: HealthyDocument
     parameters: Hashed
     logs: list[LogEntry]
     samples: int
     sequence: str
     schedule: list[str]
     emulation: list[Emulation]
+    way_back: list[WayBack]
     correction: list[CorrectionDocument]
 
 

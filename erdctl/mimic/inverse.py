@@ -20,11 +20,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.core.signals import Signals
-from erdctl.model.amplifier import Amplifier
+from erdctl.mimic.hold import Hold
 from erdctl.model.composed import Model
 from erdctl.model.faults import FaultFactors
 from erdctl.model.paper import field_law
@@ -122,62 +121,49 @@ def static_duty(
     return np.where(up, laws[0].duty(force), laws[1].duty(force))
 
 
-def _updates(signals: Signals, amplifier: Amplifier) -> npt.NDArray[np.bool_]:
-    """(n,) samples at which the duty may change."""
-    out = np.ones(len(signals), dtype=bool)
-    if amplifier.update_rate is not None:
-        for a, b in zip(signals.starts[:-1], signals.starts[1:], strict=True):
-            tick = np.floor((signals.t[a:b] - signals.t[a]) * amplifier.update_rate + 1e-9)
-            out[a + 1 : b] = tick[1:] != tick[:-1]  # the first sample of a record is always one
-    return out
-
-
-def follow(wanted: Array, signals: Signals, amplifier: Amplifier) -> Array:
-    """The sequence (n,) nearest to a wanted duty (n,) that the amplifier can carry out."""
-    update = _updates(signals, amplifier)
-    if amplifier.slew == np.inf and not amplifier.resolution:
-        chosen = np.minimum(wanted, amplifier.duty_max)
-        return np.asarray(
-            chosen[np.maximum.accumulate(np.where(update, np.arange(len(chosen)), 0))]
-        )
-    out = np.empty_like(wanted)
-    last, since = 0.0, np.inf
-    rows = zip(wanted.tolist(), update.tolist(), signals.step.tolist(), strict=True)
-    for i, (w, new, dt) in enumerate(rows):
-        if new:
-            last, since = amplifier.limit(w, last, since), 0.0
-        # The step is 0 at the end of a record: nothing limits the first duty of the next.
-        since = since + dt if dt else np.inf
-        out[i] = last
-    return out
-
-
 def compensate(
-    target: Array, healthy: Prepared, values: Mapping[str, float], laws: Laws, amplifier: Amplifier
+    target: Array, healthy: Prepared, values: Mapping[str, float], laws: Laws, hold: Hold
 ) -> Array:
-    """The duty with which F_ER (n,) meets its target one update ahead, update by update."""
+    """(n,) duty with which F_ER (n,) meets its target one tick ahead, from tick to tick.
+
+    While no fault acts, the healthy duty, or the way back to it; F_ER follows that too.
+    """
     s = healthy.signals
     T = [max(values[f"{d}.T_d"], 1e-9) for d in DIRECTIONS]
-    at = np.flatnonzero(_updates(s, amplifier))
+    at = np.flatnonzero(hold.ticks | ~hold.acting)
     record = np.searchsorted(s.starts, at, side="right") - 1
     ends = np.minimum(np.append(at[1:], len(s) - 1), s.starts[record + 1] - 1)
-    span = s.t[ends] - s.t[at]
-    up = s.compressing[at]
-    decay = np.exp(-span / np.where(up, T[0], T[1]))
+    up, control = s.compressing[at], hold.healthy[at]
+    decay = np.exp(-(s.t[ends] - s.t[at]) / np.where(up, T[0], T[1]))
+    undisturbed = np.where(up, laws[0].forces(control), laws[1].forces(control))
+    level, towards, slew = hold.levels.one, hold.levels.towards, hold.slew
+    limited = np.isfinite(slew)
     duty = np.empty(len(at))
-    state, last = 0.0, 0.0
+    state, last, changed = 0.0, 0.0, 0.0
     rows = zip(
-        np.diff(record, prepend=-1).tolist(), target[at].tolist(), target[ends].tolist(),
-        up.tolist(), decay.tolist(), span.tolist(), strict=True,
+        np.diff(record, prepend=-1).tolist(), hold.acting[at].tolist(), hold.ticks[at].tolist(),
+        control.tolist(), undisturbed.tolist(), target[at].tolist(), target[ends].tolist(),
+        up.tolist(), decay.tolist(), hold.reach[at].tolist(), s.t[at].tolist(), strict=True,
     )  # fmt: skip
-    for k, (begins, now, goal, up_k, a, dt) in enumerate(rows):
+    for k, (begins, acts, tick, v, idle, now, goal, up_k, a, reach, t) in enumerate(rows):
         law = laws[0 if up_k else 1]
         if begins:
             # A record begins at the steady force of its first duty.
-            last = min(float(law.duty(now)), amplifier.duty_max)
-            state = law.force(last)
-        ask = (goal - a * state) / (1.0 - a) if a < 1.0 else goal
-        last = amplifier.limit(float(law.duty(ask)), last, np.inf if begins else dt)
+            last = level(float(law.duty(now))) if acts else v
+            state, changed, reach = law.force(last), t, np.inf
+        wanted = v
+        if acts:
+            ask = (goal - a * state) / (1.0 - a) if a < 1.0 else goal
+            wanted = level(float(law.duty(ask)))
+        elif wanted == last:
+            state = a * state + (1.0 - a) * idle
+            duty[k] = last
+            continue
+        if tick:
+            if limited and not begins:
+                wanted = towards(last, wanted, reach, slew * (t - changed))
+            if wanted != last:
+                last, changed = wanted, t
         state = a * state + (1.0 - a) * law.force(last)
         duty[k] = last
-    return np.repeat(duty, np.diff(np.append(at, len(s))))
+    return hold.follow(np.repeat(duty, np.diff(np.append(at, len(s)))))

@@ -28,8 +28,8 @@ from scipy.sparse import csr_matrix
 
 from erdctl.core.recording import Array, Index
 from erdctl.core.signals import Signals
-from erdctl.mimic.inverse import Laws, follow
-from erdctl.model.amplifier import Amplifier
+from erdctl.mimic.hold import Hold
+from erdctl.mimic.inverse import Laws
 from erdctl.model.composed import Model
 
 COLOURS = 48  # simulations for one derivative, at most
@@ -47,7 +47,7 @@ ENOUGH = 2e-3  # a step that improves by a smaller part is the last
 
 @dataclass(frozen=True, eq=False)
 class Target:
-    """What is to be reached, by which damper, under which amplifier.
+    """What is to be reached, by which damper, through which amplifier.
 
     ideal : (n,) force [N];  laws : steady yield laws of either direction
     """
@@ -57,7 +57,7 @@ class Target:
     signals: Signals
     ideal: Array
     laws: Laws
-    amplifier: Amplifier
+    hold: Hold
 
     def force(self, duty: Array) -> Array:
         """(n,) force of the damper under a duty."""
@@ -76,7 +76,7 @@ class Target:
         """(n,) duty for steady yield forces (n,) [N] that the amplifier can carry out."""
         up = self.signals.compressing
         wanted = np.where(up, self.laws[0].duty(u), self.laws[1].duty(u))
-        return follow(wanted, self.signals, self.amplifier)
+        return self.hold.follow(wanted)
 
     def steady(self, duty: Array) -> Array:
         """(n,) steady yield force of a duty (n,) [N]."""
@@ -108,10 +108,10 @@ def improve(task: Target, duty: Array) -> tuple[Array, int]:
 
     The given one comes back if none is better.
     """
-    ceiling = task.steady(np.full(len(duty), task.amplifier.duty_max))
+    ceiling = task.steady(np.full(len(duty), task.hold.levels.top))
     u = np.clip(task.steady(duty), 0.0, ceiling)
     nudge = 1e-3 * float(ceiling.max())
-    if nudge == 0.0:
+    if nudge == 0.0 or not task.hold.moments.any():
         return duty, 0
     from threadpoolctl import threadpool_limits
 
@@ -164,7 +164,7 @@ class State:
     @classmethod
     def of(cls, task: Target, u: Array, ceiling: Array) -> State:
         """The state of a task at u."""
-        smooth = replace(task, amplifier=replace(task.amplifier, resolution=0.0))
+        smooth = replace(task, hold=task.hold.unstepped)
         return cls(smooth, u, ceiling, smooth.force(smooth.duty(u)))
 
     def answer(self, change: Array) -> Array:
@@ -181,7 +181,7 @@ def _mesh(state: State, nudge: float) -> Mesh:
     sites = np.concatenate([np.arange(a, b, apart) for a, b in pairwise(s.starts.tolist())])
     # Not at the same phase of a periodic motion.
     sites += (GOLDEN * np.arange(1, len(sites) + 1) % 0.5 * apart).astype(np.intp)
-    sites = np.minimum(sites, len(s) - 1)
+    sites = _moments(np.minimum(sites, len(s) - 1), state.task.hold, apart // 2)
     change = np.zeros(len(s))
     change[sites] = np.where(state.u + nudge > state.ceiling, -nudge, nudge)[sites]
     answer = np.abs(state.answer(change))
@@ -218,6 +218,14 @@ def _mesh(state: State, nudge: float) -> Mesh:
         latest=np.minimum((offset - dead - 1) // spacing + 1, np.repeat(counts, record) - 1),
         base=base,
     )  # fmt: skip
+
+
+def _moments(sites: Index, hold: Hold, apart: int) -> Index:
+    """The samples next to sites at which the duty can be another one, where they are far apart."""
+    moments = np.flatnonzero(hold.moments)
+    after = np.searchsorted(moments, sites)
+    found = np.unique(moments[after[after < len(moments)]])
+    return found[np.diff(found, prepend=-apart - 1) > apart]
 
 
 def _derivative(state: State, mesh: Mesh, nudge: float) -> Any:

@@ -1,0 +1,75 @@
+"""The duties that an amplifier knows, and the way from one to another."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from erdctl.core.recording import Array
+from erdctl.model.amplifier import Amplifier
+
+EQUAL = 1e-9  # parts of a time or of a step that differ by rounding only
+ON_GRID = 1e-6  # of a step of the resolution: a given duty that is this near is on it
+
+
+@dataclass(frozen=True)
+class Levels:
+    """The duties that an amplifier knows: 0 to `top`, in steps of the resolution (0 for none)."""
+
+    top: float
+    step: float
+
+    @classmethod
+    def of(cls, amplifier: Amplifier) -> Levels:
+        """The levels of an amplifier: the highest is the last step below its ceiling."""
+        step, top = amplifier.resolution, amplifier.duty_max
+        if not step:
+            return cls(top, 0.0)
+        return cls(float(_of_steps(np.floor(top / step + EQUAL), step)), step)
+
+    def nearest(self, wanted: Array) -> Array:
+        """(n,) the level nearest to each wanted duty."""
+        inside = np.clip(wanted, 0.0, self.top)
+        if not self.step:
+            return inside
+        return np.asarray(np.minimum(_of_steps(np.rint(inside / self.step), self.step), self.top))
+
+    def one(self, wanted: float) -> float:
+        """`nearest` of a single duty."""
+        inside = min(max(wanted, 0.0), self.top)
+        return (
+            min(_of_steps(round(inside / self.step), self.step), self.top) if self.step else inside
+        )
+
+    def given(self, duty: Array) -> Array:
+        """(n,) `nearest`, but a given duty that is a level but for rounding stays as it is."""
+        found = self.nearest(duty)
+        near = (np.abs(found - duty) <= ON_GRID * self.step) & (duty <= self.top * (1.0 + 1e-12))
+        return np.where(near, duty, found)
+
+    def towards(self, last: float, target: float, reach: float, patience: float) -> float:
+        """The level that follows `last` on the way to the level `target`.
+
+        reach : change that is allowed;  patience : change that the time since the last one allows
+        """
+        way = target - last
+        if abs(way) <= reach * (1.0 + EQUAL):
+            return target
+        if not self.step:
+            return last + math.copysign(reach * (1.0 - 1e-12), way)
+        steps = math.floor(reach / self.step + EQUAL)
+        if not steps and patience >= self.step * (1.0 - EQUAL):
+            steps = 1
+        if steps >= round(abs(way) / self.step):
+            return target
+        at = round(last / self.step) + (steps if way > 0 else -steps)
+        return float(_of_steps(at, self.step)) if steps else last
+
+
+def _of_steps(count: Any, step: float) -> Any:
+    """count * step; of a decimal step the decimal: 3 * 0.1 is 0.3, not 0.30000000000000004."""
+    parts = round(1.0 / step)
+    return count / parts if abs(parts * step - 1.0) < EQUAL else count * step
