@@ -105,7 +105,9 @@ def breaches(duty: Array, t: Array, starts: Index, amplifier: Amplifier) -> list
         broken("slew", at, size / waited, np.full(len(at), slew), bad, "1/s")
         if not bad.any():
             since = _since_possible(at, t, starts, period)
-            bad = size > np.maximum(slew * since * (1.0 + ROUNDING) + slack, step * (1 + OFF_GRID))
+            bad = size > np.maximum(
+                slew * since * (1.0 + ROUNDING) + slack, step * (1 + 3 * OFF_GRID)
+            )
             broken("slew", at, size / since, np.full(len(at), slew), bad, "1/s")
     return out
 

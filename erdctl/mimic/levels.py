@@ -60,13 +60,16 @@ class Levels:
             return target
         if not self.step:
             return last + math.copysign(reach * (1.0 - 1e-12), way)
-        steps = math.floor(reach / self.step + EQUAL)
-        if not steps and patience >= self.step * (1.0 - EQUAL):
-            steps = 1
-        if steps >= round(abs(way) / self.step):
-            return target
-        at = round(last / self.step) + (steps if way > 0 else -steps)
-        return float(_of_steps(at, self.step)) if steps else last
+        # `last` may be a given duty that is a level but for rounding: the change counts, not steps.
+        at, up = round(last / self.step), 1 if way > 0 else -1
+        for steps in range(math.floor(reach / self.step + EQUAL), 0, -1):
+            found = float(_of_steps(at + up * steps, self.step))
+            if abs(found - last) <= reach * (1.0 + EQUAL):
+                return found
+        found = float(_of_steps(at + up, self.step))
+        if abs(target - found) <= ON_GRID * self.step:
+            found = target
+        return found if abs(found - last) <= patience * (1.0 + EQUAL) else last
 
 
 def _of_steps(count: Any, step: float) -> Any:
