@@ -48,6 +48,10 @@ def command(
     max_temperature: Annotated[
         float, typer.Option(metavar="C", help="Refuse a log with a higher temperature (Sec. 5.4).")
     ] = 60.0,
+    ignore_temperature: Annotated[
+        bool,
+        typer.Option("--ignore-temperature", help="Do without the limit on the temperature."),
+    ] = False,
     force: Annotated[
         bool, typer.Option("--force", help="Write even if the log got too hot.")
     ] = False,
@@ -86,7 +90,8 @@ def command(
     from erdctl.core.errors import InputProblem, UsageProblem
     from erdctl.io import documents, pwm
     from erdctl.io.parameters import parse_parameters
-    from erdctl.mimic.sequence import at_duty, sequence, too_hot
+    from erdctl.io.temperature import guarded
+    from erdctl.mimic.sequence import at_duty, sequence, strain, too_hot
     from erdctl.model.amplifier import Amplifier
     from erdctl.model.faults import parse_fault
     from erdctl.model.simulate import remarks
@@ -108,7 +113,13 @@ def command(
     read = read_logs(
         [log], maps=maps, need_force=False, keep_table=True, want_hash=True, report=say
     )
-    heat = too_hot(read.recording, max_temperature)
+    guard = guarded(
+        read, max_temperature, declined=ignore_temperature, say_map="--map {}",
+        say_decline="--ignore-temperature to do without the limit",
+    )  # fmt: skip
+    for line in guard.lines():
+        say(line)
+    heat = None if guard.limit is None else too_hot(read.recording, guard.limit)
     if heat is not None and not force:
         raise InputProblem(f"{heat}; nothing was written (--force overrides, Sec. 5.4)")
     if heat is not None:
@@ -120,13 +131,15 @@ def command(
         found = sequence(
             parameters, recording, faults, amplifier, static=uncompensated, progress=step
         )
+    for line in strain(found):
+        say(line, "warning")
     pwm.write(found, read.table, output, format and format.value)
     if manifest is None and output != "-":
         manifest = f"{output}.manifest.json"
     if manifest is not None:
         document = pwm.manifest(
             found, amplifier=amplifier, parameters_sha256=sha256(data).hexdigest(),
-            faults=[str(f) for f in faults],
+            faults=[str(f) for f in faults], temperature=guard.document(),
         )  # fmt: skip
         documents.write(document, manifest)
     if report is not None:
@@ -163,7 +176,7 @@ def _draw(asked: list[Wanted], sequence: PwmSequence, parameters: Parameters) ->
 
 
 def _show(found: PwmSequence) -> None:
-    from erdctl.mimic.sequence import held_back, strain, way_back, worth
+    from erdctl.mimic.sequence import held_back, way_back, worth
     from erdctl.report.text import say, table
 
     plans = found.plans
@@ -184,7 +197,5 @@ def _show(found: PwmSequence) -> None:
     table("Expected force against the ideal faulty force, while each fault acts", header, rows)
     for line in (*worth(plans), *way_back(found)):
         say(line)
-    for line in strain(found):
-        say(line, "warning")
     for line in held_back(plans):
         say(f"{line}; --duty-max raises it", "warning")

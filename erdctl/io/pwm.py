@@ -63,9 +63,17 @@ def write_mat(sequence: PwmSequence, path: str) -> None:
 
 
 def manifest(
-    sequence: PwmSequence, *, amplifier: Amplifier, parameters_sha256: str, faults: list[str]
+    sequence: PwmSequence,
+    *,
+    amplifier: Amplifier,
+    parameters_sha256: str,
+    faults: list[str],
+    temperature: dict[str, Any],
 ) -> dict[str, Any]:
-    """What whoever pushes the sequence must know: scale, limits, origin, schedule, reach."""
+    """What whoever pushes the sequence must know: scale, limits, origin, schedule, reach.
+
+    temperature : what held the limit on it, a `TemperatureGuard.document`
+    """
     return {
         "schema": SCHEMA,
         "erdctl": __version__,
@@ -82,6 +90,7 @@ def manifest(
         },
         "check": _check(sequence),
         "healthy": _healthy(sequence),
+        "temperature": temperature,
         "parameters": {"sha256": parameters_sha256},
         "logs": [
             {"name": s.name, "sha256": s.sha256, "rows": s.rows} for s in sequence.recording.sources

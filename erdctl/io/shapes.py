@@ -1,6 +1,7 @@
 """The shapes of the JSON documents that erdctl writes for others to read, and their JSON Schemas.
 
-Parameter and geometry files, which erdctl reads as well, have theirs with their readers.
+Parameter and geometry files, which erdctl reads as well, have theirs with their readers; the
+manifest of a PWM sequence is in `manifest`.
 """
 
 from __future__ import annotations
@@ -11,15 +12,8 @@ from typing import Any, NotRequired, TypedDict
 import msgspec
 
 from erdctl.io import geometry, inspection, parameters
-from erdctl.io.inspection import LogEntry
+from erdctl.io.manifest import PwmManifest
 from erdctl.io.parameters import ParameterFile
-
-
-class QuantityDocument(TypedDict):
-    """A number with its unit."""
-
-    value: float | None
-    unit: str
 
 
 class Measured(TypedDict):
@@ -192,109 +186,6 @@ class ValidationFile(ScoreDocument):
     nrmse_by_duty: list[DutyScore]
     nrmse_by_direction: list[DirectionScore]
     nrmse_by_record: list[RecordScore]
-
-
-class LimitsDocument(TypedDict):
-    """Limits of the amplifier; null where there is none."""
-
-    duty_max: float
-    resolution: float
-    slew: QuantityDocument | None
-    update_rate: QuantityDocument | None
-
-
-class Hashed(TypedDict):
-    """The SHA-256 of a file's bytes."""
-
-    sha256: str
-
-
-class Emulation(TypedDict):
-    """How near one fault can be mimicked on one damper: NRMSE and the force out of reach."""
-
-    channel: str
-    fault: str
-    nrmse_compensated: float
-    nrmse_paper: float
-    nrmse_plain: NotRequired[float]
-    out_of_reach: float
-    missing_rms: QuantityDocument
-    missing_max: QuantityDocument
-
-
-class CorrectionDocument(TypedDict):
-    """What the effects beyond the paper are worth for the sequence of one damper."""
-
-    channel: str
-    effects: list[str]
-    effects_of_the_force_channel: list[str]
-    nrmse: float
-    nrmse_plain: float
-    error_removed: float
-    fell_back: bool
-
-
-class ChannelCheck(TypedDict):
-    """How near a channel comes to the limits: highest duty, closest and steepest changes."""
-
-    channel: str
-    highest: float
-    changes: int
-    closest: QuantityDocument | None
-    steepest: QuantityDocument | None
-
-
-class LimitCheck(TypedDict):
-    """That every duty keeps the limits, checked after the computation."""
-
-    held: bool
-    channels: list[ChannelCheck]
-
-
-class BreachDocument(TypedDict):
-    """A limit that the healthy duty as given breaks: how often, where first, by what value."""
-
-    limit: str
-    samples: int
-    row: int
-    time: QuantityDocument
-    value: float
-    allowed: float
-
-
-class HealthyDocument(TypedDict):
-    """Samples at which the healthy duty could not go out as given, and why."""
-
-    samples_changed: int
-    breaks: list[BreachDocument]
-
-
-class WayBack(TypedDict):
-    """Samples after a fault's end until the amplifier is back at the healthy duty."""
-
-    channel: str
-    samples: int
-
-
-class PwmManifest(TypedDict):
-    """What whoever pushes a PWM sequence must know."""
-
-    schema: str
-    erdctl: str
-    carrier: QuantityDocument
-    full_scale: QuantityDocument
-    channels: list[str]
-    limits: LimitsDocument
-    check: LimitCheck
-    healthy: HealthyDocument
-    parameters: Hashed
-    logs: list[LogEntry]
-    samples: int
-    sequence: str
-    schedule: list[str]
-    emulation: list[Emulation]
-    way_back: list[WayBack]
-    correction: list[CorrectionDocument]
 
 
 def _of(shape: type) -> Callable[[], dict[str, Any]]:
