@@ -34,7 +34,7 @@ from erdctl.model.amplifier import Amplifier
 
 
 @dataclass(frozen=True, eq=False)
-class Hold:
+class CausalHold:
     """How one amplifier takes duties over a log.
 
     healthy : (n,) duty without a fault, as the amplifier carries it out
@@ -49,7 +49,7 @@ class Hold:
     ticks: Flags
 
     @classmethod
-    def of(cls, signals: Signals, amplifier: Amplifier, acting: Flags) -> Hold:
+    def of(cls, signals: Signals, amplifier: Amplifier, acting: Flags) -> CausalHold:
         """The hold of an amplifier; the signals' duty is the healthy control, as given."""
         clock, levels = Clock.of(signals, amplifier), Levels.of(amplifier)
         healthy = carried_out(signals.duty, clock, levels, amplifier.slew)
@@ -60,7 +60,7 @@ class Hold:
         return cls(clock, levels, amplifier.slew, healthy, acting, ticks)
 
     @cached_property
-    def unstepped(self) -> Hold:
+    def unstepped(self) -> CausalHold:
         """The same without the resolution, for what a small change would do."""
         return replace(self, levels=Levels(self.levels.top, 0.0))
 

@@ -23,7 +23,7 @@ import numpy as np
 
 from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.core.signals import Signals
-from erdctl.mimic.hold import Hold
+from erdctl.mimic.hold import CausalHold
 from erdctl.model.composed import Model
 from erdctl.model.faults import FaultFactors
 from erdctl.model.paper import field_law
@@ -122,7 +122,7 @@ def static_duty(
 
 
 def compensate(
-    target: Array, healthy: Prepared, values: Mapping[str, float], laws: Laws, hold: Hold
+    target: Array, healthy: Prepared, values: Mapping[str, float], laws: Laws, hold: CausalHold
 ) -> Array:
     """(n,) duty with which F_ER (n,) meets its target one tick ahead, from tick to tick.
 

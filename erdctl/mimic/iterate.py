@@ -28,7 +28,7 @@ from scipy.sparse import csr_matrix
 
 from erdctl.core.recording import Array, Index
 from erdctl.core.signals import Signals
-from erdctl.mimic.hold import Hold
+from erdctl.mimic.hold import CausalHold
 from erdctl.mimic.inverse import Laws
 from erdctl.model.composed import Model
 
@@ -57,7 +57,7 @@ class Target:
     signals: Signals
     ideal: Array
     laws: Laws
-    hold: Hold
+    hold: CausalHold
 
     def force(self, duty: Array) -> Array:
         """(n,) force of the damper under a duty."""
@@ -220,7 +220,7 @@ def _mesh(state: State, nudge: float) -> Mesh:
     )  # fmt: skip
 
 
-def _moments(sites: Index, hold: Hold, apart: int) -> Index:
+def _moments(sites: Index, hold: CausalHold, apart: int) -> Index:
     """The samples next to sites at which the duty can be another one, where they are far apart."""
     moments = np.flatnonzero(hold.moments)
     after = np.searchsorted(moments, sites)

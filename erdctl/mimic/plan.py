@@ -23,7 +23,7 @@ import numpy as np
 
 from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
-from erdctl.mimic.hold import Hold
+from erdctl.mimic.hold import CausalHold
 from erdctl.mimic.inverse import Laws, compensate, laws_of, static_duty
 from erdctl.mimic.outcome import Correction, Flags, Plan, Reach
 from erdctl.model.amplifier import Amplifier
@@ -73,7 +73,7 @@ def mimic(
     model, left_out = _damper(whole)
     signals = Signals.of(recording)
     g = factors(faults, signals.t, signals.xdot, signals.starts)
-    hold = Hold.of(signals, amplifier, (g.gas < 1.0) | (g.viscous < 1.0) | (g.yield_ < 1.0))
+    hold = CausalHold.of(signals, amplifier, (g.gas < 1.0) | (g.viscous < 1.0) | (g.yield_ < 1.0))
     found = _invert(model, values, signals, g, hold)
     duty_paper = hold.follow(found.wanted)
     on = [effectiveness(f, signals.t, signals.xdot, signals.starts) < 1.0 for f in faults]
@@ -159,7 +159,7 @@ def _groups(g: FaultFactors) -> dict[str, Array]:
 
 
 def _invert(
-    model: Model, values: Values, signals: Signals, g: FaultFactors, hold: Hold
+    model: Model, values: Values, signals: Signals, g: FaultFactors, hold: CausalHold
 ) -> Inversion:
     healthy: Prepared = model.prepare(signals, values)
     parts = healthy.parts(values)
@@ -211,7 +211,9 @@ def _no_worse(
     return plain
 
 
-def _task(model: Model, values: Values, signals: Signals, found: Inversion, hold: Hold) -> Target:
+def _task(
+    model: Model, values: Values, signals: Signals, found: Inversion, hold: CausalHold
+) -> Target:
     from erdctl.mimic.iterate import Target  # only where it is needed: it imports scipy
 
     return Target(model, values, signals, found.ideal, found.laws, hold)
@@ -223,7 +225,7 @@ def _plain(
     signals: Signals,
     ideal: Array,
     g: FaultFactors,
-    hold: Hold,
+    hold: CausalHold,
 ) -> Array:
     """The duty (n,) of the paper's parameters alone: by formula or iterated, as suits the damper.
 
