@@ -28,7 +28,7 @@ import numpy as np
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.mimic.clock import Clock
-from erdctl.mimic.levels import EQUAL, Levels
+from erdctl.mimic.levels import EQUAL, DutyLevels
 from erdctl.mimic.outcome import Flags
 from erdctl.model.amplifier import Amplifier
 
@@ -42,7 +42,7 @@ class CausalHold:
     """
 
     clock: Clock
-    levels: Levels
+    levels: DutyLevels
     slew: float
     healthy: Array
     acting: Flags
@@ -51,7 +51,7 @@ class CausalHold:
     @classmethod
     def of(cls, signals: Signals, amplifier: Amplifier, acting: Flags) -> CausalHold:
         """The hold of an amplifier; the signals' duty is the healthy control, as given."""
-        clock, levels = Clock.of(signals, amplifier), Levels.of(amplifier)
+        clock, levels = Clock.of(signals, amplifier), DutyLevels.of(amplifier)
         healthy = carried_out(signals.duty, clock, levels, amplifier.slew)
         if amplifier.update_rate is None:
             ticks = np.ones(len(signals), dtype=bool)
@@ -62,7 +62,7 @@ class CausalHold:
     @cached_property
     def unstepped(self) -> CausalHold:
         """The same without the resolution, for what a small change would do."""
-        return replace(self, levels=Levels(self.levels.top, 0.0))
+        return replace(self, levels=DutyLevels(self.levels.top, 0.0))
 
     @cached_property
     def reach(self) -> Array:
@@ -116,7 +116,7 @@ class CausalHold:
         return out
 
 
-def carried_out(given: Array, clock: Clock, levels: Levels, slew: float) -> Array:
+def carried_out(given: Array, clock: Clock, levels: DutyLevels, slew: float) -> Array:
     """(n,) what an amplifier makes of a given duty (n,): the same, bit for bit, where it can.
 
     It is given another duty where that changes, or as soon after as it can be.
@@ -191,5 +191,5 @@ def _first(sorted_: list[int], least: int, none: int) -> int:
 
 def follow(wanted: Array, signals: Signals, amplifier: Amplifier) -> Array:
     """What an amplifier makes of a duty (n,) that it is given."""
-    clock, levels = Clock.of(signals, amplifier), Levels.of(amplifier)
+    clock, levels = Clock.of(signals, amplifier), DutyLevels.of(amplifier)
     return carried_out(wanted, clock, levels, amplifier.slew)

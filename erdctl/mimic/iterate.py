@@ -30,6 +30,7 @@ from erdctl.core.recording import Array, Index
 from erdctl.core.signals import Signals
 from erdctl.mimic.hold import CausalHold
 from erdctl.mimic.inverse import Laws
+from erdctl.mimic.outcome import Flags
 from erdctl.model.composed import Model
 
 COLOURS = 48  # simulations for one derivative, at most
@@ -63,9 +64,13 @@ class Target:
         """(n,) force of the damper under a duty."""
         return self.model.force(self.signals.with_duty(duty), self.values)
 
+    def error(self, duty: Array) -> Array:
+        """(n,) force that is missing under a duty [N]."""
+        return self.ideal - self.force(duty)
+
     def miss(self, duty: Array) -> float:
         """Sum of squared errors under a duty [N^2]."""
-        error = self.ideal - self.force(duty)
+        error = self.error(duty)
         return float(error @ error)
 
     def improved(self, duty: Array) -> tuple[Array, int]:
@@ -88,7 +93,7 @@ class Target:
 class Mesh:
     """Knots of the change of u, and how long an answer lasts.
 
-    colours : knots so far apart do not share a sample
+    colours : knots so far apart do not share a sample;  lasts : samples that an answer lasts
     hats : (n, k) straight lines between knots, sparse;  at : (k,) sample of each knot
     number : (k,) number of each knot in its record
     latest : (n,) number of the last knot that can have acted on a sample;  base : (n,) first knot
@@ -96,6 +101,7 @@ class Mesh:
     """
 
     colours: int
+    lasts: int
     hats: Any
     at: Index
     number: Index
@@ -125,9 +131,10 @@ def _descend(
     best, cost = duty, task.miss(duty)
     mesh = _mesh(State.of(task, u, ceiling), nudge)
     damping, taken = 1e-3, 0
-    lowest = task.miss(task.duty(u))
+    error = task.error(task.duty(u))
+    settled = _settled(task.hold, mesh.lasts)
     for _ in range(STEPS):
-        before = lowest
+        before, lowest = error, float(error @ error)
         state = State.of(task, u, ceiling)
         J = _derivative(state, mesh, nudge)
         g = J.T @ (task.ideal - state.force)
@@ -137,16 +144,36 @@ def _descend(
             step = _solve(A, g, damping, mesh.colours, low, high)
             trial = np.clip(u + mesh.hats @ step, 0.0, ceiling)
             made = task.duty(trial)
-            found = task.miss(made)
+            left = task.error(made)
+            found = float(left @ left)
             if found < lowest:
-                u, lowest, damping, taken = trial, found, damping / 5.0, taken + 1
+                u, error, damping, taken = trial, left, damping / 5.0, taken + 1
                 if found < cost:
                     best, cost = made, found
                 break
             damping *= 6.0
-        if lowest > (1.0 - ENOUGH) * before:
+        if all(_hardly_less(error[at], before[at]) for at in (slice(None), settled)):
             break
     return best, taken
+
+
+def _hardly_less(error: Array, before: Array) -> bool:
+    return float(error @ error) >= (1.0 - ENOUGH) * float(before @ before)
+
+
+def _settled(hold: CausalHold, lasts: int) -> Flags:
+    """(n,) samples at which a fault has acted for longer than answers last, or from the start on.
+
+    Nothing may anticipate an onset. What it leaves for a while is no part of what a step can gain,
+    and may be so much that the gain elsewhere seems small.
+    """
+    acting, starts = hold.acting, hold.clock.starts
+    begins = np.zeros(len(acting), dtype=bool)
+    begins[starts[:-1]] = True
+    onset = acting & ~np.concatenate([[False], acting[:-1]]) & ~begins
+    index = np.arange(len(acting))
+    last = np.maximum.accumulate(np.where(onset, index, np.where(begins, index - lasts, -lasts)))
+    return acting & (index - last >= lasts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -211,7 +238,7 @@ def _mesh(state: State, nudge: float) -> Mesh:
     number = np.concatenate([np.arange(c) for c in counts])
     knots = np.repeat(s.starts[:-1], counts) + number * spacing
     return Mesh(
-        colours=colours,
+        colours=colours, lasts=dead + lasts,
         hats=csr_matrix((weights, (rows, columns)), shape=(len(s), int(first[-1]))),
         at=np.minimum(knots, np.repeat(s.starts[1:] - 1, counts)), number=number,
         # The straight line to a knot begins one spacing before it.

@@ -16,14 +16,14 @@ ON_GRID = 1e-6  # of a step of the resolution: a given duty that is this near is
 
 
 @dataclass(frozen=True)
-class Levels:
+class DutyLevels:
     """The duties that an amplifier knows: 0 to `top`, in steps of the resolution (0 for none)."""
 
     top: float
     step: float
 
     @classmethod
-    def of(cls, amplifier: Amplifier) -> Levels:
+    def of(cls, amplifier: Amplifier) -> DutyLevels:
         """The levels of an amplifier: the highest is the last step below its ceiling."""
         step, top = amplifier.resolution, amplifier.duty_max
         if not step:
