@@ -21,9 +21,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from erdctl.core.recording import DIRECTIONS, Array
+from erdctl.core.recording import DIRECTIONS, Array, Index
 from erdctl.core.signals import Signals
 from erdctl.mimic.hold import CausalHold
+from erdctl.mimic.outcome import Flags
 from erdctl.model.composed import Model
 from erdctl.model.faults import FaultFactors
 from erdctl.model.paper import field_law
@@ -31,6 +32,7 @@ from erdctl.model.response import Prepared
 from erdctl.model.slots import ControlSlot, FieldSlot
 
 NODES = np.linspace(0.0, 1.0, 1501) ** 6  # of a tabulated law, which is steepest where it sets in
+SECANTS = 6  # towards a duty between two that are near each other
 
 
 @dataclass(frozen=True)
@@ -85,6 +87,12 @@ class YieldLaw:
         within = np.where(wanted > 0.0, np.interp(wanted, self.table, self.grid), 0.0)
         return np.where(wanted > self.table[-1], 1.0 + wanted, within)
 
+    def one(self, force: float) -> float:
+        """`duty` of a single force, without an array's cost."""
+        if self.table is not None or not self.sigma > 0.0:
+            return float(self.duty(force))
+        return float((force / self.sigma) ** (1.0 / self.beta)) if force > 0.0 else 0.0
+
     def force(self, duty: float) -> float:
         """Force [N] of a duty."""
         if self.table is None or self.grid is None:
@@ -121,6 +129,66 @@ def static_duty(
     return np.where(up, laws[0].duty(force), laws[1].duty(force))
 
 
+@dataclass(frozen=True, eq=False)
+class _Spans:
+    """Stretches over which a duty is held, and F_ER at their ends: a F + before u_1 + after u_2.
+
+    at, ends : (k,) first sample, and the one at which the next stretch begins or the record ends
+    begins : (k,) it is the first of its record;  up : (k,) direction in which it begins
+    a, before, after : (k,) from Eq. 12, with the yield forces u_1, u_2 [N] of the duty before and
+        after the motion turns, if it does (only the first turn counts; two in one are rare)
+    """
+
+    at: Index
+    ends: Index
+    begins: Flags
+    up: Flags
+    a: Array
+    before: Array
+    after: Array
+
+    @classmethod
+    def of(cls, s: Signals, at: Index, values: Mapping[str, float]) -> _Spans:
+        """The stretches that begin at samples (k,), the starts of all records among them."""
+        T_c, T_r = (max(values[f"{d}.T_d"], 1e-9) for d in DIRECTIONS)
+        record = np.searchsorted(s.starts, at, side="right") - 1
+        ends = np.minimum(np.append(at[1:], len(s) - 1), s.starts[record + 1] - 1)
+        up, (turns, part) = s.compressing[at], s.turns
+        which = np.searchsorted(turns, at)
+        turning = np.append(turns, len(s))[which] < ends
+        k = which[turning]
+        first = s.t[ends] - s.t[at]
+        rest = np.zeros(len(at))
+        moment = s.t[turns[k]] + part[k] * s.step[turns[k]]
+        first[turning], rest[turning] = moment - s.t[at[turning]], s.t[ends[turning]] - moment
+        a_1 = np.exp(-first / np.where(up, T_c, T_r))
+        a_2 = np.exp(-rest / np.where(up, T_r, T_c))
+        begins = np.diff(record, prepend=-1) > 0
+        return cls(at, ends, begins, up, a_1 * a_2, (1.0 - a_1) * a_2, 1.0 - a_2)
+
+
+def _meeting(goal: float, before: float, after: float, law: YieldLaw, turned: YieldLaw) -> float:
+    """The duty whose yield forces before and after a turn give before u_1 + after u_2 = goal."""
+    if not after:
+        return law.one(goal / before)
+    mean = goal / (before + after)
+    low, high = one, other = law.one(mean), turned.one(mean)
+    if low == high:
+        return low
+
+    def missing(v: float) -> float:
+        return before * law.force(v) + after * turned.force(v) - goal
+
+    # Each law alone is short of the goal at one of these duties and beyond it at the other.
+    f_low, f_high = missing(low), missing(high)
+    for _ in range(SECANTS):
+        if f_low == f_high:
+            break
+        low, high, f_low = high, high - f_high * (high - low) / (f_high - f_low), f_high
+        f_high = missing(max(high, 0.0))
+    return min(max(high, min(one, other)), max(one, other))
+
+
 def compensate(
     target: Array, healthy: Prepared, values: Mapping[str, float], laws: Laws, hold: CausalHold
 ) -> Array:
@@ -129,41 +197,41 @@ def compensate(
     While no fault acts, the healthy duty, or the way back to it; F_ER follows that too.
     """
     s = healthy.signals
-    T = [max(values[f"{d}.T_d"], 1e-9) for d in DIRECTIONS]
-    at = np.flatnonzero(hold.ticks | ~hold.acting)
-    record = np.searchsorted(s.starts, at, side="right") - 1
-    ends = np.minimum(np.append(at[1:], len(s) - 1), s.starts[record + 1] - 1)
-    up, control = s.compressing[at], hold.healthy[at]
-    decay = np.exp(-(s.t[ends] - s.t[at]) / np.where(up, T[0], T[1]))
-    undisturbed = np.where(up, laws[0].forces(control), laws[1].forces(control))
+    p = _Spans.of(s, np.flatnonzero(hold.ticks | ~hold.acting), values)
+    at, control = p.at, hold.healthy[p.at]
+    idle = [np.where(up, laws[0].forces(control), laws[1].forces(control)) for up in (p.up, ~p.up)]
+    undisturbed = p.before * idle[0] + p.after * idle[1]
     level, towards, slew = hold.levels.one, hold.levels.towards, hold.slew
     limited = np.isfinite(slew)
     duty = np.empty(len(at))
     state, last, changed = 0.0, 0.0, 0.0
     rows = zip(
-        np.diff(record, prepend=-1).tolist(), hold.acting[at].tolist(), hold.ticks[at].tolist(),
-        control.tolist(), undisturbed.tolist(), target[at].tolist(), target[ends].tolist(),
-        up.tolist(), decay.tolist(), hold.reach[at].tolist(), s.t[at].tolist(), strict=True,
+        p.begins.tolist(), hold.acting[at].tolist(), hold.ticks[at].tolist(), control.tolist(),
+        undisturbed.tolist(), target[at].tolist(), target[p.ends].tolist(), p.up.tolist(),
+        p.a.tolist(), p.before.tolist(), p.after.tolist(), hold.reach[at].tolist(),
+        s.t[at].tolist(), strict=True,
     )  # fmt: skip
-    for k, (begins, acts, tick, v, idle, now, goal, up_k, a, reach, t) in enumerate(rows):
-        law = laws[0 if up_k else 1]
-        if begins:
+    for k, (begin, acts, tick, v, source, now, goal, up, a, c_1, c_2, reach, t) in enumerate(rows):
+        law, turned = laws if up else laws[::-1]
+        if begin:
             # A record begins at the steady force of its first duty.
-            last = level(float(law.duty(now))) if acts else v
+            last = level(law.one(now)) if acts else v
             state, changed, reach = law.force(last), t, np.inf
         wanted = v
-        if acts:
-            ask = (goal - a * state) / (1.0 - a) if a < 1.0 else goal
-            wanted = level(float(law.duty(ask)))
-        elif wanted == last:
-            state = a * state + (1.0 - a) * idle
+        if not acts and wanted == last:
+            state = a * state + source
             duty[k] = last
             continue
+        if acts and tick:
+            ask = goal - a * state
+            wanted = level(_meeting(ask, c_1, c_2, law, turned) if a < 1.0 else law.one(goal))
         if tick:
-            if limited and not begins:
+            if limited and not begin:
                 wanted = towards(last, wanted, reach, slew * (t - changed))
             if wanted != last:
                 last, changed = wanted, t
-        state = a * state + (1.0 - a) * law.force(last)
+        state = a * state + c_1 * law.force(last)
+        if c_2:
+            state += c_2 * turned.force(last)
         duty[k] = last
     return hold.follow(np.repeat(duty, np.diff(np.append(at, len(s)))))
