@@ -91,7 +91,42 @@ class CausalHold:
         elif self.ticks.all():
             return wanted
         at = np.where(self.ticks, np.arange(len(wanted)), 0)
-        return np.asarray(wanted[np.maximum.accumulate(at)])
+        return self._released(wanted[np.maximum.accumulate(at)])
+
+    @cached_property
+    def _released_at(self) -> list[tuple[int, int, int]]:
+        """First healthy sample after each fault, the next tick, and the start of the record."""
+        if self.ticks.all():
+            return []
+        first = np.flatnonzero(self.acting[:-1] & ~self.acting[1:]) + 1
+        starts = self.clock.starts
+        first = first[~np.isin(first, starts)]
+        record = np.searchsorted(starts, first, side="right") - 1
+        ticks = np.append(np.flatnonzero(self.ticks), len(self.ticks))
+        until = np.minimum(ticks[np.searchsorted(ticks, first)], starts[record + 1])
+        return list(zip(first.tolist(), until.tolist(), starts[record].tolist(), strict=True))
+
+    def _released(self, out: Array) -> Array:
+        """`out` (n,), but a tick of a fault that changed nothing holds nothing after its end."""
+        following, healthy = self.clock.next, self.healthy
+        for a, b, start in self._released_at:
+            held = float(out[a])
+            moved = np.flatnonzero(healthy[a:b] != held)
+            if not moved.size:
+                continue
+            h = a + int(moved[0])
+            changed = np.flatnonzero(out[start + 1 : a] != out[start : a - 1])
+            last = start + 1 + int(changed[-1]) if changed.size else start
+            if following[last] > h or healthy[h - 1] != held:
+                continue
+            ends = b in self.clock.starts
+            again = h + int(np.append(0, np.flatnonzero(np.diff(healthy[h:b])) + 1)[-1])
+            if ends or (
+                ((out[b] == healthy[b] and not self.acting[b]) or following[again] <= b)
+                and abs(out[b] - healthy[b - 1]) <= self.reach[b]
+            ):
+                out[h:b] = healthy[h:b]
+        return out
 
     def _slewed(self, wanted: Array) -> Array:
         """(n,) `wanted` at ticks as the slew limit lets it be; other samples are not touched."""
@@ -154,8 +189,8 @@ def _ticks(clock: Clock, healthy: Array, acting: Flags, *, lingers: bool) -> Fla
     out = np.zeros(len(healthy), dtype=bool)
     following, acts = clock.next.tolist(), acting.tolist()
     for a, b in pairwise(clock.starts.tolist()):
-        changes = _risen(healthy[a:b], a)
-        onsets = _risen(acting[a:b].astype(float), a)
+        changes = _edges(healthy[a:b], a)
+        onsets = [i for i in _edges(acting[a:b], a) if acts[i]]
         tick, away = a, acts[a]
         while True:
             out[tick] = True
@@ -177,7 +212,7 @@ def _ticks(clock: Clock, healthy: Array, acting: Flags, *, lingers: bool) -> Fla
     return out
 
 
-def _risen(values: Array, offset: int) -> list[int]:
+def _edges(values: Array | Flags, offset: int) -> list[int]:
     """Samples at which a value is not that of the sample before; `offset` is that of the first."""
     found: list[int] = (np.flatnonzero(values[1:] != values[:-1]) + 1 + offset).tolist()
     return found

@@ -114,6 +114,16 @@ def laws_of(model: Model, values: Mapping[str, float]) -> Laws:
     return (YieldLaw.of(model, values, DIRECTIONS[0]), YieldLaw.of(model, values, DIRECTIONS[1]))
 
 
+def static_force(
+    healthy: Prepared, parts: Mapping[str, Array], g: FaultFactors, laws: Laws
+) -> Array:
+    """(n,) steady yield force [N] in the bracket of Eqs. 27, 31 and 35; below zero none does."""
+    sigma = np.where(healthy.signals.compressing, laws[0].sigma, laws[1].sigma)
+    steady = np.where(healthy.signals.compressing, *healthy.fields) * sigma
+    others = (g.gas - 1.0) * parts["gas"] + (g.viscous - 1.0) * parts["viscous"]
+    return np.asarray(others * np.sign(healthy.sign) + g.yield_ * steady)
+
+
 def static_duty(
     healthy: Prepared,
     parts: Mapping[str, Array],
@@ -121,12 +131,8 @@ def static_duty(
     laws: Laws,
 ) -> Array:
     """(n,) duty by Eqs. 27, 31 and 35, before any limit; zero where the bracket is negative."""
-    up = healthy.signals.compressing
-    sigma = np.where(up, laws[0].sigma, laws[1].sigma)
-    steady = np.where(up, *healthy.fields) * sigma
-    others = (g.gas - 1.0) * parts["gas"] + (g.viscous - 1.0) * parts["viscous"]
-    force = others * np.sign(healthy.sign) + g.yield_ * steady
-    return np.where(up, laws[0].duty(force), laws[1].duty(force))
+    force = static_force(healthy, parts, g, laws)
+    return np.where(healthy.signals.compressing, laws[0].duty(force), laws[1].duty(force))
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,7 +24,7 @@ import numpy as np
 from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
 from erdctl.mimic.hold import CausalHold
-from erdctl.mimic.inverse import Laws, compensate, laws_of, static_duty
+from erdctl.mimic.inverse import Laws, compensate, laws_of, static_duty, static_force
 from erdctl.mimic.outcome import Correction, Flags, Plan, Reach
 from erdctl.model.amplifier import Amplifier
 from erdctl.model.composed import Model
@@ -167,8 +167,10 @@ def _invert(
     rest = sum((f for name, f in parts.items() if name != "yield"), start=np.zeros(len(signals)))
     active = np.abs(healthy.sign) > SMOOTH_SIGN
     sign = np.where(active, healthy.sign, 1.0)
-    target = np.where(active, (ideal - rest) / sign, 0.0)
     laws = laws_of(model, values)
+    # Where the piston stands no yield force shows, but the next stroke begins with it.
+    still = np.maximum(static_force(healthy, parts, g, laws), 0.0)
+    target = np.where(active, (ideal - rest) / sign, still)
     return Inversion(
         ideal=ideal,
         rest=ideal - rest,

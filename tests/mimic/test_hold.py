@@ -77,6 +77,16 @@ def test_after_a_fault_the_phase_of_the_given_duty_is_met_again() -> None:
         assert faults_of(t.tolist(), found.duty.tolist(), declared(amplifier)) == []
 
 
+def test_a_fault_that_changed_nothing_holds_nothing_up() -> None:
+    """The given duty steps right after a fault for which no duty had to change."""
+    t = np.arange(100) * 0.001
+    given = np.where(t < 0.05, 0.3, 0.301)
+    rest = recording(t, np.zeros(100), np.zeros(100), given)
+    found = mimic(PARAMETERS, rest, [parse_fault("oil=0.999999@0.04:0.048")],
+                  Amplifier(update_rate=50.0, resolution=0.001))  # fmt: skip
+    assert np.array_equal(found.duty, given)
+
+
 @pytest.mark.parametrize("kind", ["oil", "electrical", "deformation"])
 def test_a_fault_that_needs_no_change_makes_none(kind: str) -> None:
     t = np.arange(300) * 0.005
