@@ -51,7 +51,7 @@ class CausalHold:
     @classmethod
     def of(cls, signals: Signals, amplifier: Amplifier, acting: Flags) -> CausalHold:
         """The hold of an amplifier; the signals' duty is the healthy control, as given."""
-        clock, levels = Clock.of(signals, amplifier), DutyLevels.of(amplifier)
+        clock, levels = Clock.of(signals, amplifier), DutyLevels.of(amplifier, signals.t)
         healthy = carried_out(signals.duty, clock, levels, amplifier.slew)
         if amplifier.update_rate is None:
             ticks = np.ones(len(signals), dtype=bool)
@@ -62,7 +62,7 @@ class CausalHold:
     @cached_property
     def unstepped(self) -> CausalHold:
         """The same without the resolution, for what a small change would do."""
-        return replace(self, levels=DutyLevels(self.levels.top, 0.0))
+        return replace(self, levels=replace(self.levels, step=0.0))
 
     @cached_property
     def reach(self) -> Array:
@@ -123,7 +123,7 @@ class CausalHold:
             again = h + int(np.append(0, np.flatnonzero(np.diff(healthy[h:b])) + 1)[-1])
             if ends or (
                 ((out[b] == healthy[b] and not self.acting[b]) or following[again] <= b)
-                and abs(out[b] - healthy[b - 1]) <= self.reach[b]
+                and self.levels.within(abs(out[b] - healthy[b - 1]), self.reach[b])
             ):
                 out[h:b] = healthy[h:b]
         return out
@@ -164,7 +164,7 @@ def carried_out(given: Array, clock: Clock, levels: DutyLevels, slew: float) -> 
     size = np.abs(wanted[change] - wanted[change - 1])
     possible = clock.next[previous] <= change
     if np.isfinite(slew):
-        possible &= size <= slew * clock.elapsed[change] * (1.0 + EQUAL)
+        possible &= size <= slew * clock.elapsed[change] * (1.0 + EQUAL) + levels.rounding
     if possible.all():
         return wanted
     out = wanted.copy()
@@ -226,5 +226,5 @@ def _first(sorted_: list[int], least: int, none: int) -> int:
 
 def follow(wanted: Array, signals: Signals, amplifier: Amplifier) -> Array:
     """What an amplifier makes of a duty (n,) that it is given."""
-    clock, levels = Clock.of(signals, amplifier), DutyLevels.of(amplifier)
+    clock, levels = Clock.of(signals, amplifier), DutyLevels.of(amplifier, signals.t)
     return carried_out(wanted, clock, levels, amplifier.slew)

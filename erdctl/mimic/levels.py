@@ -17,18 +17,31 @@ ON_GRID = 1e-6  # of a step of the resolution: a given duty that is this near is
 
 @dataclass(frozen=True)
 class DutyLevels:
-    """The duties that an amplifier knows: 0 to `top`, in steps of the resolution (0 for none)."""
+    """The duties that an amplifier knows: 0 to `top`, in steps of the resolution (0 for none).
+
+    rounding : change that the slew limit allows by the rounding of logged times alone
+    """
 
     top: float
     step: float
+    rounding: float = 0.0
 
     @classmethod
-    def of(cls, amplifier: Amplifier) -> DutyLevels:
-        """The levels of an amplifier: the highest is the last step below its ceiling."""
-        step, top = amplifier.resolution, amplifier.duty_max
-        if not step:
-            return cls(top, 0.0)
-        return cls(float(_of_steps(np.floor(top / step + EQUAL), step)), step)
+    def of(cls, amplifier: Amplifier, t: Array) -> DutyLevels:
+        """The levels of an amplifier over times t (n,) [s].
+
+        The highest is the last step below its ceiling.
+        """
+        step, top, slew = amplifier.resolution, amplifier.duty_max, amplifier.slew
+        # Two times, each rounded: 1e-10 s at the clock of a bench that has run for days.
+        rounding = 2.0 * slew * float(np.spacing(np.abs(t).max())) if np.isfinite(slew) else 0.0
+        if step:
+            top = float(_of_steps(np.floor(top / step + EQUAL), step))
+        return cls(top, step, rounding)
+
+    def within(self, change: float, allowed: float) -> bool:
+        """Whether a change is one that is allowed, but for rounding."""
+        return change <= allowed * (1.0 + EQUAL) + self.rounding
 
     def nearest(self, wanted: Array) -> Array:
         """(n,) the level nearest to each wanted duty."""
@@ -56,20 +69,20 @@ class DutyLevels:
         reach : change that is allowed;  patience : change that the time since the last one allows
         """
         way = target - last
-        if abs(way) <= reach * (1.0 + EQUAL):
+        if self.within(abs(way), reach):
             return target
         if not self.step:
             return last + math.copysign(reach * (1.0 - 1e-12), way)
         # `last` may be a given duty that is a level but for rounding: the change counts, not steps.
         at, up = round(last / self.step), 1 if way > 0 else -1
-        for steps in range(math.floor(reach / self.step + EQUAL), 0, -1):
+        for steps in range(math.floor((reach + self.rounding) / self.step + EQUAL), 0, -1):
             found = float(_of_steps(at + up * steps, self.step))
-            if abs(found - last) <= reach * (1.0 + EQUAL):
+            if self.within(abs(found - last), reach):
                 return found
         found = float(_of_steps(at + up, self.step))
         if abs(target - found) <= ON_GRID * self.step:
             found = target
-        return found if abs(found - last) <= patience * (1.0 + EQUAL) else last
+        return found if self.within(abs(found - last), patience) else last
 
 
 def _of_steps(count: Any, step: float) -> Any:

@@ -116,17 +116,25 @@ def test_healthy_stretches_of_section_6_4_are_as_given() -> None:
             assert (duty[healthy] == 0.3).all()
 
 
+def test_a_given_ramp_at_the_slew_limit_goes_out_on_a_late_clock() -> None:
+    """Times of 1e6 s are rounded by 1e-10 s, which is no reason to be late."""
+    t = 1e6 + np.arange(200) * 0.005
+    for given in (0.1 + 0.001 * np.arange(200), np.round(0.1 + 0.001 * np.arange(200), 3)):
+        amplifier = Amplifier(slew=0.2, resolution=0.001, update_rate=200.0)
+        assert np.array_equal(follow(given, Signals.of(moving(t, given)), amplifier), given)
+
+
 def test_levels_are_the_decimals_that_people_write() -> None:
-    levels = DutyLevels.of(Amplifier(resolution=0.1))
+    levels = DutyLevels.of(Amplifier(resolution=0.1), np.zeros(1))
     assert levels.nearest(np.array([0.29, 0.7])).tolist() == [0.3, 0.4]
     assert levels.top == 0.4
-    assert DutyLevels.of(Amplifier(resolution=0.05)).top == 0.45
+    assert DutyLevels.of(Amplifier(resolution=0.05), np.zeros(1)).top == 0.45
 
 
 def test_one_level_and_many_are_found_alike() -> None:
     random = np.random.default_rng(0)
     for step in (0.0, 0.001, 0.02, 1 / 3, 1 / 1024, 0.013):
-        levels = DutyLevels.of(Amplifier(resolution=step, duty_max=0.4))
+        levels = DutyLevels.of(Amplifier(resolution=step, duty_max=0.4), np.zeros(1))
         wanted = random.uniform(-0.1, 1.1, 500)
         assert levels.nearest(wanted).tolist() == [levels.one(float(w)) for w in wanted]
 
