@@ -22,10 +22,7 @@ from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from erdctl.cli.pictures import Wanted
-    from erdctl.mimic import Plan
     from erdctl.mimic.sequence import PwmSequence
     from erdctl.model.parameters import Parameters
 
@@ -62,6 +59,10 @@ def command(
     max_temperature: Annotated[
         float, typer.Option(metavar="C", help="Refuse a log with a higher temperature (Sec. 5.4).")
     ] = 60.0,
+    ignore_temperature: Annotated[
+        bool,
+        typer.Option("--ignore-temperature", help="Do without the limit on the temperature."),
+    ] = False,
     force: Annotated[
         bool, typer.Option("--force", help="Write even if the log got too hot.")
     ] = False,
@@ -106,7 +107,9 @@ def command(
     from erdctl.core.labels import labels_of
     from erdctl.io import documents, pwm
     from erdctl.io.parameters import parse_parameters
-    from erdctl.mimic.sequence import at_duty, sequence, too_hot
+    from erdctl.io.temperature import guarded
+    from erdctl.mimic.sequence import at_duty, sequence, strain, too_hot
+    from erdctl.mimic.trusted import refuse_untrusted
     from erdctl.model.amplifier import Amplifier
     from erdctl.model.faults import parse_fault
     from erdctl.model.simulate import remarks
@@ -126,6 +129,7 @@ def command(
     faults = [parse_fault(f) for f in fault]
     data = documents.read_bytes(params)
     parameters = parse_parameters(data, "stdin" if params == "-" else params)
+    refuse_untrusted(parameters, "stdin" if params == "-" else params)
     read = read_logs(
         [log],
         maps=maps,
@@ -137,7 +141,13 @@ def command(
         report=say,
     )
     read = labelled(read, labels)
-    heat = too_hot(read.recording, max_temperature)
+    guard = guarded(
+        read, max_temperature, declined=ignore_temperature, say_map="--map {}",
+        say_decline="--ignore-temperature to do without the limit",
+    )  # fmt: skip
+    for line in guard.lines():
+        say(line)
+    heat = None if guard.limit is None else too_hot(read.recording, guard.limit)
     if heat is not None and not force:
         raise InputProblem(f"{heat}; nothing was written (--force overrides, Sec. 5.4)")
     if heat is not None:
@@ -149,13 +159,15 @@ def command(
         found = sequence(
             parameters, recording, faults, amplifier, static=uncompensated, progress=step
         )
+    for line in strain(found):
+        say(line, "warning")
     pwm.write(found, read.table, output, format and format.value)
     if manifest is None and output != "-":
         manifest = f"{output}.manifest.json"
     if manifest is not None:
         document = pwm.manifest(
             found, amplifier=amplifier, parameters_sha256=sha256(data).hexdigest(),
-            faults=[str(f) for f in faults],
+            faults=[str(f) for f in faults], temperature=guard.document(),
         )  # fmt: skip
         documents.write(document, manifest)
     if report is not None:
@@ -173,7 +185,7 @@ def command(
         write_report(page, report)
     if asked:
         _draw(asked, found, parameters)
-    _show(found.plans)
+    _show(found)
 
 
 def _draw(asked: list[Wanted], sequence: PwmSequence, parameters: Parameters) -> None:
@@ -191,10 +203,11 @@ def _draw(asked: list[Wanted], sequence: PwmSequence, parameters: Parameters) ->
         draw(named, of_plan(plan, parameters, sequence.recording, static=sequence.static))
 
 
-def _show(plans: Mapping[str, Plan]) -> None:
-    from erdctl.mimic.sequence import held_back, worth
+def _show(found: PwmSequence) -> None:
+    from erdctl.mimic.sequence import held_back, way_back, worth
     from erdctl.report.text import say, table
 
+    plans = found.plans
     reaches = [(channel, r) for channel, plan in plans.items() for r in plan.reaches]
     corrected = any(r.plain is not None for _, r in reaches)
     plain = ["without effects"] if corrected else []
@@ -210,7 +223,7 @@ def _show(plans: Mapping[str, Plan]) -> None:
         for channel, r in reaches
     ]  # fmt: skip
     table("Expected force against the ideal faulty force, while each fault acts", header, rows)
-    for line in worth(plans):
+    for line in (*worth(plans), *way_back(found)):
         say(line)
     for line in held_back(plans):
         say(f"{line}; --duty-max raises it", "warning")

@@ -13,7 +13,18 @@ from erdctl.interface.arguments import Given, ParametersLike, given_parameters
 from erdctl.interface.display import draw, frame_of, html, option, text
 from erdctl.interface.log import BenchLog, LogLike, Place, log_of, samples, texts
 from erdctl.io import documents, pwm
-from erdctl.mimic.sequence import PwmSequence, at_duty, held_back, sequence, too_hot, worth
+from erdctl.io.temperature import TemperatureGuard, guarded
+from erdctl.mimic.sequence import (
+    PwmSequence,
+    at_duty,
+    held_back,
+    sequence,
+    strain,
+    too_hot,
+    way_back,
+    worth,
+)
+from erdctl.mimic.trusted import refuse_untrusted
 from erdctl.model.amplifier import Amplifier
 from erdctl.model.faults import Fault, parse_fault
 from erdctl.model.simulate import remarks
@@ -34,7 +45,8 @@ class Mimicked:
     """The PWM sequence that mimics faults, and what it reaches; what `erdctl.mimic` gives.
 
     sequence : duties of the four amplifiers in `.duties`, by fl, fr, rl, rr, (n,) [1]
-    log : motion and healthy duty;  amplifier : its limits;  remarks : what was assumed, what the
+    log : motion and healthy duty;  amplifier : its limits;  guard : what held the limit on the
+        temperature;  remarks : what was assumed, what the
         effects of a corrected model are worth, and where the amplifier limits the sequence
     """
 
@@ -43,6 +55,7 @@ class Mimicked:
     given: Given
     faults: tuple[Fault, ...]
     amplifier: Amplifier
+    guard: TemperatureGuard
     remarks: tuple[str, ...]
 
     def to_dict(self) -> dict[str, Any]:
@@ -107,7 +120,7 @@ class Mimicked:
     def _manifest(self) -> dict[str, Any]:
         return pwm.manifest(
             self.sequence, amplifier=self.amplifier, parameters_sha256=self.given.sha256,
-            faults=[str(f) for f in self.faults],
+            faults=[str(f) for f in self.faults], temperature=self.guard.document(),
         )  # fmt: skip
 
     def __repr__(self) -> str:
@@ -141,6 +154,7 @@ def mimic(
     carrier: float = 25_000.0,
     full_scale: float = 5_000.0,
     max_temperature: float | None = 60.0,
+    ignore_temperature: bool = False,
     uncompensated: bool = False,
     date: str | None = None,
     damper: str | None = None,
@@ -159,6 +173,8 @@ def mimic(
         [0..1], fastest change [1/s], how often it can change [Hz]; None for no limit
     carrier, full_scale : PWM frequency [Hz], voltage at duty 1 [V]: for the manifest
     max_temperature : refuse a log in which the damper gets hotter [degC]; None for no limit
+    ignore_temperature : do without that limit, also where a column that was not read looks like a
+        temperature
     uncompensated : the paper's static inverse, which leaves out the lag T_d
     date, damper, operator : of the test, for provenance; a date as ISO 8601
     progress : called with (stage, what) as the work goes on
@@ -182,8 +198,14 @@ def mimic(
     )  # fmt: skip
     chosen = tuple(parse_fault(f) for f in described)
     given = given_parameters(parameters)
+    refuse_untrusted(given.parameters, given.name)
     read = log_of(log, keep_table=True).labelled(date, damper, operator)
-    heat = None if max_temperature is None else too_hot(read.recording, max_temperature)
+    guard = guarded(
+        read.log, math.inf if max_temperature is None else max_temperature,
+        declined=ignore_temperature, say_map="erdctl.read(..., map=[{}]) as the log",
+        say_decline="ignore_temperature=True to do without the limit",
+    )  # fmt: skip
+    heat = None if guard.limit is None else too_hot(read.recording, guard.limit)
     if heat is not None:
         raise InputProblem(f"{heat}; max_temperature=None overrides (Sec. 5.4)")
     recording = at_duty(read.recording, duty, "duty")
@@ -192,5 +214,6 @@ def mimic(
         progress=progress or (lambda stage, what: None),
     )  # fmt: skip
     limited = [f"{line}; duty_max raises it" for line in held_back(found.plans)]
-    said = (*remarks(given.parameters, recording), *worth(found.plans), *limited)
-    return Mimicked(found, read, given, chosen, amplifier, (*read.remarks, *said))
+    seen = (*guard.lines(), *worth(found.plans), *way_back(found), *strain(found), *limited)
+    said = (*remarks(given.parameters, recording), *seen)
+    return Mimicked(found, read, given, chosen, amplifier, guard, (*read.remarks, *said))

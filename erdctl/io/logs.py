@@ -55,6 +55,7 @@ class Log:
     force_model : (n,) [N] if the log has it (only where force is needed or wanted)
     channels : what was read, and from which columns;  unread : columns that were not
     others : (n,) further columns that were asked for and are there
+    units : as the file states them for columns, apart from those in names like `x [mm]`
     """
 
     recording: Recording
@@ -63,6 +64,7 @@ class Log:
     channels: tuple[ColumnMap, ...] = ()
     unread: tuple[str, ...] = ()
     others: dict[str, Array] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
 
 
 def read_logs(
@@ -133,6 +135,7 @@ def read_logs(
         force_model=np.concatenate(models) if len(models) == len(logs) else None,
         channels=tuple(dict.fromkeys(c for log in logs for c in log.channels)),
         unread=tuple(dict.fromkeys(name for log in logs for name in log.unread)),
+        units={name: unit for log in logs for name, unit in log.units.items()},
     )
 
 
@@ -217,6 +220,7 @@ def _read(
         ),
         unread=tuple(c for c in source.columns if c not in {column for column, _ in plan.values()}),
         others=found,
+        units=dict(source.units),
     )
 
 

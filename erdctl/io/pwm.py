@@ -63,9 +63,17 @@ def write_mat(sequence: PwmSequence, path: str) -> None:
 
 
 def manifest(
-    sequence: PwmSequence, *, amplifier: Amplifier, parameters_sha256: str, faults: list[str]
+    sequence: PwmSequence,
+    *,
+    amplifier: Amplifier,
+    parameters_sha256: str,
+    faults: list[str],
+    temperature: dict[str, Any],
 ) -> dict[str, Any]:
-    """What whoever pushes the sequence must know: scale, limits, origin, schedule, reach."""
+    """What whoever pushes the sequence must know: scale, limits, origin, schedule, reach.
+
+    temperature : what held the limit on it, a `TemperatureGuard.document`
+    """
     return {
         "schema": SCHEMA,
         "erdctl": __version__,
@@ -80,6 +88,9 @@ def manifest(
             if amplifier.update_rate is None
             else {"value": amplifier.update_rate, "unit": "Hz"},
         },
+        "check": _check(sequence),
+        "healthy": _healthy(sequence),
+        "temperature": temperature,
         "parameters": {"sha256": parameters_sha256},
         "logs": [
             {"name": s.name, "sha256": s.sha256, "rows": s.rows} for s in sequence.recording.sources
@@ -101,6 +112,10 @@ def manifest(
             for channel, plan in sequence.plans.items()
             for r in plan.reaches
         ],
+        "way_back": [
+            {"channel": channel, "samples": int(np.count_nonzero(at))}
+            for channel, at in sequence.returning.items()
+        ],
         "correction": [
             {
                 "channel": channel,
@@ -115,6 +130,42 @@ def manifest(
             if c is not None
         ],
         **({"provenance": dict(labels)} if (labels := sequence.recording.labels) else {}),
+    }
+
+
+def _check(sequence: PwmSequence) -> dict[str, Any]:
+    """That every duty keeps the limits, checked after the computation, and how near it comes."""
+    return {
+        "held": True,  # else nothing is written
+        "channels": [
+            {
+                "channel": channel,
+                "highest": e.highest,
+                "changes": e.changes,
+                "closest": None if e.closest is None else {"value": e.closest, "unit": "s"},
+                "steepest": None if e.steepest is None else {"value": e.steepest, "unit": "1/s"},
+            }
+            for channel, e in sequence.extremes.items()
+        ],
+    }
+
+
+def _healthy(sequence: PwmSequence) -> dict[str, Any]:
+    """Whether the healthy duty goes out as given, and which limits it breaks where it does not."""
+    given = sequence.recording
+    return {
+        "samples_changed": int(np.count_nonzero(sequence.healthy != given.duty)),
+        "breaks": [
+            {
+                "limit": b.limit,
+                "samples": b.count,
+                "row": b.sample + 1,
+                "time": {"value": float(given.t[b.sample]), "unit": "s"},
+                "value": b.found,
+                "allowed": b.allowed,
+            }
+            for b in sequence.strained
+        ],
     }
 
 

@@ -1,6 +1,7 @@
 """The shapes of the JSON documents that erdctl writes for others to read, and their JSON Schemas.
 
-Parameter and geometry files, which erdctl reads as well, have theirs with their readers.
+Parameter and geometry files, which erdctl reads as well, have theirs with their readers; the
+manifest of a PWM sequence is in `manifest`.
 """
 
 from __future__ import annotations
@@ -11,16 +12,10 @@ from typing import Any, NotRequired, TypedDict
 import msgspec
 
 from erdctl.io import geometry, inspection, parameters
-from erdctl.io.inspection import LogEntry
+from erdctl.io.labels import LabelsDocument
+from erdctl.io.manifest import PwmManifest
 from erdctl.io.parameters import ParameterFile
 from erdctl.io.rig import RigFaultDocument
-
-
-class QuantityDocument(TypedDict):
-    """A number with its unit."""
-
-    value: float | None
-    unit: str
 
 
 class Measured(TypedDict):
@@ -163,14 +158,6 @@ class DiagnosisFile(TypedDict):
     provenance: dict[str, Any]
 
 
-class LabelsDocument(TypedDict, total=False):
-    """What somebody said of the test: date (ISO 8601), damper, operator."""
-
-    date: str
-    damper: str
-    operator: str
-
-
 class ScoreDocument(TypedDict):
     """Misfit of a group of samples; NRMSE is null for an error on a force without range."""
 
@@ -206,65 +193,6 @@ class ValidationFile(ScoreDocument):
     nrmse_by_direction: list[DirectionScore]
     nrmse_by_record: list[RecordScore]
     rig: NotRequired[list[RigFaultDocument]]
-    provenance: NotRequired[LabelsDocument]
-
-
-class LimitsDocument(TypedDict):
-    """Limits of the amplifier; null where there is none."""
-
-    duty_max: float
-    resolution: float
-    slew: QuantityDocument | None
-    update_rate: QuantityDocument | None
-
-
-class Hashed(TypedDict):
-    """The SHA-256 of a file's bytes."""
-
-    sha256: str
-
-
-class Emulation(TypedDict):
-    """How near one fault can be mimicked on one damper: NRMSE and the force out of reach."""
-
-    channel: str
-    fault: str
-    nrmse_compensated: float
-    nrmse_paper: float
-    nrmse_plain: NotRequired[float]
-    out_of_reach: float
-    missing_rms: QuantityDocument
-    missing_max: QuantityDocument
-
-
-class CorrectionDocument(TypedDict):
-    """What the effects beyond the paper are worth for the sequence of one damper."""
-
-    channel: str
-    effects: list[str]
-    effects_of_the_force_channel: list[str]
-    nrmse: float
-    nrmse_plain: float
-    error_removed: float
-    fell_back: bool
-
-
-class PwmManifest(TypedDict):
-    """What whoever pushes a PWM sequence must know."""
-
-    schema: str
-    erdctl: str
-    carrier: QuantityDocument
-    full_scale: QuantityDocument
-    channels: list[str]
-    limits: LimitsDocument
-    parameters: Hashed
-    logs: list[LogEntry]
-    samples: int
-    sequence: str
-    schedule: list[str]
-    emulation: list[Emulation]
-    correction: list[CorrectionDocument]
     provenance: NotRequired[LabelsDocument]
 
 

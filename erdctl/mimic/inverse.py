@@ -20,11 +20,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
-from erdctl.core.recording import DIRECTIONS, Array
+from erdctl.core.recording import DIRECTIONS, Array, Index
 from erdctl.core.signals import Signals
-from erdctl.model.amplifier import Amplifier
+from erdctl.mimic.hold import CausalHold
+from erdctl.mimic.outcome import Flags
 from erdctl.model.composed import Model
 from erdctl.model.faults import FaultFactors
 from erdctl.model.paper import field_law
@@ -32,6 +32,7 @@ from erdctl.model.response import Prepared
 from erdctl.model.slots import ControlSlot, FieldSlot
 
 NODES = np.linspace(0.0, 1.0, 1501) ** 6  # of a tabulated law, which is steepest where it sets in
+SECANTS = 6  # towards a duty between two that are near each other
 
 
 @dataclass(frozen=True)
@@ -86,6 +87,12 @@ class YieldLaw:
         within = np.where(wanted > 0.0, np.interp(wanted, self.table, self.grid), 0.0)
         return np.where(wanted > self.table[-1], 1.0 + wanted, within)
 
+    def one(self, force: float) -> float:
+        """`duty` of a single force, without an array's cost."""
+        if self.table is not None or not self.sigma > 0.0:
+            return float(self.duty(force))
+        return float((force / self.sigma) ** (1.0 / self.beta)) if force > 0.0 else 0.0
+
     def force(self, duty: float) -> float:
         """Force [N] of a duty."""
         if self.table is None or self.grid is None:
@@ -107,6 +114,16 @@ def laws_of(model: Model, values: Mapping[str, float]) -> Laws:
     return (YieldLaw.of(model, values, DIRECTIONS[0]), YieldLaw.of(model, values, DIRECTIONS[1]))
 
 
+def static_force(
+    healthy: Prepared, parts: Mapping[str, Array], g: FaultFactors, laws: Laws
+) -> Array:
+    """(n,) steady yield force [N] in the bracket of Eqs. 27, 31 and 35; below zero none does."""
+    sigma = np.where(healthy.signals.compressing, laws[0].sigma, laws[1].sigma)
+    steady = np.where(healthy.signals.compressing, *healthy.fields) * sigma
+    others = (g.gas - 1.0) * parts["gas"] + (g.viscous - 1.0) * parts["viscous"]
+    return np.asarray(others * np.sign(healthy.sign) + g.yield_ * steady)
+
+
 def static_duty(
     healthy: Prepared,
     parts: Mapping[str, Array],
@@ -114,70 +131,113 @@ def static_duty(
     laws: Laws,
 ) -> Array:
     """(n,) duty by Eqs. 27, 31 and 35, before any limit; zero where the bracket is negative."""
-    up = healthy.signals.compressing
-    sigma = np.where(up, laws[0].sigma, laws[1].sigma)
-    steady = np.where(up, *healthy.fields) * sigma
-    others = (g.gas - 1.0) * parts["gas"] + (g.viscous - 1.0) * parts["viscous"]
-    force = others * np.sign(healthy.sign) + g.yield_ * steady
-    return np.where(up, laws[0].duty(force), laws[1].duty(force))
+    force = static_force(healthy, parts, g, laws)
+    return np.where(healthy.signals.compressing, laws[0].duty(force), laws[1].duty(force))
 
 
-def _updates(signals: Signals, amplifier: Amplifier) -> npt.NDArray[np.bool_]:
-    """(n,) samples at which the duty may change."""
-    out = np.ones(len(signals), dtype=bool)
-    if amplifier.update_rate is not None:
-        for a, b in zip(signals.starts[:-1], signals.starts[1:], strict=True):
-            tick = np.floor((signals.t[a:b] - signals.t[a]) * amplifier.update_rate + 1e-9)
-            out[a + 1 : b] = tick[1:] != tick[:-1]  # the first sample of a record is always one
-    return out
+@dataclass(frozen=True, eq=False)
+class _Spans:
+    """Stretches over which a duty is held, and F_ER at their ends: a F + before u_1 + after u_2.
+
+    at, ends : (k,) first sample, and the one at which the next stretch begins or the record ends
+    begins : (k,) it is the first of its record;  up : (k,) direction in which it begins
+    a, before, after : (k,) from Eq. 12, with the yield forces u_1, u_2 [N] of the duty before and
+        after the motion turns, if it does (only the first turn counts; two in one are rare)
+    """
+
+    at: Index
+    ends: Index
+    begins: Flags
+    up: Flags
+    a: Array
+    before: Array
+    after: Array
+
+    @classmethod
+    def of(cls, s: Signals, at: Index, values: Mapping[str, float]) -> _Spans:
+        """The stretches that begin at samples (k,), the starts of all records among them."""
+        T_c, T_r = (max(values[f"{d}.T_d"], 1e-9) for d in DIRECTIONS)
+        record = np.searchsorted(s.starts, at, side="right") - 1
+        ends = np.minimum(np.append(at[1:], len(s) - 1), s.starts[record + 1] - 1)
+        up, (turns, part) = s.compressing[at], s.turns
+        which = np.searchsorted(turns, at)
+        turning = np.append(turns, len(s))[which] < ends
+        k = which[turning]
+        first = s.t[ends] - s.t[at]
+        rest = np.zeros(len(at))
+        moment = s.t[turns[k]] + part[k] * s.step[turns[k]]
+        first[turning], rest[turning] = moment - s.t[at[turning]], s.t[ends[turning]] - moment
+        a_1 = np.exp(-first / np.where(up, T_c, T_r))
+        a_2 = np.exp(-rest / np.where(up, T_r, T_c))
+        begins = np.diff(record, prepend=-1) > 0
+        return cls(at, ends, begins, up, a_1 * a_2, (1.0 - a_1) * a_2, 1.0 - a_2)
 
 
-def follow(wanted: Array, signals: Signals, amplifier: Amplifier) -> Array:
-    """The sequence (n,) nearest to a wanted duty (n,) that the amplifier can carry out."""
-    update = _updates(signals, amplifier)
-    if amplifier.slew == np.inf and not amplifier.resolution:
-        chosen = np.minimum(wanted, amplifier.duty_max)
-        return np.asarray(
-            chosen[np.maximum.accumulate(np.where(update, np.arange(len(chosen)), 0))]
-        )
-    out = np.empty_like(wanted)
-    last, since = 0.0, np.inf
-    rows = zip(wanted.tolist(), update.tolist(), signals.step.tolist(), strict=True)
-    for i, (w, new, dt) in enumerate(rows):
-        if new:
-            last, since = amplifier.limit(w, last, since), 0.0
-        # The step is 0 at the end of a record: nothing limits the first duty of the next.
-        since = since + dt if dt else np.inf
-        out[i] = last
-    return out
+def _meeting(goal: float, before: float, after: float, law: YieldLaw, turned: YieldLaw) -> float:
+    """The duty whose yield forces before and after a turn give before u_1 + after u_2 = goal."""
+    if not after:
+        return law.one(goal / before)
+    mean = goal / (before + after)
+    low, high = one, other = law.one(mean), turned.one(mean)
+    if low == high:
+        return low
+
+    def missing(v: float) -> float:
+        return before * law.force(v) + after * turned.force(v) - goal
+
+    # Each law alone is short of the goal at one of these duties and beyond it at the other.
+    f_low, f_high = missing(low), missing(high)
+    for _ in range(SECANTS):
+        if f_low == f_high:
+            break
+        low, high, f_low = high, high - f_high * (high - low) / (f_high - f_low), f_high
+        f_high = missing(max(high, 0.0))
+    return min(max(high, min(one, other)), max(one, other))
 
 
 def compensate(
-    target: Array, healthy: Prepared, values: Mapping[str, float], laws: Laws, amplifier: Amplifier
+    target: Array, healthy: Prepared, values: Mapping[str, float], laws: Laws, hold: CausalHold
 ) -> Array:
-    """The duty with which F_ER (n,) meets its target one update ahead, update by update."""
+    """(n,) duty with which F_ER (n,) meets its target one tick ahead, from tick to tick.
+
+    While no fault acts, the healthy duty, or the way back to it; F_ER follows that too.
+    """
     s = healthy.signals
-    T = [max(values[f"{d}.T_d"], 1e-9) for d in DIRECTIONS]
-    at = np.flatnonzero(_updates(s, amplifier))
-    record = np.searchsorted(s.starts, at, side="right") - 1
-    ends = np.minimum(np.append(at[1:], len(s) - 1), s.starts[record + 1] - 1)
-    span = s.t[ends] - s.t[at]
-    up = s.compressing[at]
-    decay = np.exp(-span / np.where(up, T[0], T[1]))
+    p = _Spans.of(s, np.flatnonzero(hold.ticks | ~hold.acting), values)
+    at, control = p.at, hold.healthy[p.at]
+    idle = [np.where(up, laws[0].forces(control), laws[1].forces(control)) for up in (p.up, ~p.up)]
+    undisturbed = p.before * idle[0] + p.after * idle[1]
+    level, towards, slew = hold.levels.one, hold.levels.towards, hold.slew
+    limited = np.isfinite(slew)
     duty = np.empty(len(at))
-    state, last = 0.0, 0.0
+    state, last, changed = 0.0, 0.0, 0.0
     rows = zip(
-        np.diff(record, prepend=-1).tolist(), target[at].tolist(), target[ends].tolist(),
-        up.tolist(), decay.tolist(), span.tolist(), strict=True,
+        p.begins.tolist(), hold.acting[at].tolist(), hold.ticks[at].tolist(), control.tolist(),
+        undisturbed.tolist(), target[at].tolist(), target[p.ends].tolist(), p.up.tolist(),
+        p.a.tolist(), p.before.tolist(), p.after.tolist(), hold.reach[at].tolist(),
+        s.t[at].tolist(), strict=True,
     )  # fmt: skip
-    for k, (begins, now, goal, up_k, a, dt) in enumerate(rows):
-        law = laws[0 if up_k else 1]
-        if begins:
+    for k, (begin, acts, tick, v, source, now, goal, up, a, c_1, c_2, reach, t) in enumerate(rows):
+        law, turned = laws if up else laws[::-1]
+        if begin:
             # A record begins at the steady force of its first duty.
-            last = min(float(law.duty(now)), amplifier.duty_max)
-            state = law.force(last)
-        ask = (goal - a * state) / (1.0 - a) if a < 1.0 else goal
-        last = amplifier.limit(float(law.duty(ask)), last, np.inf if begins else dt)
-        state = a * state + (1.0 - a) * law.force(last)
+            last = level(law.one(now)) if acts else v
+            state, changed, reach = law.force(last), t, np.inf
+        wanted = v
+        if not acts and wanted == last:
+            state = a * state + source
+            duty[k] = last
+            continue
+        if acts and tick:
+            ask = goal - a * state
+            wanted = level(_meeting(ask, c_1, c_2, law, turned) if a < 1.0 else law.one(goal))
+        if tick:
+            if limited and not begin:
+                wanted = towards(last, wanted, reach, slew * (t - changed))
+            if wanted != last:
+                last, changed = wanted, t
+        state = a * state + c_1 * law.force(last)
+        if c_2:
+            state += c_2 * turned.force(last)
         duty[k] = last
-    return np.repeat(duty, np.diff(np.append(at, len(s))))
+    return hold.follow(np.repeat(duty, np.diff(np.append(at, len(s)))))

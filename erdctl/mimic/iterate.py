@@ -28,8 +28,9 @@ from scipy.sparse import csr_matrix
 
 from erdctl.core.recording import Array, Index
 from erdctl.core.signals import Signals
-from erdctl.mimic.inverse import Laws, follow
-from erdctl.model.amplifier import Amplifier
+from erdctl.mimic.hold import CausalHold
+from erdctl.mimic.inverse import Laws
+from erdctl.mimic.outcome import Flags
 from erdctl.model.composed import Model
 
 COLOURS = 48  # simulations for one derivative, at most
@@ -47,7 +48,7 @@ ENOUGH = 2e-3  # a step that improves by a smaller part is the last
 
 @dataclass(frozen=True, eq=False)
 class Target:
-    """What is to be reached, by which damper, under which amplifier.
+    """What is to be reached, by which damper, through which amplifier.
 
     ideal : (n,) force [N];  laws : steady yield laws of either direction
     """
@@ -57,15 +58,19 @@ class Target:
     signals: Signals
     ideal: Array
     laws: Laws
-    amplifier: Amplifier
+    hold: CausalHold
 
     def force(self, duty: Array) -> Array:
         """(n,) force of the damper under a duty."""
         return self.model.force(self.signals.with_duty(duty), self.values)
 
+    def error(self, duty: Array) -> Array:
+        """(n,) force that is missing under a duty [N]."""
+        return self.ideal - self.force(duty)
+
     def miss(self, duty: Array) -> float:
         """Sum of squared errors under a duty [N^2]."""
-        error = self.ideal - self.force(duty)
+        error = self.error(duty)
         return float(error @ error)
 
     def improved(self, duty: Array) -> tuple[Array, int]:
@@ -76,7 +81,7 @@ class Target:
         """(n,) duty for steady yield forces (n,) [N] that the amplifier can carry out."""
         up = self.signals.compressing
         wanted = np.where(up, self.laws[0].duty(u), self.laws[1].duty(u))
-        return follow(wanted, self.signals, self.amplifier)
+        return self.hold.follow(wanted)
 
     def steady(self, duty: Array) -> Array:
         """(n,) steady yield force of a duty (n,) [N]."""
@@ -88,7 +93,7 @@ class Target:
 class Mesh:
     """Knots of the change of u, and how long an answer lasts.
 
-    colours : knots so far apart do not share a sample
+    colours : knots so far apart do not share a sample;  lasts : samples that an answer lasts
     hats : (n, k) straight lines between knots, sparse;  at : (k,) sample of each knot
     number : (k,) number of each knot in its record
     latest : (n,) number of the last knot that can have acted on a sample;  base : (n,) first knot
@@ -96,6 +101,7 @@ class Mesh:
     """
 
     colours: int
+    lasts: int
     hats: Any
     at: Index
     number: Index
@@ -108,10 +114,10 @@ def improve(task: Target, duty: Array) -> tuple[Array, int]:
 
     The given one comes back if none is better.
     """
-    ceiling = task.steady(np.full(len(duty), task.amplifier.duty_max))
+    ceiling = task.steady(np.full(len(duty), task.hold.levels.top))
     u = np.clip(task.steady(duty), 0.0, ceiling)
     nudge = 1e-3 * float(ceiling.max())
-    if nudge == 0.0:
+    if nudge == 0.0 or not task.hold.moments.any():
         return duty, 0
     from threadpoolctl import threadpool_limits
 
@@ -125,9 +131,10 @@ def _descend(
     best, cost = duty, task.miss(duty)
     mesh = _mesh(State.of(task, u, ceiling), nudge)
     damping, taken = 1e-3, 0
-    lowest = task.miss(task.duty(u))
+    error = task.error(task.duty(u))
+    settled = _settled(task.hold, mesh.lasts)
     for _ in range(STEPS):
-        before = lowest
+        before, lowest = error, float(error @ error)
         state = State.of(task, u, ceiling)
         J = _derivative(state, mesh, nudge)
         g = J.T @ (task.ideal - state.force)
@@ -137,16 +144,36 @@ def _descend(
             step = _solve(A, g, damping, mesh.colours, low, high)
             trial = np.clip(u + mesh.hats @ step, 0.0, ceiling)
             made = task.duty(trial)
-            found = task.miss(made)
+            left = task.error(made)
+            found = float(left @ left)
             if found < lowest:
-                u, lowest, damping, taken = trial, found, damping / 5.0, taken + 1
+                u, error, damping, taken = trial, left, damping / 5.0, taken + 1
                 if found < cost:
                     best, cost = made, found
                 break
             damping *= 6.0
-        if lowest > (1.0 - ENOUGH) * before:
+        if all(_hardly_less(error[at], before[at]) for at in (slice(None), settled)):
             break
     return best, taken
+
+
+def _hardly_less(error: Array, before: Array) -> bool:
+    return float(error @ error) >= (1.0 - ENOUGH) * float(before @ before)
+
+
+def _settled(hold: CausalHold, lasts: int) -> Flags:
+    """(n,) samples at which a fault has acted for longer than answers last, or from the start on.
+
+    Nothing may anticipate an onset. What it leaves for a while is no part of what a step can gain,
+    and may be so much that the gain elsewhere seems small.
+    """
+    acting, starts = hold.acting, hold.clock.starts
+    begins = np.zeros(len(acting), dtype=bool)
+    begins[starts[:-1]] = True
+    onset = acting & ~np.concatenate([[False], acting[:-1]]) & ~begins
+    index = np.arange(len(acting))
+    last = np.maximum.accumulate(np.where(onset, index, np.where(begins, index - lasts, -lasts)))
+    return acting & (index - last >= lasts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,7 +191,7 @@ class State:
     @classmethod
     def of(cls, task: Target, u: Array, ceiling: Array) -> State:
         """The state of a task at u."""
-        smooth = replace(task, amplifier=replace(task.amplifier, resolution=0.0))
+        smooth = replace(task, hold=task.hold.unstepped)
         return cls(smooth, u, ceiling, smooth.force(smooth.duty(u)))
 
     def answer(self, change: Array) -> Array:
@@ -181,7 +208,7 @@ def _mesh(state: State, nudge: float) -> Mesh:
     sites = np.concatenate([np.arange(a, b, apart) for a, b in pairwise(s.starts.tolist())])
     # Not at the same phase of a periodic motion.
     sites += (GOLDEN * np.arange(1, len(sites) + 1) % 0.5 * apart).astype(np.intp)
-    sites = np.minimum(sites, len(s) - 1)
+    sites = _moments(np.minimum(sites, len(s) - 1), state.task.hold, apart // 2)
     change = np.zeros(len(s))
     change[sites] = np.where(state.u + nudge > state.ceiling, -nudge, nudge)[sites]
     answer = np.abs(state.answer(change))
@@ -211,13 +238,21 @@ def _mesh(state: State, nudge: float) -> Mesh:
     number = np.concatenate([np.arange(c) for c in counts])
     knots = np.repeat(s.starts[:-1], counts) + number * spacing
     return Mesh(
-        colours=colours,
+        colours=colours, lasts=dead + lasts,
         hats=csr_matrix((weights, (rows, columns)), shape=(len(s), int(first[-1]))),
         at=np.minimum(knots, np.repeat(s.starts[1:] - 1, counts)), number=number,
         # The straight line to a knot begins one spacing before it.
         latest=np.minimum((offset - dead - 1) // spacing + 1, np.repeat(counts, record) - 1),
         base=base,
     )  # fmt: skip
+
+
+def _moments(sites: Index, hold: CausalHold, apart: int) -> Index:
+    """The samples next to sites at which the duty can be another one, where they are far apart."""
+    moments = np.flatnonzero(hold.moments)
+    after = np.searchsorted(moments, sites)
+    found = np.unique(moments[after[after < len(moments)]])
+    return found[np.diff(found, prepend=-apart - 1) > apart]
 
 
 def _derivative(state: State, mesh: Mesh, nudge: float) -> Any:

@@ -62,7 +62,7 @@ class Plan:
     duty, duty_paper : (n,) compensated sequence, and the paper's static inverse
     ideal, expected, expected_paper : (n,) ideal faulty force and what the sequences will give, as
         the force channel records them [N]
-    out_of_reach : (n,) no duty gives the ideal force
+    out_of_reach : (n,) no duty gives the ideal force;  acting : (n,) some fault acts
     limited : part of the time in which the amplifier's limits, not the physics, hold the duty
     correction : what the effects of a corrected model are worth; None if there are none
     """
@@ -73,6 +73,7 @@ class Plan:
     expected: Array
     expected_paper: Array
     out_of_reach: Flags
+    acting: Flags
     limited: float
     reaches: tuple[Reach, ...]
     correction: Correction | None = None

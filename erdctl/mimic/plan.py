@@ -23,7 +23,8 @@ import numpy as np
 
 from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
-from erdctl.mimic.inverse import Laws, compensate, follow, laws_of, static_duty
+from erdctl.mimic.hold import CausalHold
+from erdctl.mimic.inverse import Laws, compensate, laws_of, static_duty, static_force
 from erdctl.mimic.outcome import Correction, Flags, Plan, Reach
 from erdctl.model.amplifier import Amplifier
 from erdctl.model.composed import Model
@@ -72,8 +73,9 @@ def mimic(
     model, left_out = _damper(whole)
     signals = Signals.of(recording)
     g = factors(faults, signals.t, signals.xdot, signals.starts)
-    found = _invert(model, values, signals, g, amplifier)
-    duty_paper = follow(found.wanted, signals, amplifier)
+    hold = CausalHold.of(signals, amplifier, (g.gas < 1.0) | (g.viscous < 1.0) | (g.yield_ < 1.0))
+    found = _invert(model, values, signals, g, hold)
+    duty_paper = hold.follow(found.wanted)
     on = [effectiveness(f, signals.t, signals.xdot, signals.starts) < 1.0 for f in faults]
     acting = [(fault, at) for fault, at in zip(faults, on, strict=True) if at.any()]
 
@@ -83,20 +85,17 @@ def mimic(
     def errors(made: Array) -> list[float]:
         return [nrmse(found.ideal[at], made[at]).nrmse for _, at in acting]
 
-    out = found.target < 0.0
+    out = (found.target < 0.0) & hold.acting
     missing = np.where(out, np.abs(found.rest), 0.0)
     duty, plain, correction = found.compensated, None, None
     if whole.effects:
-        by_paper = _plain(model, values, signals, found.ideal, g, amplifier)
+        by_paper = _plain(model, values, signals, found.ideal, g, hold)
         duty, steps = by_paper, 0
         if model.effects:
-            task = _task(model, values, signals, found, amplifier)
+            task = _task(model, values, signals, found, hold)
             duty, steps = task.improved(min(by_paper, found.compensated, key=task.miss))
         plain = errors(force(by_paper))
-        duty = _no_worse(
-            duty, by_paper, found.ideal, [at for _, at in acting],
-            lambda v: follow(v, signals, amplifier), force,
-        )  # fmt: skip
+        duty = _no_worse(duty, by_paper, found.ideal, [at for _, at in acting], hold.follow, force)
         made, made_plain = force(duty), force(by_paper)
         if acting:
             some = np.logical_or.reduce([at for _, at in acting])
@@ -109,7 +108,7 @@ def mimic(
                 fell_back=bool(model.effects) and duty is by_paper,
             )
         if model.effects:
-            out, missing = _unreached(found, made, force(np.zeros(len(signals))))
+            out, missing = _unreached(found, made, force(np.zeros(len(signals))), hold.acting)
     made, made_paper = force(duty), force(duty_paper)
     figures = zip(acting, errors(made), errors(made_paper), strict=True)
     reaches = tuple(
@@ -137,6 +136,7 @@ def mimic(
         expected_paper=made_paper,
         out_of_reach=out,
         limited=float(np.mean(found.wanted > amplifier.duty_max)),
+        acting=hold.acting,
         reaches=reaches,
         correction=correction,
     )
@@ -159,7 +159,7 @@ def _groups(g: FaultFactors) -> dict[str, Array]:
 
 
 def _invert(
-    model: Model, values: Values, signals: Signals, g: FaultFactors, amplifier: Amplifier
+    model: Model, values: Values, signals: Signals, g: FaultFactors, hold: CausalHold
 ) -> Inversion:
     healthy: Prepared = model.prepare(signals, values)
     parts = healthy.parts(values)
@@ -167,8 +167,10 @@ def _invert(
     rest = sum((f for name, f in parts.items() if name != "yield"), start=np.zeros(len(signals)))
     active = np.abs(healthy.sign) > SMOOTH_SIGN
     sign = np.where(active, healthy.sign, 1.0)
-    target = np.where(active, (ideal - rest) / sign, 0.0)
     laws = laws_of(model, values)
+    # Where the piston stands no yield force shows, but the next stroke begins with it.
+    still = np.maximum(static_force(healthy, parts, g, laws), 0.0)
+    target = np.where(active, (ideal - rest) / sign, still)
     return Inversion(
         ideal=ideal,
         rest=ideal - rest,
@@ -176,7 +178,7 @@ def _invert(
         target=target,
         laws=laws,
         wanted=static_duty(healthy, parts, g, laws),
-        compensated=compensate(target, healthy, values, laws, amplifier),
+        compensated=compensate(target, healthy, values, laws, hold),
     )
 
 
@@ -212,11 +214,11 @@ def _no_worse(
 
 
 def _task(
-    model: Model, values: Values, signals: Signals, found: Inversion, amplifier: Amplifier
+    model: Model, values: Values, signals: Signals, found: Inversion, hold: CausalHold
 ) -> Target:
     from erdctl.mimic.iterate import Target  # only where it is needed: it imports scipy
 
-    return Target(model, values, signals, found.ideal, found.laws, amplifier)
+    return Target(model, values, signals, found.ideal, found.laws, hold)
 
 
 def _plain(
@@ -225,21 +227,21 @@ def _plain(
     signals: Signals,
     ideal: Array,
     g: FaultFactors,
-    amplifier: Amplifier,
+    hold: CausalHold,
 ) -> Array:
     """The duty (n,) of the paper's parameters alone: by formula or iterated, as suits the damper.
 
     damper, ideal : the corrected model, and the faulty force (n,) [N] that it is to make
     """
-    found = _invert(Model(), values, signals, g, amplifier)
+    found = _invert(Model(), values, signals, g, hold)
     if not damper.effects:
         return found.compensated
-    task = _task(Model(), values, signals, found, amplifier)
+    task = _task(Model(), values, signals, found, hold)
     real = replace(task, model=damper, ideal=ideal)
     return min(found.compensated, task.improved(found.compensated)[0], key=real.miss)
 
 
-def _unreached(found: Inversion, made: Array, idle: Array) -> tuple[Flags, Array]:
+def _unreached(found: Inversion, made: Array, idle: Array, acting: Flags) -> tuple[Flags, Array]:
     """Samples (n,) that no duty brings to the ideal force, and the force missing there (n,) [N].
 
     Where the force is already too large with no field at all, and the best sequence misses it too:
@@ -249,5 +251,5 @@ def _unreached(found: Inversion, made: Array, idle: Array) -> tuple[Flags, Array
     """
     ideal, way = found.ideal, found.way
     missed = np.abs(ideal - made) > MISSED * np.ptp(ideal)
-    out = missed & ((ideal - idle) * way < 0.0) & ((ideal - made) * way < 0.0)
+    out = acting & missed & ((ideal - idle) * way < 0.0) & ((ideal - made) * way < 0.0)
     return out, np.where(out, np.minimum(np.abs(ideal - idle), np.abs(ideal - made)), 0.0)

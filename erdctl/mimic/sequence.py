@@ -11,8 +11,9 @@ from erdctl.core.errors import UsageProblem
 from erdctl.core.progress import part_of
 from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
-from erdctl.mimic.inverse import follow
-from erdctl.mimic.outcome import Plan
+from erdctl.mimic.check import Breach, Extremes, breaches, check_limits, place
+from erdctl.mimic.hold import follow
+from erdctl.mimic.outcome import Flags, Plan
 from erdctl.mimic.plan import mimic
 from erdctl.model.amplifier import Amplifier
 from erdctl.model.divergence import refuse_diverged
@@ -29,6 +30,8 @@ class PwmSequence:
     healthy : (n,) healthy duty as the amplifiers carry it out;  duties : (n,) for each of CHANNELS
     plans : for the channels with a fault, at least one
     static : the paper's inverse was chosen in place of the compensated sequence
+    strained : where the healthy duty as given breaks the amplifier's limits
+    extremes : how near each channel comes to the limits, all of which have been checked
     """
 
     recording: Recording
@@ -36,6 +39,16 @@ class PwmSequence:
     duties: Mapping[str, Array]
     plans: Mapping[str, Plan]
     static: bool
+    strained: tuple[Breach, ...]
+    extremes: Mapping[str, Extremes]
+
+    @property
+    def returning(self) -> dict[str, Flags]:
+        """(n,) samples of each faulty channel at which it is on its way back to the healthy duty.
+
+        No fault acts there any more, but the amplifier is not yet where it was.
+        """
+        return {c: ~p.acting & (self.duties[c] != self.healthy) for c, p in self.plans.items()}
 
     def columns(self) -> dict[str, Array]:
         """Columns for the log's own motion; `duty` and forces are the first faulty damper's."""
@@ -62,6 +75,9 @@ def sequence(
     """The sequences of all dampers over a recording's motion; its duty is the healthy control.
 
     static : send the paper's static inverse, Eqs. 27, 31, 35
+
+    Where no fault acts, a channel has the healthy duty as the amplifier carries it out: as given,
+    where that keeps the limits. Raises ComputationProblem if any duty did not.
     """
     by_channel = {c.value: on_channel(faults, c) for c in Corner}
     plans = {}
@@ -76,7 +92,9 @@ def sequence(
     healthy = follow(recording.duty, Signals.of(recording), amplifier)
     duties = dict.fromkeys(by_channel, healthy)
     duties |= {c: p.duty_paper if static else p.duty for c, p in plans.items()}
-    return PwmSequence(recording, healthy, duties, plans, static)
+    given = breaches(recording.duty, recording.t, recording.starts, amplifier)
+    extremes = check_limits(duties, recording, amplifier)
+    return PwmSequence(recording, healthy, duties, plans, static, tuple(given), extremes)
 
 
 def at_duty(recording: Recording, duty: float | None, name: str = "the healthy duty") -> Recording:
@@ -128,6 +146,31 @@ def worth(plans: Mapping[str, Plan]) -> list[str]:
                 " as a log would"
             )
     return out
+
+
+def strain(sequence: PwmSequence) -> list[str]:
+    """What of the healthy duty as given the amplifier cannot carry out, in words."""
+    changed = int(np.count_nonzero(sequence.healthy != sequence.recording.duty))
+    if not changed:
+        return []
+    broken = "; ".join(
+        f"{b} ({b.count} times, first at {place(b, sequence.recording)})" for b in sequence.strained
+    )
+    return [
+        f"the healthy duty breaks the amplifier's limits: {broken or 'by rounding'}; what is sent"
+        f" keeps them, and differs from it in {changed} of {len(sequence.healthy)} samples"
+    ]
+
+
+def way_back(sequence: PwmSequence) -> list[str]:
+    """How long channels take to come back to the healthy duty, in words."""
+    counts = {c: int(np.count_nonzero(at)) for c, at in sequence.returning.items()}
+    return [
+        f"{c}: in {n} samples after a fault's end the amplifier is on its way back to the healthy"
+        " duty"
+        for c, n in counts.items()
+        if n
+    ]
 
 
 def held_back(plans: Mapping[str, Plan]) -> list[str]:

@@ -36,18 +36,3 @@ class Amplifier:
             raise UsageProblem(
                 f"the update rate must be above 0 and at most the carrier, {self.carrier:g} Hz"
             )
-
-    def limit(self, wanted: float, last: float, elapsed: float) -> float:
-        """The duty nearest to `wanted` that can follow `last` after `elapsed` seconds."""
-        reach = self.slew * elapsed if math.isfinite(self.slew) else math.inf
-        low = max(last - reach, 0.0)
-        high = min(last + reach, self.duty_max)
-        if not self.resolution:
-            return min(max(wanted, low), high)
-        first = math.ceil(low / self.resolution - 1e-9)
-        final = math.floor(high / self.resolution + 1e-9)
-        # A slow amplifier may not reach the next step within one update: it stays where it is.
-        if first > final:
-            return last
-        wanted = min(max(wanted, low), high)
-        return min(max(round(wanted / self.resolution), first), final) * self.resolution

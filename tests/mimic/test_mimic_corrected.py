@@ -42,7 +42,7 @@ WORTH = {
     "backlash": 0.05, "deformation_fault": 0.25, "electrical_fault": 0.3, "field_saturation": 0.5,
     "field_threshold": 0.8, "fluid_compressibility": 0.5, "gas_polytropic": 0.15,
     "input_delay": 0.55, "mount_compliance": 0.7, "position_dependent_damping": 0.3,
-    "preyield_viscosity": 0.15, "rise_decay_asymmetry": 0.3, "shear_thinning": 0.3,
+    "preyield_viscosity": 0.12, "rise_decay_asymmetry": 0.3, "shear_thinning": 0.3,
     "signed_yield_lag": 0.5, "supply_slew": 0.3, "yield_hysteresis": 0.6,
 }  # fmt: skip
 
@@ -66,7 +66,9 @@ def parameters(*chosen: Effect) -> Parameters:
     )
 
 
-def plan(*chosen: Effect, fault: str = "oil=0.5@1", amplifier: Amplifier | None = None) -> Plan:
+# From the start of the record: an onset within it may not be anticipated while the damper is still
+# healthy, and the error of the first lags after it is the same for any sequence.
+def plan(*chosen: Effect, fault: str = "oil=0.5", amplifier: Amplifier | None = None) -> Plan:
     faults = [parse_fault(f) for f in fault.split()]
     return mimic(parameters(*chosen), drive(), faults, amplifier or Amplifier())
 
@@ -85,8 +87,7 @@ def test_never_worse_than_the_plain_sequence(effect: Effect) -> None:
     alone = plan().duty
     made = parameters(effect).model.force(_signals(alone), parameters(effect).values)
     if not c.left_out:
-        on = drive().t >= 1.0
-        miss = np.sqrt(np.mean((found.ideal - made)[on] ** 2)) / np.ptp(found.ideal[on])
+        miss = np.sqrt(np.mean((found.ideal - made) ** 2)) / np.ptp(found.ideal)
         assert c.plain <= miss + 1e-12
 
 
@@ -116,7 +117,7 @@ def test_several_faults_and_a_real_amplifier() -> None:
     amplifier = Amplifier(resolution=0.005, slew=20.0, update_rate=100.0)
     found = plan(
         get("input_delay"), get("signed_yield_lag"),
-        fault="oil=0.5@1:2 electrical=0.6@2:3 deformation=0.7@3", amplifier=amplifier,
+        fault="oil=0.5@0:2 electrical=0.6@2:3 deformation=0.7@3", amplifier=amplifier,
     )  # fmt: skip
     assert found.correction is not None
     assert found.correction.removed > 0.2
