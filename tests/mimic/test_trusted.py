@@ -16,7 +16,7 @@ from erdctl.core.errors import InputProblem
 WRONG = {"code": "force_sign", "record": None, "text": "reversed", "remedy": "", "blocks": True}
 
 
-@pytest.mark.parametrize("record, refused", [(None, True), ("r03", False)])
+@pytest.mark.parametrize(("record", "refused"), [(None, True), ("r03", False)])
 def test_mimic_with_them(record: str | None, refused: bool, tmp_path: Path) -> None:
     document = json.loads((FIXTURES / "table_2.json").read_text())
     document.setdefault("provenance", {})["rig"] = [{**WRONG, "record": record}]
