@@ -115,7 +115,7 @@ def _subject(
     from erdctl.io.parameters import read_parameters
     from erdctl.model.simulate import simulate
     from erdctl.report.subject import Subject
-    from erdctl.report.subjects import about, located, of_faults, programme
+    from erdctl.report.subjects import about, located, of_faults, overlay, programme
 
     recording, modelled, earlier, cases, parameters = log.recording, log.force_model, None, {}, None
     if params is not None:
@@ -137,6 +137,7 @@ def _subject(
         programme=programme(log.others),
         regions=() if not regions or missing is None else located(recording, missing),
         about=about(recording),
+        overlay=overlay(recording),
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from erdctl.bench.strokes import varied
 from erdctl.core.recording import Array, Index
 from erdctl.report import style, thin
+from erdctl.score.nrmse import Codes
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -27,49 +29,78 @@ BEHIND = 0.55  # white in the colour of dots with a line over them
 VECTOR = 3000  # points beyond which a drawing program would rather have pixels
 
 
-def points(ax: Axes, subject: Subject, across: str, force: Array, name: str) -> None:
-    """All samples as dots, coloured by PWM level; thinned without losing outline or extremes.
+@dataclass(frozen=True, eq=False)
+class Groups:
+    """What samples are told apart by: the PWM level, or of several logs the log.
 
-    The lowest level lies on top: higher ones reach beyond it, and would cover it.
+    code : (n,) of each sample;  labels, colours : of each group;  title : of the legend
+    """
+
+    title: str
+    code: Codes
+    labels: list[str]
+    colours: list[Any]
+
+
+def groups(subject: Subject) -> Groups:
+    """The groups of a subject."""
+    if subject.overlay is not None:
+        names = list(subject.overlay.names)
+        from matplotlib.colors import to_rgb
+
+        colours = [to_rgb(colour) for colour, _ in style.series(len(names) + 1)[1:]]
+        return Groups("log", subject.overlay.code, names, colours)
+    return _levels(subject)
+
+
+def _levels(subject: Subject) -> Groups:
+    levels = [style.percent(v) for v in subject.levels.tolist()]
+    return Groups("PWM duty", subject.codes, levels, list(style.shades(len(levels))))
+
+
+def points(ax: Axes, subject: Subject, across: str, force: Array, name: str) -> None:
+    """All samples as dots, coloured by group; thinned without losing outline or extremes.
+
+    The lowest PWM level lies on top: higher ones reach beyond it, and would cover it.
     """
     pale = BEHIND if subject.modelled is not None else 0.1  # white mixed in
-    r, codes, levels = subject.recording, subject.codes, subject.levels
+    r, told = subject.recording, groups(subject)
     fx, fy = style.AXES[across].scale, style.AXES["force"].scale
     values = getattr(r, across)
-    kept = thin.outline(values, force, codes, len(levels))
-    for level, colour, rows in zip(levels.tolist(), style.shades(len(levels)), kept, strict=True):
+    kept = thin.outline(values, force, told.code, len(told.labels))
+    for i, (label, colour, rows) in enumerate(zip(told.labels, told.colours, kept, strict=True)):
         ax.plot(
             values[rows] * fx, force[rows] * fy, ls="none", marker="s", ms=0.96, mew=0,
-            antialiased=False, color=style.tinted(colour, pale), zorder=1.6 - 0.1 * level,
+            antialiased=False, color=style.tinted(colour, pale), zorder=1.6 - 0.1 * i / len(kept),
             rasterized=len(rows) > VECTOR,
-            label=f"{name} {style.percent(level)}",
+            label=f"{name} {label}",
         )  # fmt: skip
 
 
 def lines(ax: Axes, subject: Subject, across: str, force: Array, name: str, **how: Any) -> None:
-    """Typical cycles of each PWM level as closed loops; the chosen ones differ most."""
+    """Typical cycles of each group as closed loops; the chosen ones differ most."""
     fx, fy = style.AXES[across].scale, style.AXES["force"].scale
     values = getattr(subject.recording, across)
-    colours = style.shades(len(subject.levels))
-    for code, level in enumerate(subject.levels.tolist()):
+    told = groups(subject)
+    for code, label in enumerate(told.labels):
         x, y = thin.joined(typical(subject, force, code), values, force)
-        options = {"color": colours[code], "lw": 1.1, **how}
+        options = {"color": told.colours[code], "lw": 1.1, **how}
         ax.plot(
             x * fx,
             y * fy,
-            label=f"{name} {style.percent(level)}",
-            zorder=2.6 - 0.1 * level,
+            label=f"{name} {label}",
+            zorder=2.6 - 0.1 * code / len(told.labels),
             **options,
         )
 
 
 def typical(subject: Subject, force: Array, code: int, most: int = LOOPS) -> list[Index]:
-    """Samples of the cycles of one PWM level that differ most in stroke, speed and force.
+    """Samples of the cycles of one group that differ most in stroke, speed and force.
 
     The cycles with the highest and the lowest force are among them. Where the duty changes within
     every cycle, the parts at that level; where there is no cycle, all samples in their order.
     """
-    r, codes = subject.recording, subject.codes
+    r, codes = subject.recording, groups(subject).code
     first, end = subject.cycles
     here = np.concatenate([[0], np.cumsum(codes == code)])
     share = (here[end] - here[first]) / np.maximum(end - first, 1)
@@ -120,16 +151,24 @@ def clock(subject: Subject, ax: Axes) -> Array:
     return r.t + np.repeat(seams[:-1] - begin, np.diff(r.starts))
 
 
+def key_of_groups(out: Figure, subject: Subject, others: Sequence[Artist]) -> None:
+    """The legend at the right: what dots and lines are, and the colours of the groups."""
+    _key(out, groups(subject), others)
+
+
 def key_of_levels(out: Figure, subject: Subject, others: Sequence[Artist]) -> None:
-    """The legend at the right: what dots and lines are, and the shades of the PWM levels."""
+    """The same, with the shades of the PWM levels in any case."""
+    _key(out, _levels(subject), others)
+
+
+def _key(out: Figure, told: Groups, others: Sequence[Artist]) -> None:
     from matplotlib.lines import Line2D
 
-    colours = style.shades(len(subject.levels))
     marks = [
-        Line2D([], [], color=c, lw=5, solid_capstyle="butt", label=style.percent(v))
-        for v, c in zip(subject.levels.tolist(), colours, strict=True)
+        Line2D([], [], color=c, lw=5, solid_capstyle="butt", label=label)
+        for label, c in zip(told.labels, told.colours, strict=True)
     ]
-    title = Line2D([], [], ls="none", label="PWM duty")
+    title = Line2D([], [], ls="none", label=told.title)
     out.legend(handles=[*others, title, *marks], loc="outside right center")
 
 

@@ -44,6 +44,14 @@ class Programme:
     out_of_reach: Flags
 
 
+@dataclass(frozen=True, eq=False)
+class Overlay:
+    """Several logs in one picture.  code : (n,) which of them a sample is of;  names : of each"""
+
+    code: Codes
+    names: tuple[str, ...]
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Subject:
     """One thing to draw; whatever is None or empty is not there.
@@ -54,6 +62,7 @@ class Subject:
     regions : where a misfit was located, the sharpest first
     names : of the measured and of the modelled force, and of the model before
     about : a line on where this comes from
+    overlay : several logs to tell apart; None for one
     """
 
     recording: Recording
@@ -66,6 +75,7 @@ class Subject:
     regions: tuple[Region, ...] = ()
     names: tuple[str, str, str] = ("measured", "model", "model before")
     about: str = ""
+    overlay: Overlay | None = None
 
     @property
     def measured(self) -> Array | None:
@@ -128,7 +138,7 @@ def cut(subject: Subject, rows: Index) -> Subject:
     def of(values: Array | None) -> Array | None:
         return None if values is None else values[rows]
 
-    p = subject.programme
+    p, several = subject.programme, subject.overlay
     return replace(
         subject,
         recording=r.take(rows, starts.astype(np.intp), names),
@@ -137,6 +147,7 @@ def cut(subject: Subject, rows: Index) -> Subject:
         cases={name: force[rows] for name, force in subject.cases.items()},
         acting={name: flags[rows] for name, flags in subject.acting.items()},
         programme=None if p is None else Programme(p.healthy[rows], p.out_of_reach[rows]),
+        overlay=None if several is None else Overlay(several.code[rows], several.names),
     )
 
 

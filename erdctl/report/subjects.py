@@ -12,7 +12,7 @@ from erdctl.core.recording import Array, Recording
 from erdctl.model.effect import Variable
 from erdctl.model.faults import effectiveness
 from erdctl.model.simulate import simulate
-from erdctl.report.subject import Programme, Subject
+from erdctl.report.subject import Overlay, Programme, Subject
 
 if TYPE_CHECKING:
     from erdctl.diagnose.diagnosis import Diagnosis
@@ -21,6 +21,15 @@ if TYPE_CHECKING:
     from erdctl.model.parameters import Parameters
 
 PROGRAMME = ("duty_healthy", "out_of_reach")  # columns of a log that mimic wrote
+
+
+def overlay(recording: Recording) -> Overlay | None:
+    """Which log each sample is of; None of a single one."""
+    sources = recording.sources
+    if len(sources) < 2 or sum(s.rows for s in sources) != len(recording):
+        return None
+    code = np.repeat(np.arange(len(sources), dtype=np.int16), [s.rows for s in sources])
+    return Overlay(code, tuple(s.name for s in sources))
 
 
 def about(recording: Recording) -> str:

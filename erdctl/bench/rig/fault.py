@@ -81,7 +81,7 @@ class Rig:
         for f in self.faults:
             where = "" if f.record is None or only else f"record '{self.name_of(f)}': "
             out.append(f"{where}{f.text}; {f.remedy}")
-        if self.looked < 1.0 and self.faults:
+        if self.looked < 1.0:
             out.append(f"looked at {100 * self.looked:.0f} % of the samples, in even stretches")
         return out
 

@@ -33,7 +33,7 @@ def before_after(figure: Figure, subject: Subject) -> None:
         missed = nrmse(subject.measured, force)
         panels[0, column].set_title(f"{name}\nNRMSE {missed.nrmse:.4f}, {missed.rms:.3g} N rms")
     key = [draw.mark(measured, **draw.DOTS), draw.mark("model", color=style.INK, lw=1.3)]
-    draw.key_of_levels(figure, subject, key)
+    draw.key_of_groups(figure, subject, key)
 
 
 PICTURE = Picture(

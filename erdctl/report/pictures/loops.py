@@ -28,7 +28,7 @@ def loops(figure: Figure, subject: Subject) -> None:
         key.append(draw.mark(measured, **draw.DOTS))
     if subject.modelled is not None:
         key.append(draw.mark(modelled, color=style.INK, lw=1.3))
-    draw.key_of_levels(figure, subject, key)
+    draw.key_of_groups(figure, subject, key)
 
 
 def still(subject: Subject) -> str | None:

@@ -36,7 +36,7 @@ def static(figure: Figure, subject: Subject) -> None:
     key = [draw.mark("model", color=style.INK, lw=1.3)]
     if subject.measured is not None:
         key.insert(0, draw.mark(subject.names[0], **draw.DOTS))
-    draw.key_of_levels(figure, subject, key)
+    draw.key_of_groups(figure, subject, key)
 
 
 def _lags(subject: Subject) -> str:
