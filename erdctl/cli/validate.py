@@ -109,7 +109,7 @@ def command(
         with progress() as step:
             modelled = simulate(parameters, log.recording, progress=step)
     log = labelled(log, labels)
-    rig = look(log.recording).accept(accept)
+    rig = look(log.recording, modelled).accept(accept)
     show(rig)
     found = validate(log.recording, modelled, Normalise(normalise))
     if as_json:

@@ -144,6 +144,6 @@ def validate(
             "the log has no column force_model; give parameters before it",
             file=r.sources[0].name if r.sources else None,
         )
-    rig = look(r)
+    rig = look(r, modelled)
     said = (*said, *rig.lines())
     return Validated(scores_of(r, modelled, over), given, modelled, found, said, rig)

@@ -6,16 +6,40 @@ use of the recording.
 
 from __future__ import annotations
 
-from erdctl.bench.rig import clipping, frozen, losses, scale, sign, spikes, unlike, velocity
+from dataclasses import replace
+
+from erdctl.bench.rig import (
+    against_model,
+    clipping,
+    frozen,
+    losses,
+    scale,
+    sign,
+    spikes,
+    unlike,
+    velocity,
+)
 from erdctl.bench.rig.fault import Rig, RigFault, sound
 from erdctl.bench.rig.pieces import pieces
-from erdctl.core.recording import Recording
+from erdctl.core.recording import Array, Recording
 
 __all__ = ["Rig", "RigFault", "look"]
 
 
-def look(recording: Recording) -> Rig:
-    """Look for faults of the rig in a recording, with force or without; nothing is repaired."""
+def look(recording: Recording, modelled: Array | None = None) -> Rig:
+    """Look for faults of the rig in a recording, with force or without; nothing is repaired.
+
+    modelled : (n,) force of a model that is known to be of this damper [N]
+    """
+    found = _look(recording)
+    if modelled is None:
+        return found
+    codes = {f.code for f in found.faults}
+    more = [f for f in against_model.check(recording, modelled) if f.code not in codes]
+    return replace(found, faults=(*found.faults, *more))
+
+
+def _look(recording: Recording) -> Rig:
     found = pieces(recording)
     looked = sum(len(p) for p in found) / max(len(recording), 1)
     if not found:
