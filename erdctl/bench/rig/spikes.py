@@ -38,7 +38,7 @@ def check(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault] = ()
         width = spread(values)
         if width == 0.0:
             continue
-        at, height = _standing_out(values)
+        at, height = _standing_out(values, smooth=channel == "x")
         at, height = at[(free := ~known[p.first + at])], height[free]
         noise = white_noise(values)[0]
         if channel == "force":
@@ -128,10 +128,11 @@ def _apart(height: Array, most: int) -> float:
     return float(ordered[gap[-1]]) if len(gap) else np.inf
 
 
-def _standing_out(values: Array) -> tuple[Index, Array]:
+def _standing_out(values: Array, *, smooth: bool) -> tuple[Index, Array]:
     """Samples (k,) of (n,) beyond everything on either side of them, and (k,) by how much.
 
     A step or an edge lies between its two sides; only what returns stands out.
+    smooth : held against the straight line through its surroundings, which a motion follows
     """
     n = len(values)
     if n < 2 * HALF + 1:
@@ -141,8 +142,15 @@ def _standing_out(values: Array) -> tuple[Index, Array]:
     centre = np.flatnonzero(d2 > 5.0 * scale) + 1
     centre = centre[(centre >= HALF) & (centre < n - HALF)]
     offsets = np.array([k for k in range(-HALF, HALF + 1) if abs(k) > WIDE])
-    around = values[centre[:, None] + offsets]
-    low, high = around.min(axis=1), around.max(axis=1)
-    height = np.maximum(values[centre] - high, low - values[centre])
+    around, own = values[centre[:, None] + offsets], values[centre]
+    if smooth and len(centre):
+        half = len(offsets) // 2
+        left, right = np.median(around[:, :half], axis=1), np.median(around[:, half:], axis=1)
+        middle = float(np.median(offsets[half:]))
+        around = around - np.outer((right - left) / (2.0 * middle), offsets)
+    # But for the highest and the lowest, which may be the next spike.
+    around = np.partition(around, (1, around.shape[1] - 2), axis=1)
+    low, high = around[:, 1], around[:, -2]
+    height = np.maximum(own - high, low - own)
     kept = height > OVER * (high - low)
     return centre[kept], height[kept]
