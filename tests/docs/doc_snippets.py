@@ -124,10 +124,12 @@ def workplace(folder: Path) -> Path:
 def run(command: str, work: Path) -> subprocess.CompletedProcess[str]:
     """Run shell commands in a workplace; what they print on either stream is in `stdout`."""
     place(work, command)
+    # Test workers are told of 80 columns; a document shows what a pipe gets, which has no width.
+    world = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
     path = f"{work.parent / 'bin'}{os.pathsep}{os.environ['PATH']}"
     return subprocess.run(
         ["bash", "-euo", "pipefail", "-c", command.replace("/tmp/", f"{work}/")],
-        cwd=work, env={**os.environ, "PATH": path, "HOME": str(work.parent)},
+        cwd=work, env={**world, "PATH": path, "HOME": str(work.parent)},
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, stdin=subprocess.DEVNULL,
     )  # fmt: skip
 
