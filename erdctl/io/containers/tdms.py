@@ -79,6 +79,9 @@ def write(records: Sequence[tuple[str | None, Columns]], stream: BinaryIO) -> No
         objects.append(tdms.GroupObject(group, {} if name is None else {_MARK: name}))
         for column in columns:
             properties = {} if column.unit is None else {UNIT: column.unit}
-            objects.append(tdms.ChannelObject(group, column.name, column.values, properties))
+            values = column.values
+            if values.dtype == np.float16:  # which the format does not know
+                values = values.astype(np.float32)
+            objects.append(tdms.ChannelObject(group, column.name, values, properties))
     with tdms.TdmsWriter(stream) as writer:
         writer.write_segment(objects)
