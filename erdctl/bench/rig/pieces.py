@@ -15,6 +15,7 @@ MOST = 500_000  # samples that are looked at; of a longer log, even stretches
 STRETCHES = 100  # of a longer log
 THIN = 3_000  # samples that a percentile is taken of
 RECORDS = 200  # records that are looked at, evenly
+STEP = 0.02  # of the duty, that a force answers visibly
 NEAR = 8  # samples next to a reversal or a duty step, where a force may jump
 
 
@@ -81,6 +82,11 @@ class Piece:
     def near(self) -> npt.NDArray[np.bool_]:
         """(n,) samples next to a reversal or a duty step, or at which the piston hardly moves."""
         return self.turning(max(NEAR, round(0.01 / self.step)) if self.step > 0 else NEAR)
+
+    def stepped(self, reach: int) -> npt.NDArray[np.bool_]:
+        """(n,) samples so near to a step of the duty that the force may overshoot."""
+        step = np.abs(np.diff(self.of("duty"), prepend=self.of("duty")[:1])) > STEP
+        return widened(step, reach)
 
     def turning(self, reach: int) -> npt.NDArray[np.bool_]:
         """The same, with so many samples on either side of a reversal or a duty step."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from erdctl.bench.rig.fault import RigFault, marked
-from erdctl.bench.rig.pieces import Piece, spread, white_noise, widened
+from erdctl.bench.rig.pieces import NEAR, Piece, spread, white_noise, widened
 from erdctl.core.recording import Array, Index
 
 HALF = 8  # samples on either side that a spike is held against
@@ -43,7 +43,7 @@ def check(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault] = ()
         noise = white_noise(values)[0]
         if channel == "force":
             # Where the piston turns, or touches rest, a sound force jumps there and back.
-            away = ~p.turning(WIDE + 1)[at]
+            away = ~(p.turning(WIDE + 1) | p.stepped(2 * NEAR))[at]
             at, height = at[away], height[away]
         least = (RANGE if channel == "force" else RANGE_X) * width
         apart = _apart(height, round(RARE * len(p)))
