@@ -16,6 +16,8 @@ SIGMAS = 8.0
 OVER = 3.0  # times what its surroundings vary by: noise with a memory has peaks, too
 RANGE = 0.04  # of the channel's range
 RANGE_X = 0.004  # the same of x, of which smaller ones harm
+# Samples of all spikes, and the part of the stroke that most are within.
+RECURRING, ONE_PLACE = 20, 0.1
 RARE = 0.01  # of the samples, at most
 APART = 2.5  # times the next smaller one that is left
 UNITS = {"force": (1.0, "N"), "x": (1e3, "mm")}
@@ -30,7 +32,21 @@ PER_STROKE = 0.4  # bursts for each reversal, from which they belong to the moti
 
 
 def check(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault] = ()) -> list[RigFault]:
-    """Spikes of force or x, record by record; not where the channel is clipped."""
+    """Spikes of force or x, record by record; not where the channel is clipped.
+
+    Spikes of the force that come back at one deflection are a bore's, and no cable's.
+    """
+    out = _spikes(found, channel, clipped)
+    if channel != "force" or not out:
+        return out
+    r = found[0].recording
+    at = r.x[np.concatenate([f.samples for f in out if f.samples is not None])]
+    recur = sum(len(f.samples) for f in out if f.samples is not None) >= RECURRING
+    gathered = np.subtract(*np.percentile(at, [90.0, 10.0])) < ONE_PLACE * spread(r.x)
+    return [] if recur and gathered else out
+
+
+def _spikes(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault]) -> list[RigFault]:
     known = marked(found[0].recording, clipped)
     out = []
     for p in found:

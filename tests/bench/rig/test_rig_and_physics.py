@@ -14,7 +14,7 @@ from erdctl.io.logs import read_logs
 LEFT_OUT = {"clipped_channel"}  # a fault of the rig, which the plant also draws
 
 
-@pytest.mark.parametrize("seed", range(410_000, 410_008))
+@pytest.mark.parametrize("seed", range(410_000, 410_006))
 def test_a_log_of_the_plant(seed: int) -> None:
     case = plant.draw(seed)
     sink = io.BytesIO()

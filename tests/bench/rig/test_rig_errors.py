@@ -54,7 +54,7 @@ def test_a_good_log_has_no_fault(good: Recording) -> None:
 
 @pytest.mark.parametrize("name", ERRORS)
 def test_error_is_seen(good: Recording, name: str) -> None:
-    for seed in range(2):
+    for seed in range(1):
         spoiled = ERRORS[name].spoil(good, np.random.default_rng(seed))
         rig = look(spoiled)
         assert seen(ERRORS[name], spoiled, rig), rig.lines()
