@@ -9,8 +9,8 @@ import numpy as np
 from erdctl.bench.rig.fault import RigFault
 from erdctl.bench.rig.pieces import Piece
 
-# Part of the power's magnitude. A damper takes 0.4 to 1 of it once its spring is taken away; a short
-# record of few strokes may seem to give back some.
+# Part of the power's magnitude. A damper takes 0.4 to 1 of it once its spring is taken away; a
+# short record of few strokes may seem to give back some.
 GIVEN_BACK = -0.35
 REMEDY = (
     'if the force was recorded positive in extension, give --map "force=-force"; if the motion was,'
