@@ -14,6 +14,7 @@ from erdctl.core.recording import Array
 
 LEAST_RECORDS = 4
 SAMPLES, TRIED = 60_000, 8_000  # that the model is fitted to, and tried on
+STEPS = 2_000  # of the duty; a control that never rests shows no lag of its own
 LAGS, EXPONENTS = (0.01, 0.0, 0.03, 0.1), (0.5, 0.35, 0.7, 1.0, 1.4)  # T_d [s] and beta [1]
 
 
@@ -46,12 +47,16 @@ def first_of_each(found: Sequence[Piece]) -> list[Piece]:
 def _yield_force(p: Piece, T_d: float, beta: float) -> Array:
     """(n,) yield force of Eqs. 12 and 18 for sigma = 1, settled where the stretch begins."""
     field = p.of("duty") ** beta
-    if T_d == 0.0 or not np.ptp(field):
+    steps = np.flatnonzero(np.diff(field)) + 1
+    if T_d == 0.0 or not len(steps) or len(steps) > STEPS:
         return field
+    # Step by step, without a filter of SciPy, whose import takes longer than all checks together.
     keep = float(np.exp(-p.step / T_d))
-    from scipy.signal import lfilter
-
-    out: Array = lfilter([1.0 - keep], [1.0, -keep], field, zi=[keep * field[0]])[0]
+    out, now = field.copy(), float(field[0])
+    for first, end in zip(steps.tolist(), [*steps[1:].tolist(), len(field)], strict=True):
+        held = float(field[first])
+        out[first:end] = held + (now - held) * keep ** np.arange(1, end - first + 1)
+        now = float(out[end - 1])
     return out
 
 

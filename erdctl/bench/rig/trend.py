@@ -18,14 +18,22 @@ class Away:
     """A number against the trend of the others.
 
     index : which;  difference : from the trend;  scatter : of the others about it
-    student : the one over the other, with what the trend itself is uncertain by;  chance : of that
+    student : the one over the other, with what the trend itself is uncertain by
+    free : degrees of freedom of the scatter
     """
 
     index: int
     difference: float
     scatter: float
     student: float
-    chance: float
+    free: int
+
+    @property
+    def chance(self) -> float:
+        """Of so large a number, either way, among values that are alike (Student's t)."""
+        from scipy.special import stdtr
+
+        return 2.0 * float(stdtr(self.free, -abs(self.student)))
 
 
 def studentised(values: Array, trend: Array, prior: float = 0.0) -> list[Away]:
@@ -40,8 +48,6 @@ def studentised(values: Array, trend: Array, prior: float = 0.0) -> list[Away]:
     >>> round(found[4].student, 3)
     10.954
     """
-    from scipy.special import stdtr
-
     out = []
     for i in range(len(values)):
         others = np.arange(len(values)) != i
@@ -60,5 +66,5 @@ def studentised(values: Array, trend: Array, prior: float = 0.0) -> list[Away]:
             continue
         away = float(values[i] - trend[i] @ b)
         t = away / (max(scatter, 1e-12) * float(np.sqrt(1.0 + lever)))
-        out.append(Away(i, away, scatter, t, 2.0 * float(stdtr(free + more, -abs(t)))))
+        out.append(Away(i, away, scatter, t, free + more))
     return out

@@ -19,6 +19,7 @@ from erdctl.bench.rig.pieces import THIN, Piece, spread, white_noise
 from erdctl.bench.rig.trend import Away, studentised
 from erdctl.core.recording import Array
 
+CLEAR = 3.0  # below which nobody need ask for the chance
 CHANCE = 4e-3  # of such a number among records that are alike, all of them together
 # Records of one damper in one state differ by some per cent (2 to 6 % on a real rig): the scatter
 # of a few others is taken together with such a prior, which counts like so many more degrees.
@@ -69,7 +70,9 @@ def _clearest(
     found = [
         a
         for a in studentised(np.array(values), trend, prior)
-        if abs(a.difference) > least[a.index] and a.chance * len(values) < CHANCE
+        if abs(a.difference) > least[a.index]
+        and abs(a.student) > CLEAR
+        and a.chance * len(values) < CHANCE
     ]
     return max(found, key=lambda a: abs(a.student), default=None)
 
