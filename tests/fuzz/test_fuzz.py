@@ -17,7 +17,7 @@ import pytest
 import text_files
 from fuzz_harness import Finding, Trial, Worker, attempt, run, table, trials
 
-SHORT, LONG = 900, 10_000
+SHORT, LONG = 600, 10_000
 SEED = 20_260
 
 

@@ -14,7 +14,7 @@ from erdctl.core.errors import ErdctlError
 from erdctl.io.logs import read_logs
 
 # ERDCTL_FOREIGN=10000 pytest tests/io/test_foreign_files.py for a long run
-CASES = int(os.environ.get("ERDCTL_FOREIGN", "240"))
+CASES = int(os.environ.get("ERDCTL_FOREIGN", "150"))
 GROUPS = 8
 _STAMPS = {"seconds", "ms"}
 
