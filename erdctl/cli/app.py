@@ -69,7 +69,7 @@ def quiet_option() -> TyperOption:
 class Guarded(TyperGroup):
     """Turns every foreseen error into one line on stderr and the documented exit code."""
 
-    def main(self, args: Any = None, *, standalone_mode: bool = True, **options: Any) -> Any:  # type: ignore[override]
+    def main(self, args: Any = None, *, standalone_mode: bool = True, **options: Any) -> Any:  # type: ignore[override]  # Click overloads it by standalone_mode
         """As Typer, but what it says of a wrong command line is shown as all else is."""
         try:
             code = super().main(args, standalone_mode=False, **options)

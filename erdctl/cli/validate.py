@@ -56,6 +56,8 @@ def command(
       erdctl simulate damper.json drive.csv | erdctl validate -
       erdctl validate damper.json other.csv --plot loops.png --plot time:force.png
     """
+    from functools import partial
+
     from erdctl.bench.rig import look
     from erdctl.cli.pictures import draw, wanted, wants
     from erdctl.cli.reading import labelled, read_logs
@@ -69,18 +71,13 @@ def command(
         raise UsageProblem(f"--normalise takes {', '.join(Normalise)}, not '{normalise}'")
     check_report(report)
     labels = labels_of(date, damper, operator)
-    want_hash = report is not None
+    read = partial(
+        read_logs, maps=maps, text=text, where=where, need_force=True,
+        want_hash=report is not None, report=say,
+    )  # fmt: skip
     asked, parameters = wanted(plot, "loops"), None
     if len(arguments) == 1:
-        log = read_logs(
-            arguments,
-            maps=maps,
-            text=text,
-            where=where,
-            need_force=True,
-            want_hash=want_hash,
-            report=say,
-        )
+        log = read(arguments)
         modelled = log.force_model
         if modelled is None:
             raise InputProblem(
@@ -95,15 +92,7 @@ def command(
         if params == "-" and "-" in logs:
             raise UsageProblem("PARAMS and LOG cannot both be stdin")
         parameters = read_parameters(params)
-        log = read_logs(
-            logs,
-            maps=maps,
-            text=text,
-            where=where,
-            need_force=True,
-            want_hash=want_hash,
-            report=say,
-        )
+        log = read(logs)
         for line in remarks(parameters, log.recording):
             say(line)
         with progress() as step:

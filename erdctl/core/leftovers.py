@@ -90,4 +90,4 @@ def _end_workers() -> None:
     # Otherwise a process that watches over semaphores complains of them when this one has gone.
     from multiprocessing import util
 
-    util._run_finalizers(0)  # type: ignore[attr-defined]
+    util._run_finalizers(0)  # type: ignore[attr-defined]  # what its own exit calls

@@ -9,7 +9,7 @@ in its cells, in its dialect and at last in its bytes.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
@@ -57,7 +57,7 @@ def _few(rng: Rng) -> int:
     return int(rng.choice([0, 1, 1, 1, 2, 3]))
 
 
-def _pick(rng: Rng, choices: tuple) -> object:  # type: ignore[type-arg]
+def _pick(rng: Rng, choices: Sequence[object]) -> object:
     return choices[int(rng.integers(len(choices)))]
 
 

@@ -143,7 +143,7 @@ def _with_formula(theirs: Callable[..., Any], kind: int) -> Callable[..., Any]:
             raise WrongFormula(str(error)) from None
         return found if np.ndim(values) else found[0]
 
-    convert.formula = True  # type: ignore[attr-defined]
+    convert.formula = True  # type: ignore[attr-defined]  # a mark that asammdf passes on
     return convert
 
 

@@ -52,7 +52,7 @@ def is_plain(data: str | bytearray, name: str) -> bool:
     """
     from erdctl.io.containers import mat_check
 
-    file = open(data, "rb") if isinstance(data, str) else io.BytesIO(data)  # noqa: SIM115
+    file = open(data, "rb") if isinstance(data, str) else io.BytesIO(data)  # noqa: SIM115  # closed by the next line
     with file:
         head = file.read(HDF5_AT + len(HDF5))
         if HDF5 in (head[: len(HDF5)], head[HDF5_AT:]):

@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from erdctl.core.errors import InputProblem
 from erdctl.io.text.options import DECIMALS, FORMS_OF, THOUSANDS, TextOptions
 
-_ONE = re.compile(r"(\d*)([.,])(\d*)")
 _CALLED = {sign: name for name, sign in (*THOUSANDS.items(), *DECIMALS.items())}
 POINT, COMMA = ".", ","
 
@@ -56,7 +55,7 @@ class SignsProven:
         elif points > 1 or commas > 1:
             self.thousands.setdefault(POINT if points else COMMA, place)
         elif points or commas:
-            whole, sign, fraction = _ONE.fullmatch(mantissa).groups()  # type: ignore[union-attr]
+            whole, sign, fraction = mantissa.partition(POINT if points else COMMA)
             groups = len(fraction) == 3 and 1 <= len(whole) <= 3 and whole[0] != "0"
             kept = self.either if groups and not exponent else self.decimal
             kept.setdefault(sign, place)
