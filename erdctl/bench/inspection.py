@@ -14,6 +14,7 @@ from erdctl.bench import identifiability as coverage
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import Cover
 from erdctl.bench.rig import Rig, look
+from erdctl.core.quantiles import median
 from erdctl.core.recording import CHANNELS, Array, Recording
 from erdctl.model.effect import Effect
 from erdctl.score.nrmse import duty_levels
@@ -151,7 +152,7 @@ def _record(
 ) -> RecordSummary:
     t = recording.t[part]
     steps = recording.step[part][:-1]
-    step = _median(steps)
+    step = median(steps)
     long = steps > GAP * step
     gaps = int(np.count_nonzero(long))
     # Rounded times make no gaps, so most records need no copy of their steps.
@@ -171,14 +172,6 @@ def _record(
         gap_at=None if at is None else float(t[at]),
         **{name: span[name] for name in CHANNELS if name != "t"},
     )
-
-
-def _median(values: Array) -> float:
-    """As `np.median`, whose checks take ten times as long as a short record."""
-    middle = len(values) // 2
-    if len(values) % 2:
-        return float(np.partition(values, middle)[middle])
-    return float(np.partition(values, (middle - 1, middle))[middle - 1 : middle + 1].mean())
 
 
 def _seconds_at(recording: Recording) -> dict[float, float]:
@@ -219,5 +212,5 @@ def force_noise(recording: Recording) -> NoiseFloor | None:
     # Values of one level may differ by the rounding of their binary form.
     apart = between[between > 1e-9 * max(float(np.abs(values[[0, -1]]).max()), 1e-300)]
     resolution = float(apart.min()) if apart.size else 0.0
-    rms = float(np.median(np.abs(differences))) / (0.6745 * math.sqrt(20.0))
+    rms = median(np.abs(differences)) / (0.6745 * math.sqrt(20.0))
     return NoiseFloor(max(rms, resolution / math.sqrt(12.0)), resolution)

@@ -18,14 +18,12 @@ from typer.core import TyperCommand, TyperGroup, TyperOption
 # cores: on 10 million rows they made `identify` ten times slower. NumPy reads this when it loads.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from erdctl.cli import files
 from erdctl.cli.options import EXIT_CODES
 from erdctl.cli.streams import open_streams
 from erdctl.core.errors import ErdctlError, ExitCode, InputProblem
 from erdctl.core.leftovers import end_cleanly
 from erdctl.core.messages import CELL, shown, tell
 from erdctl.core.version import __version__
-from erdctl.io.atomic import together
 from erdctl.report.text import QUIET
 
 # What Typer raises for a wrong command line; of its own Click, or of the one that is installed.
@@ -41,6 +39,9 @@ class Command(TyperCommand):
         self.params.append(quiet_option())
 
     def invoke(self, ctx: Any) -> Any:
+        from erdctl.cli import files
+        from erdctl.io.atomic import together
+
         names = files.names(self.params, ctx.params)
         with together(names):
             try:

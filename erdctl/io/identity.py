@@ -6,15 +6,13 @@ import os
 import stat
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TextIO
+from typing import NamedTuple, TextIO
 
 STDIN = STDOUT = "-"
 Identity = tuple[object, ...]
 
 
-@dataclass(frozen=True)
-class Named:
+class Named(NamedTuple):
     """A file of a run: its path as given ("-" is a standard stream), and what names it there.
 
     label : `LOG`, `--manifest`, or "" for a name that the program has made

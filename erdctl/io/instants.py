@@ -14,13 +14,13 @@ def in_seconds(column: pa.ChunkedArray, name: str) -> tuple[pa.ChunkedArray, str
     there; the difference is taken in whole ticks, so that none is rounded. Durations keep their
     zero. Empty cells stay empty.
     """
-    import pyarrow.compute as pc
-
     if pa.types.is_dictionary(column.type) and pa.types.is_temporal(column.type.value_type):
         column = column.cast(column.type.value_type)
     kind = column.type
     if not pa.types.is_temporal(kind) or pa.types.is_interval(kind):
         return None
+    import pyarrow.compute as pc  # takes longer to import than most logs to read
+
     if pa.types.is_date(kind):
         column = column.cast(pa.timestamp("ms"))
         kind = column.type

@@ -124,7 +124,8 @@ def with_unit(field: pa.Field, unit: str | None) -> pa.Field:
 def with_units(table: pa.Table, units: Mapping[str, str]) -> pa.Table:
     """The table with these units in the metadata of its fields; others stay as they are."""
     fields = [with_unit(f, units[f.name]) if f.name in units else f for f in table.schema]
-    return table.cast(pa.schema(fields, table.schema.metadata))
+    # Not `cast`: it imports the compute functions, which takes as long as the whole of NumPy.
+    return pa.Table.from_arrays(table.columns, schema=pa.schema(fields, table.schema.metadata))
 
 
 def with_si(table: pa.Table) -> pa.Table:

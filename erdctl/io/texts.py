@@ -8,6 +8,8 @@ import pyarrow as pa
 
 from erdctl.core.memory import check_claim
 
+_SMALL = 1 << 24  # bytes that need no exact count
+
 
 def check_texts(table: pa.Table, size: int, name: str) -> None:
     """Raise InputProblem if the dictionary-encoded text of a table opens to more than a log can
@@ -25,13 +27,21 @@ def is_text(kind: pa.DataType) -> bool:
 
 def _opened(column: pa.ChunkedArray) -> int:
     """Bytes of all texts of a column; an upper bound where that is small enough."""
-    import pyarrow.compute as pc
-
     total = 0
     for chunk in column.chunks:
-        lengths: Any = pc.binary_length(chunk.dictionary)
-        bound = (pc.max(lengths).as_py() or 0) * len(chunk)
-        if bound > 1 << 24:
-            bound = pc.sum(pc.take(lengths, chunk.indices)).as_py() or 0
+        # Before the lengths themselves, which need an import that takes longer than most logs.
+        bound = chunk.dictionary.nbytes * len(chunk)
+        if bound > _SMALL:
+            bound = _lengths(chunk)
         total += bound
     return total
+
+
+def _lengths(chunk: pa.DictionaryArray) -> int:
+    import pyarrow.compute as pc
+
+    lengths: Any = pc.binary_length(chunk.dictionary)
+    bound: int = (pc.max(lengths).as_py() or 0) * len(chunk)
+    if bound > _SMALL:
+        bound = pc.sum(pc.take(lengths, chunk.indices)).as_py() or 0
+    return bound

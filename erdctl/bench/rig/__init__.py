@@ -46,7 +46,8 @@ def _look(recording: Recording) -> Rig:
         return Rig(recording, (), looked)
     faults = scale.check(found) + velocity.check(found)
     # What follows is held against the motion, so not against a velocity that is wrong itself.
-    found = pieces(sound(recording, faults))
+    if (sounder := sound(recording, faults)) is not recording:
+        found = pieces(sounder)
     clipped = clipping.check(found, "x")
     faults += clipped + frozen.check(found, "x", clipped)
     faults += losses.gaps(found) + losses.jumps(found, clipped) + spikes.check(found, "x", clipped)

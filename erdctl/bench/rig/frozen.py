@@ -9,6 +9,7 @@ import numpy as np
 
 from erdctl.bench.rig.fault import RigFault, marked
 from erdctl.bench.rig.pieces import Piece, runs_of_equals, spread, widened
+from erdctl.core.quantiles import percentiles
 
 LEAST = 12  # samples
 UNLIKELY = log(1e-9)  # logarithm of the chance that as many equal samples follow one another
@@ -34,7 +35,7 @@ def check(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault] = ()
         chance = np.log(max(equal, 1.0 / len(values)))
         usual = float(order[~(np.sort(length) >= LEAST)].max(initial=1))
         if len(order) > 10:
-            usual = max(usual, float(np.percentile(length, 90)))
+            usual = max(usual, percentiles(length.astype(np.float64), 90.0)[0])
         for a, n in zip(first[long].tolist(), length[long].tolist(), strict=True):
             if known[p.first + a] or n * chance > UNLIKELY or n < LONGER * usual:
                 continue

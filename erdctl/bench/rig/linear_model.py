@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
 from erdctl.bench.rig.pieces import Piece
 from erdctl.core.blocks import SETTLE
-from erdctl.core.recording import Array
+from erdctl.core.recording import Array, Index
 
 LEAST_RECORDS = 4
 SAMPLES, TRIED = 60_000, 8_000  # that the model is fitted to, and tried on
@@ -20,7 +21,7 @@ LAGS, EXPONENTS = (0.01, 0.0, 0.03, 0.1), (0.5, 0.35, 0.7, 1.0, 1.4)  # T_d [s] 
 
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """Columns (n, p) of a stretch, its force (n,), and which samples (n,) to look at.
+    """Columns (n, 8) of a stretch, its force (n,), and which samples (n,) to look at.
 
     settled : with a settled yield force;  smooth : of these, where the paper's force has no jump
     """
@@ -30,6 +31,13 @@ class Rows:
     force: Array
     settled: npt.NDArray[np.bool_]
     smooth: npt.NDArray[np.bool_]
+
+    @cached_property
+    def normal(self) -> tuple[Array, Array]:
+        """A' A / n (p, p) and A' F / n (p,) over the smooth samples."""
+        # At reversals and after duty steps the paper's law says little of gains and zeros.
+        weighted = self.columns.T * (self.smooth / max(int(np.count_nonzero(self.smooth)), 1))
+        return weighted @ self.columns, weighted @ self.force
 
 
 def first_of_each(found: Sequence[Piece]) -> list[Piece]:
@@ -44,34 +52,40 @@ def first_of_each(found: Sequence[Piece]) -> list[Piece]:
     ]
 
 
-def _yield_force(p: Piece, T_d: float, beta: float) -> Array:
+def _yield_force(p: Piece, T_d: float, beta: float, every: int = 1) -> Array:
     """(n,) yield force of Eqs. 12 and 18 for sigma = 1, settled where the stretch begins."""
-    field = p.of("duty") ** beta
-    steps = np.flatnonzero(np.diff(field)) + 1
+    duty = p.of("duty")
+    steps = p.duty_steps
     if T_d == 0.0 or not len(steps) or len(steps) > STEPS:
-        return field
+        return np.asarray(duty[::every] ** beta)
     # Step by step, without a filter of SciPy, whose import takes longer than all checks together.
     keep = float(np.exp(-p.step / T_d))
-    out, now = field.copy(), float(field[0])
-    for first, end in zip(steps.tolist(), [*steps[1:].tolist(), len(field)], strict=True):
-        held = float(field[first])
-        out[first:end] = held + (now - held) * keep ** np.arange(1, end - first + 1)
-        now = float(out[end - 1])
-    return out
+    held = np.concatenate([duty[:1], duty[steps]]) ** beta
+    first = np.concatenate([[0], steps])
+    lasts = keep ** np.diff(first, append=len(duty))
+    away = np.zeros(len(first))  # of the force from what it tends to, where a step is made
+    for k in range(1, len(first)):
+        away[k] = away[k - 1] * lasts[k - 1] + held[k - 1] - held[k]
+    step = np.repeat(np.arange(len(first)), np.diff(first, append=len(duty)))[::every]
+    since = np.arange(1, len(duty) + 1, every) - first[step]
+    return np.asarray(held[step] + away[step] * np.exp(-p.step / T_d * since))
 
 
 def _rows(p: Piece, T_d: float, beta: float, every: int = 1) -> Rows:
     """Columns of a stretch: a constant; x, xdot and yield force in either direction; friction."""
     x, xdot, t = p.x[::every], p.xdot[::every], p.t[::every]
-    up = (xdot > 0).astype(np.float64)
-    down = 1.0 - up
-    field = _yield_force(p, T_d, beta)[::every]
-    columns = np.column_stack([
-        np.ones(len(x)), x * up, x * down, xdot * up, xdot * down,
-        field * up, -field * down, up - down,
-    ])  # fmt: skip
+    up = xdot > 0
+    field = _yield_force(p, T_d, beta, every)
+    # Column by column in memory: sums of products and products with parameters run along them.
+    columns = np.empty((8, len(x)))
+    columns[0] = 1.0
+    for k, values in ((1, x), (3, xdot), (5, field)):
+        np.multiply(values, up, out=columns[k])
+        np.subtract(values, columns[k], out=columns[k + 1])
+    np.negative(columns[6], out=columns[6])
+    columns[7] = 2.0 * up - 1.0
     settled = t - t[0] > min(SETTLE, 0.1 * float(t[-1] - t[0]))
-    return Rows(p, columns, p.force[::every], settled, settled & ~p.near[::every])
+    return Rows(p, columns.T, p.force[::every], settled, settled & ~p.near[::every])
 
 
 def best_rows(found: Sequence[Piece]) -> list[Rows]:
@@ -84,29 +98,68 @@ def best_rows(found: Sequence[Piece]) -> list[Rows]:
     every = -(-sum(len(p) for p in found) // TRIED)
     control = any(np.ptp(p.of("duty")) > 0 for p in found)
     field = any(p.of("duty").any() for p in found)
-
-    def cost(T_d: float, beta: float) -> float:
-        rows = [_rows(p, T_d, beta, every) for p in found]
-        theta = model(rows)
-        misfits = [np.std(r.force - r.columns @ theta) for r in rows]
-        return float(np.sum(np.log(np.maximum(misfits, 1e-12))))
-
+    if control or field:
+        trial = _Trial.of(found, every)
     # One after the other: the lag shows after duty steps, the exponent between the levels.
-    beta = min(EXPONENTS, key=lambda b: cost(LAGS[0], b)) if field else EXPONENTS[0]
-    T_d = min(LAGS, key=lambda T: cost(T, beta)) if control else LAGS[0]
+    beta = min(EXPONENTS, key=lambda b: trial.cost(LAGS[0], b)) if field else EXPONENTS[0]
+    T_d = min(LAGS, key=lambda T: trial.cost(T, beta)) if control else LAGS[0]
     return [_rows(p, T_d, beta) for p in found]
+
+
+@dataclass(frozen=True, eq=False)
+class _Trial:
+    """Some samples of all records in one array, on which lags and exponents are tried.
+
+    rows : of each record;  columns (n, p), force and duty (n,) : of all, one after the other; the
+        columns of the yield force are those of the last trial
+    weights : (n,) with which every record counts alike;  starts : (k,) where each begins
+    """
+
+    rows: Sequence[Rows]
+    columns: Array
+    force: Array
+    duty: Array
+    weights: Array
+    starts: Index
+    every: int
+
+    @classmethod
+    def of(cls, found: Sequence[Piece], every: int) -> _Trial:
+        rows = [_rows(p, 0.0, 1.0, every) for p in found]
+        weights = [r.smooth / max(int(np.count_nonzero(r.smooth)), 1) for r in rows]
+        sizes = [len(r.force) for r in rows]
+        return cls(
+            rows, np.concatenate([r.columns.T for r in rows], axis=1).T,
+            np.concatenate([r.force for r in rows]),
+            np.concatenate([p.of("duty")[::every] for p in found]), np.concatenate(weights),
+            np.cumsum([0, *sizes[:-1]]), every,
+        )  # fmt: skip
+
+    def cost(self, T_d: float, beta: float) -> float:
+        """Sum of the logarithms of the records' misfits."""
+        if T_d == 0.0:
+            field = self.duty**beta
+        else:
+            parts = [_yield_force(r.piece, T_d, beta, self.every) for r in self.rows]
+            field = np.concatenate(parts)
+        A = self.columns
+        A[:, 5] = field * (A[:, 7] > 0)
+        A[:, 6] = -field * (A[:, 7] < 0)
+        weighted = A.T * self.weights
+        rest = self.force - A @ _solved(weighted @ A, weighted @ self.force)
+        sizes = np.diff(self.starts, append=len(rest))
+        mean = np.add.reduceat(rest, self.starts) / sizes
+        square = np.add.reduceat((rest - np.repeat(mean, sizes)) ** 2, self.starts) / sizes
+        return float(np.sum(np.log(np.maximum(np.sqrt(square), 1e-12))))
 
 
 def model(rows: Sequence[Rows]) -> Array:
     """Parameters (p,) by least squares, every record counting alike; 0 where nothing tells."""
-    p = rows[0].columns.shape[1]
-    AA, AF = np.zeros((p, p)), np.zeros(p)
-    for r in rows:
-        # At reversals and after duty steps the paper's law says little of gains and zeros.
-        A, F = r.columns[r.smooth], r.force[r.smooth]
-        if len(F):
-            AA += A.T @ A / len(F)
-            AF += A.T @ F / len(F)
+    AA, AF = (sum(part) for part in zip(*(r.normal for r in rows), strict=True))
+    return _solved(np.asarray(AA), np.asarray(AF))
+
+
+def _solved(AA: Array, AF: Array) -> Array:
     scale = np.sqrt(np.diag(AA))
     unit = np.where(scale > 0, 1.0 / np.where(scale > 0, scale, 1.0), 0.0)
     inverse = np.linalg.pinv(AA * np.outer(unit, unit), rcond=1e-9, hermitian=True)

@@ -8,6 +8,7 @@ import numpy as np
 
 from erdctl.bench.rig.fault import RigFault, marked
 from erdctl.bench.rig.pieces import Piece, resolution, widened
+from erdctl.core.quantiles import median
 
 GAP = 1.5  # steps
 SIGMAS = 10.0
@@ -46,9 +47,11 @@ def jumps(found: Sequence[Piece], clipped: Sequence[RigFault] = ()) -> list[RigF
     for p in found:
         dt = np.diff(p.t)
         beyond = np.diff(p.x) - 0.5 * (p.xdot[1:] + p.xdot[:-1]) * dt
-        scale = 1.4826 * float(np.median(np.abs(beyond)))
-        least = max(SIGMAS * scale, STEPS * p.speed * p.step, 3.0 * resolution(p.x))
-        at = np.flatnonzero((np.abs(beyond) > least) & (dt < GAP * p.step))
+        scale = 1.4826 * median(np.abs(beyond))
+        far = (np.abs(beyond) > max(SIGMAS * scale, STEPS * p.speed * p.step)) & (dt < GAP * p.step)
+        if not far.any():
+            continue
+        at = np.flatnonzero(far & (np.abs(beyond) > 3.0 * resolution(p.x)))
         at = at[~known[p.first + at]]
         # A spike goes back at once.
         at = at[[not _returns(beyond, int(i)) for i in at]] if len(at) <= RARE * len(p) else at[:0]

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from erdctl.core.quantiles import median, percentiles
 from erdctl.core.recording import Array, Index, Recording
 
 FEWEST = 40  # samples of a stretch that can be told anything of
@@ -62,9 +63,7 @@ class Piece:
     @cached_property
     def step(self) -> float:
         """Usual time from sample to sample [s]."""
-        return float(np.median(np.diff(self.t[:: max(1, len(self) // 10_000)]))) / max(
-            1, len(self) // 10_000
-        )
+        return median(np.diff(self.t[:: max(1, len(self) // 10_000)])) / max(1, len(self) // 10_000)
 
     @cached_property
     def stroke(self) -> float:
@@ -75,13 +74,28 @@ class Piece:
     def speed(self) -> float:
         """Effective speed [m/s], of the middle 99.8 % of the samples."""
         thin = self.xdot[:: 1 + len(self) // THIN]
-        low, high = np.percentile(thin, [0.1, 99.9])
+        low, high = percentiles(thin, 0.1, 99.9)
         return float(np.sqrt(np.mean(np.clip(thin, low, high) ** 2)))
 
     @cached_property
     def near(self) -> npt.NDArray[np.bool_]:
         """(n,) samples next to a reversal or a duty step, or at which the piston hardly moves."""
         return self.turning(max(NEAR, round(0.01 / self.step)) if self.step > 0 else NEAR)
+
+    @cached_property
+    def duty_steps(self) -> Index:
+        """(k,) samples before which the duty is another."""
+        return np.flatnonzero(np.diff(self.of("duty"))) + 1
+
+    @cached_property
+    def _noises(self) -> dict[str, tuple[float, float]]:
+        return {}
+
+    def noise(self, channel: str) -> tuple[float, float]:
+        """Noise of a channel and how white it is; see `white_noise`."""
+        if channel not in self._noises:
+            self._noises[channel] = white_noise(self.of(channel))
+        return self._noises[channel]
 
     def stepped(self, reach: int) -> npt.NDArray[np.bool_]:
         """(n,) samples so near to a step of the duty that the force may overshoot."""
@@ -101,8 +115,8 @@ class Piece:
 
 def spread(values: Array) -> float:
     """Range of values (n,) without the outermost thousandth on either side."""
-    low, high = np.percentile(values[:: 1 + len(values) // THIN], [0.1, 99.9])
-    return float(high - low)
+    low, high = percentiles(values[:: 1 + len(values) // THIN], 0.1, 99.9)
+    return high - low
 
 
 def widened(flags: npt.NDArray[np.bool_], reach: int) -> npt.NDArray[np.bool_]:
@@ -134,13 +148,14 @@ def white_noise(values: Array) -> tuple[float, float]:
     """
     d2 = np.diff(values, 2)
     d3 = np.diff(d2)
-    second, third = float(np.median(np.abs(d2))), float(np.median(np.abs(d3)))
+    second, third = median(np.abs(d2)), median(np.abs(d3))
     return third / (0.6745 * 20.0**0.5), third / second if second > 0 else 0.0
 
 
 def resolution(values: Array) -> float:
     """Smallest step between two different values of (n,); 0 if all are the same."""
-    ordered = np.unique(values[:: max(1, len(values) // 20_000)])
+    # Not np.unique, which imports masked arrays.
+    ordered = np.sort(values[:: max(1, len(values) // 20_000)])
     between = np.diff(ordered)
     scale = float(np.abs(ordered[[0, -1]]).max())
     apart = between[between > 1e-9 * max(scale, 1e-300)]
@@ -165,9 +180,8 @@ def runs_of_equals(values: Array) -> tuple[Index, Index]:
 def pieces(recording: Recording) -> list[Piece]:
     """The stretches that are looked at: all records, or an even part of a very long log."""
     bounds = recording.starts.tolist()
-    chosen = np.unique(
-        np.linspace(0, len(recording.names) - 1, min(len(recording.names), RECORDS)).astype(int)
-    ).tolist()
+    count = len(recording.names)
+    chosen = dict.fromkeys(np.linspace(0, count - 1, min(count, RECORDS)).astype(int).tolist())
     total = sum(bounds[i + 1] - bounds[i] for i in chosen)
     out = []
     for i in chosen:
@@ -176,8 +190,8 @@ def pieces(recording: Recording) -> list[Piece]:
             parts = [(a, b)]
         else:
             length = MOST // STRETCHES
-            count = max(1, round((b - a) / total * STRETCHES))
-            firsts = np.linspace(a, b - length, count).astype(int).tolist()
+            many = max(1, round((b - a) / total * STRETCHES))
+            firsts = np.linspace(a, b - length, many).astype(int).tolist()
             parts = [(f, f + length) for f in firsts]
         out += [Piece(recording, i, f, e) for f, e in parts if e - f >= FEWEST]
     return out

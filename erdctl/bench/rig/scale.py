@@ -8,6 +8,7 @@ import numpy as np
 
 from erdctl.bench.rig.fault import RigFault
 from erdctl.bench.rig.pieces import THIN, Piece, spread
+from erdctl.core.quantiles import percentiles
 
 FASTEST = 5.0  # m/s; suspension dampers are tested up to 3 m/s
 SHORTEST = 60e-6  # m; a stroke of centimetres that is a thousand times too small
@@ -65,10 +66,7 @@ def _check(found: Sequence[Piece]) -> Iterator[RigFault]:
 def _forces(found: Sequence[Piece]) -> Iterator[RigFault]:
     if found[0].recording.force is None:
         return
-    peak = max(
-        float(np.abs(np.percentile(p.force[:: 1 + len(p) // THIN], [0.1, 99.9])).max())
-        for p in found
-    )
+    peak = max(max(map(abs, percentiles(p.force[:: 1 + len(p) // THIN], 0.1, 99.9))) for p in found)
     if 0.0 < peak < WEAKEST:
         yield _doubt(
             "force_unit",

@@ -56,7 +56,7 @@ def _taken(parts: Sequence[Piece]) -> float | None:
         return None
     # With the speed beside it, so that a spring is not taken for a damper over half a cycle.
     columns = np.column_stack([np.ones_like(x), x / np.ptp(x), v / max(np.abs(v).max(), 1e-300)])
-    theta = np.linalg.lstsq(columns, force, rcond=None)[0]
+    theta = np.linalg.pinv(columns.T @ columns, hermitian=True) @ (columns.T @ force)
     power = (force - columns[:, :2] @ theta[:2]) * v
     size = float(np.abs(power).sum())
     return float(power.sum()) / size if size > 0 else None

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from erdctl.bench.rig.fault import RigFault, marked
-from erdctl.bench.rig.pieces import NEAR, Piece, spread, white_noise, widened
+from erdctl.bench.rig.pieces import NEAR, Piece, spread, widened
+from erdctl.core.quantiles import median, medians, percentiles
 from erdctl.core.recording import Array, Index
 
 HALF = 8  # samples on either side that a spike is held against
@@ -42,7 +43,8 @@ def check(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault] = ()
     r = found[0].recording
     at = r.x[np.concatenate([f.samples for f in out if f.samples is not None])]
     recur = sum(len(f.samples) for f in out if f.samples is not None) >= RECURRING
-    gathered = np.subtract(*np.percentile(at, [90.0, 10.0])) < ONE_PLACE * spread(r.x)
+    low, high = percentiles(at, 10.0, 90.0)
+    gathered = high - low < ONE_PLACE * spread(r.x)
     return [] if recur and gathered else out
 
 
@@ -56,7 +58,9 @@ def _spikes(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault]) -
             continue
         at, height = _standing_out(values, smooth=channel == "x")
         at, height = at[(free := ~known[p.first + at])], height[free]
-        noise = white_noise(values)[0]
+        if not len(at):
+            continue
+        noise = p.noise(channel)[0]
         if channel == "force":
             # Where the piston turns, or touches rest, a sound force jumps there and back.
             away = ~(p.turning(WIDE + 1) | p.stepped(2 * NEAR))[at]
@@ -99,9 +103,9 @@ def bursts(found: Sequence[Piece], clipped: Sequence[RigFault] = ()) -> list[Rig
         d2 = np.diff(p.force, 2)
         d3 = np.abs(np.diff(d2))
         cut = (count - 1) * WINDOW
-        third = np.median(d3[:cut].reshape(-1, WINDOW), axis=1)
-        second = np.median(np.abs(d2[:cut]).reshape(-1, WINDOW), axis=1)
-        usual = float(np.median(third))
+        third = medians(d3[:cut].reshape(-1, WINDOW))
+        second = medians(np.abs(d2[:cut]).reshape(-1, WINDOW))
+        usual = median(third)
         loud = (third > LOUDER * max(usual, 1e-300)) & (third > WHITE * second) & (usual > 0)
         if not loud.any() or loud.mean() > BURST_PART:
             continue
@@ -154,15 +158,15 @@ def _standing_out(values: Array, *, smooth: bool) -> tuple[Index, Array]:
     if n < 2 * HALF + 1:
         return np.empty(0, dtype=np.intp), np.empty(0)
     d2 = np.abs(np.diff(values, 2))
-    scale = float(np.median(d2))
+    scale = median(d2)
     centre = np.flatnonzero(d2 > 5.0 * scale) + 1
     centre = centre[(centre >= HALF) & (centre < n - HALF)]
     offsets = np.array([k for k in range(-HALF, HALF + 1) if abs(k) > WIDE])
     around, own = values[centre[:, None] + offsets], values[centre]
     if smooth and len(centre):
         half = len(offsets) // 2
-        left, right = np.median(around[:, :half], axis=1), np.median(around[:, half:], axis=1)
-        middle = float(np.median(offsets[half:]))
+        left, right = medians(around[:, :half]), medians(around[:, half:])
+        middle = median(offsets[half:])
         around = around - np.outer((right - left) / (2.0 * middle), offsets)
     # But for the highest and the lowest, which may be the next spike.
     around = np.partition(around, (1, around.shape[1] - 2), axis=1)

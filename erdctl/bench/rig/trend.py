@@ -10,6 +10,7 @@ from erdctl.core.recording import Array
 
 FREEDOM = 2  # degrees of freedom that the scatter of the others has, at least
 LEVER = 4.0  # uncertainty of the trend over the scatter, squared, beyond which it tells nothing
+EPS = float(np.finfo(np.float64).eps)
 PRIOR = 4  # degrees of freedom that a scatter known beforehand counts
 
 
@@ -41,6 +42,10 @@ def studentised(values: Array, trend: Array, prior: float = 0.0) -> list[Away]:
 
         d = y_i - x_i b,   t = d / (s sqrt(1 + x_i (X' X)^-1 x_i')),   b, s, X without record i
 
+    which is, with the rest e of a trend fitted to all and H = X (X' X)^-1 X',
+
+        d = e_i / (1 - H_ii),   1 + x_i (X' X)^-1 x_i' = 1 / (1 - H_ii)
+
     prior : a scatter that is known beforehand, taken with PRIOR degrees of freedom
     Left out are rows that the others do not reach: their trend is not known there.
     Check: 0, 0, 1, -1, 10 about a mean: d = 10, s = sqrt(2 / 3), t = 10 / (s sqrt(5 / 4)) = 10.954.
@@ -48,23 +53,22 @@ def studentised(values: Array, trend: Array, prior: float = 0.0) -> list[Away]:
     >>> round(found[4].student, 3)
     10.954
     """
+    left, sizes, _ = np.linalg.svd(trend, full_matrices=False)
+    rank = int(np.count_nonzero(sizes > sizes.max(initial=0.0) * max(trend.shape) * EPS))
+    free = len(values) - 1 - rank
+    if free < FREEDOM:
+        return []
+    basis = left[:, :rank]
+    own = np.sum(basis**2, axis=1)  # of the trend at a record that is the record itself
+    rest = values - basis @ (basis.T @ values)
+    squares = float(rest @ rest)
+    more = PRIOR if prior > 0 else 0
     out = []
-    for i in range(len(values)):
-        others = np.arange(len(values)) != i
-        X, y = trend[others], values[others]
-        rank = int(np.linalg.matrix_rank(X))
-        free = len(y) - rank
-        if free < FREEDOM or np.linalg.matrix_rank(trend) > rank:
-            continue
-        inverse = np.linalg.pinv(X)
-        b = inverse @ y
-        more = PRIOR if prior > 0 else 0
-        square = float(np.sum((y - X @ b) ** 2)) + more * prior**2
+    for i in np.flatnonzero(own <= LEVER / (1.0 + LEVER)).tolist():
+        others = 1.0 - float(own[i])
+        square = max(squares - float(rest[i]) ** 2 / others, 0.0) + more * prior**2
         scatter = float(np.sqrt(square / (free + more)))
-        lever = float(np.sum((trend[i] @ inverse) ** 2))
-        if lever > LEVER:
-            continue
-        away = float(values[i] - trend[i] @ b)
-        t = away / (max(scatter, 1e-12) * float(np.sqrt(1.0 + lever)))
+        away = float(rest[i]) / others
+        t = away / (max(scatter, 1e-12) * others**-0.5)
         out.append(Away(i, away, scatter, t, free + more))
     return out

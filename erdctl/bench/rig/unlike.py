@@ -15,8 +15,9 @@ import numpy.typing as npt
 
 from erdctl.bench.rig.fault import RigFault
 from erdctl.bench.rig.linear_model import LEAST_RECORDS, Rows, best_rows, first_of_each, model
-from erdctl.bench.rig.pieces import THIN, Piece, spread, white_noise
+from erdctl.bench.rig.pieces import THIN, Piece, spread
 from erdctl.bench.rig.trend import Away, studentised
+from erdctl.core.quantiles import median, percentiles
 from erdctl.core.recording import Array
 
 CLEAR = 3.0  # below which nobody need ask for the chance
@@ -82,10 +83,10 @@ def _louder(found: Sequence[Piece]) -> list[RigFault]:
     noise: dict[int, tuple[float, float]] = {}
     for p in found:
         if len(p) > 200:
-            noise.setdefault(p.record, white_noise(p.force))
+            noise.setdefault(p.record, p.noise("force"))
     out = []
     for r, (s, white) in noise.items():
-        usual = float(np.median([v for k, (v, _) in noise.items() if k != r] or [0.0]))
+        usual = median([v for k, (v, _) in noise.items() if k != r] or [0.0])
         if usual > 0 and white > 1.2 and s > NOISE * usual:
             out.append(
                 RigFault(
@@ -103,13 +104,13 @@ def _gained(rows: Sequence[Rows]) -> RigFault | None:
     values = []
     for r in rows:
         thin = r.piece.force[:: 1 + len(r.piece) // THIN]
-        low, high = np.percentile(thin, [2.0, 98.0])
+        low, high = percentiles(thin, 2.0, 98.0)
         size = float(np.std(np.clip(thin, low, high)))
         values.append(float(np.log(max(size, 1e-12))))
     for i, value in enumerate(values):
         others = [v for k, v in enumerate(values) if k != i]
-        if abs(value - float(np.median(others))) > GROSS and _same_speed(rows, i):
-            return _gain_fault(rows[i], float(np.exp(value - np.median(others))), np.log(UNCERTAIN))
+        if abs(value - median(others)) > GROSS and _same_speed(rows, i):
+            return _gain_fault(rows[i], float(np.exp(value - median(others))), np.log(UNCERTAIN))
     trend = _trend(rows)
     found = None
     if trend is not None:
@@ -139,7 +140,7 @@ def _gain_fault(r: Rows, ratio: float, scatter: float) -> RigFault:
 def _same_speed(rows: Sequence[Rows], index: int) -> bool:
     """Whether a record is about as fast as the others, so that its force is about as large."""
     speeds = [float(np.std(r.piece.xdot)) for r in rows]
-    usual = float(np.median(speeds))
+    usual = median(speeds)
     return usual / UNCERTAIN < speeds[index] < usual * UNCERTAIN
 
 
@@ -164,7 +165,7 @@ def _only_gain(rows: Sequence[Rows], index: int) -> bool:
             gain = float(F @ m) / max(float(m @ m), 1e-300)
         return float(np.sqrt(np.mean((F - gain * m) ** 2))) if len(F) else np.inf
 
-    usual = float(np.median([misfit(r) for r in others]))
+    usual = median([misfit(r) for r in others])
     before, after = misfit(rows[index]), misfit(rows[index], None)
     return after < LIKE_OTHERS * usual and after**2 < (1.0 - EXPLAINED) * before**2
 
@@ -193,8 +194,8 @@ def _trend(rows: Sequence[Rows]) -> Array | None:
         [np.log(max(float(np.std(v)), 1e-12)) for v in (r.piece.xdot, r.piece.x)] for r in rows
     ]
     if _steady(rows):
-        at = np.array([round(float(np.median(d)), 2) for d in duties])
-        levels = np.unique(at)
+        at = np.array([round(median(d), 2) for d in duties])
+        levels = np.array(sorted(set(at.tolist())))
         if len(levels) > len(rows) // 2:
             return None
         return np.column_stack([at[:, None] == levels, np.array(motion)]).astype(np.float64)
@@ -213,7 +214,7 @@ def _zeroed(rows: Sequence[Rows]) -> RigFault | None:
     zeros, trend = [], []
     for r in rows:
         rest = (r.force - r.columns @ theta)[r.smooth]
-        zeros.append(float(np.median(rest)) if len(rest) else 0.0)
+        zeros.append(median(rest) if len(rest) else 0.0)
         trend.append([1.0, float(r.piece.x.mean())])
     span = spread(np.concatenate([r.piece.force for r in rows]))
     found = _clearest(zeros, np.array(trend), [OFFSET * span] * len(rows), PRIOR_OFFSET * span)

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from erdctl.bench.rig.fault import RigFault
-from erdctl.bench.rig.pieces import Piece, white_noise
+from erdctl.bench.rig.pieces import Piece
+from erdctl.core.quantiles import median
 
 NOISE = 0.03  # of the effective speed
 QUIETER = 3.0  # times less noise than xdot, so that the derivative of x serves better
@@ -34,7 +35,7 @@ def check(found: Sequence[Piece]) -> list[RigFault]:
         return []
     gain, late, noise, derived, cycle, step = (np.array(c) for c in zip(*rows, strict=True))
     out = []
-    part, better = float(np.median(noise)), float(np.median(derived))
+    part, better = median(noise), median(derived)
     if part > NOISE and part > QUIETER * better:
         out.append(
             RigFault(
@@ -46,7 +47,7 @@ def check(found: Sequence[Piece]) -> list[RigFault]:
             )
         )
     tau, error = _middle(late)
-    least = max(LATE, LATE_STEPS * float(np.median(step)), LATE_CYCLE * float(np.median(cycle)))
+    least = max(LATE, LATE_STEPS * median(step), LATE_CYCLE * median(cycle))
     if abs(tau) > least and abs(tau) > SCATTER * error:
         way = "later" if tau > 0 else "earlier"
         out.append(
@@ -61,8 +62,8 @@ def check(found: Sequence[Piece]) -> list[RigFault]:
 
 
 def _middle(values: np.ndarray) -> tuple[float, float]:
-    middle = float(np.median(values))
-    scatter = 1.4826 * float(np.median(np.abs(values - middle)))
+    middle = median(values)
+    scatter = 1.4826 * median(np.abs(values - middle))
     return middle, 1.25 * scatter / len(values) ** 0.5
 
 
@@ -95,8 +96,8 @@ def _against_x(p: Piece) -> tuple[float, float, float, float, float, float] | No
     if first <= 0.0:
         return None
     half = max(2, round(0.01 / p.step))
-    noise, white = white_noise(p.xdot)
-    x_noise = white_noise(p.x)[0]
+    noise, white = p.noise("xdot")
+    x_noise = p.noise("x")[0]
     derived = x_noise / p.step / (np.sum(np.arange(1, half + 1) ** 2) * 2.0) ** 0.5
     noise = noise if white > 1.2 else 0.0
     return 1.0 / first, second / first, noise / speed, derived / speed, cycle, p.step
