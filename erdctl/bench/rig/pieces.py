@@ -78,6 +78,12 @@ class Piece:
         return float(np.sqrt(np.mean(np.clip(thin, low, high) ** 2)))
 
     @cached_property
+    def cycle(self) -> float:
+        """Mean period of the motion, by its effective stroke and speed [s]; 0 at rest."""
+        speed = float(np.std(self.xdot))
+        return 2.0 * np.pi * float(np.std(self.x)) / speed if speed > 0 else 0.0
+
+    @cached_property
     def near(self) -> npt.NDArray[np.bool_]:
         """(n,) samples next to a reversal or a duty step, or at which the piston hardly moves."""
         return self.turning(max(NEAR, round(0.01 / self.step)) if self.step > 0 else NEAR)

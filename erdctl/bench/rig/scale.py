@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-
 from erdctl.bench.rig.fault import RigFault
 from erdctl.bench.rig.pieces import THIN, Piece, spread
 from erdctl.core.quantiles import percentiles
@@ -27,7 +25,7 @@ def check(found: Sequence[Piece]) -> list[RigFault]:
 def _check(found: Sequence[Piece]) -> Iterator[RigFault]:
     speed = max(spread(p.xdot) / 2.0 for p in found)
     stroke = max(p.stroke for p in found)
-    cycle = min((c for c in map(_cycle, found) if c > 0), default=0.0)
+    cycle = min((p.cycle for p in found if p.cycle > 0), default=0.0)
     step = max(p.step for p in found)
     if step > SLOWEST_SAMPLING or cycle > LONGEST_CYCLE:
         yield _doubt(
@@ -77,9 +75,3 @@ def _forces(found: Sequence[Piece]) -> Iterator[RigFault]:
 
 def _doubt(code: str, text: str, remedy: str) -> RigFault:
     return RigFault(code, None, text, f"{remedy}; if it is right, --accept {code}", blocks=True)
-
-
-def _cycle(piece: Piece) -> float:
-    """Mean period of a stretch, by its effective stroke and speed [s]; 0 at rest."""
-    speed = float(np.std(piece.xdot))
-    return 2.0 * np.pi * float(np.std(piece.x)) / speed if speed > 0 else 0.0

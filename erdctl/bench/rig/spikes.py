@@ -9,7 +9,7 @@ import numpy as np
 from erdctl.bench.rig.fault import RigFault, marked
 from erdctl.bench.rig.pieces import NEAR, Piece, spread, widened
 from erdctl.core.quantiles import median, medians, percentiles
-from erdctl.core.recording import Array, Index
+from erdctl.core.recording import Array, Index, Recording
 
 HALF = 8  # samples on either side that a spike is held against
 WIDE = 2  # of those, the nearest, which it may take up itself
@@ -18,7 +18,7 @@ OVER = 3.0  # times what its surroundings vary by: noise with a memory has peaks
 RANGE = 0.04  # of the channel's range
 RANGE_X = 0.004  # the same of x, of which smaller ones harm
 # Samples of all spikes, and the part of the stroke that most are within.
-RECURRING, ONE_PLACE = 20, 0.1
+RECURRING, ONE_PLACE, MOSTLY = 20, 0.1, 0.95
 RARE = 0.01  # of the samples, at most
 APART = 2.5  # times the next smaller one that is left
 UNITS = {"force": (1.0, "N"), "x": (1e3, "mm")}
@@ -29,23 +29,34 @@ WHITE = 1.2  # see `white_noise`
 BURST_PART = 0.2  # of a record, at most
 BURST_CLIPPED = 0.05  # of a record at a limit, from which it is not looked at
 BURST_WINDOWS = 3  # on end; a knock of the damper itself dies away before
+BURSTS_RECURRING = 2  # at one place of the motion, from which they are its own
 PER_STROKE = 0.4  # bursts for each reversal, from which they belong to the motion
 
 
 def check(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault] = ()) -> list[RigFault]:
     """Spikes of force or x, record by record; not where the channel is clipped.
 
-    Spikes of the force that come back at one deflection are a bore's, and no cable's.
+    Spikes of the force that come back at one place of the motion are a bore's or a joint's, and no
+    cable's.
     """
     out = _spikes(found, channel, clipped)
     if channel != "force" or not out:
         return out
-    r = found[0].recording
-    at = r.x[np.concatenate([f.samples for f in out if f.samples is not None])]
-    recur = sum(len(f.samples) for f in out if f.samples is not None) >= RECURRING
-    low, high = percentiles(at, 10.0, 90.0)
-    gathered = high - low < ONE_PLACE * spread(r.x)
-    return [] if recur and gathered else out
+    at = np.concatenate([f.samples for f in out if f.samples is not None])
+    return [] if _one_place(found[0].recording, at) else out
+
+
+def _one_place(recording: Recording, at: Index) -> bool:
+    """Whether what happened at some samples (k,) happened at one deflection, mostly one way.
+
+    Either way, it may be as wide as ONE_PLACE of the stroke, and one way twice as wide.
+    """
+    if len(at) < RECURRING:
+        return False
+    low, high = percentiles(recording.x[at], 10.0, 90.0)
+    up = float(np.mean(recording.xdot[at] > 0))
+    one_way = max(up, 1.0 - up) > MOSTLY
+    return high - low < (2.0 if one_way else 1.0) * ONE_PLACE * spread(recording.x)
 
 
 def _spikes(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault]) -> list[RigFault]:
@@ -116,6 +127,11 @@ def bursts(found: Sequence[Piece], clipped: Sequence[RigFault] = ()) -> list[Rig
             continue
         turns = np.count_nonzero(np.diff(p.xdot > 0))
         if len(first) > max(3.0, PER_STROKE * turns):
+            continue
+        inside = np.concatenate([
+            np.arange(a * WINDOW, b * WINDOW) for a, b in zip(first, end, strict=True)
+        ])  # fmt: skip
+        if len(first) > BURSTS_RECURRING and _one_place(p.recording, p.first + inside):
             continue
         flags = np.zeros(len(p), dtype=np.bool_)
         for a, b in zip(first.tolist(), end.tolist(), strict=True):

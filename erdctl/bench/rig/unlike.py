@@ -25,7 +25,9 @@ CHANCE = 4e-3  # of such a number among records that are alike, all of them toge
 # Records of one damper in one state differ by some per cent (2 to 6 % on a real rig): the scatter
 # of a few others is taken together with such a prior, which counts like so many more degrees.
 PRIOR_GAIN, PRIOR_OFFSET, PRIOR_LAG = 0.03, 0.01, 1e-3
-PRIOR_LAG_SECONDS = 5e-4
+PRIOR_LAG_SECONDS, PRIOR_NOISE = 5e-4, 0.2  # s; of the noise itself
+LONG_ENOUGH, WHITE = 200, 1.2  # samples that noise is told from; see `white_noise`
+PER_CYCLE = 24  # samples, of which the jumps at two reversals take a third of the third differences
 GAIN, OFFSET, NOISE = 0.12, 0.04, 3.5  # least change: of 1, of the force's range, of the noise
 GROSS, UNCERTAIN = float(np.log(100.0)), 4.0  # a factor that no test has; one that it may have
 LAG, LAG_STEPS = 2e-3, 2.0  # least lag: [s], samples
@@ -79,18 +81,35 @@ def _clearest(
 
 
 def _louder(found: Sequence[Piece]) -> list[RigFault]:
-    """Records with several times the noise of the others."""
-    noise: dict[int, tuple[float, float]] = {}
+    """Records with several times the noise of the others, and of what their motion would give.
+
+    Sampled too coarsely for it, a damper's own chatter is as white as noise, and grows with speed.
+    """
+    first: dict[int, Piece] = {}
     for p in found:
-        if len(p) > 200:
-            noise.setdefault(p.record, p.noise("force"))
+        if len(p) > LONG_ENOUGH and p.cycle > PER_CYCLE * p.step:
+            first.setdefault(p.record, p)
+    pieces = [p for p in first.values() if p.noise("force")[0] > 0]
     out = []
-    for r, (s, white) in noise.items():
-        usual = median([v for k, (v, _) in noise.items() if k != r] or [0.0])
-        if usual > 0 and white > 1.2 and s > NOISE * usual:
+    # The clearest first, as in `check`.
+    for _ in range(max(1, len(pieces) // 3)):
+        levels = [p.noise("force")[0] for p in pieces]
+        if len(pieces) < LEAST_RECORDS:
+            break
+        trend = np.array([
+            [1.0, *(np.log(max(float(np.std(v)), 1e-12)) for v in (p.xdot, p.x))] for p in pieces
+        ])  # fmt: skip
+        least = [float(np.log(NOISE)) if p.noise("force")[1] > WHITE else np.inf for p in pieces]
+        away = _clearest(np.log(levels).tolist(), trend, least, PRIOR_NOISE)
+        if away is None:
+            break
+        usual = median([s for i, s in enumerate(levels) if i != away.index])
+        p = pieces.pop(away.index)
+        s = levels[away.index]
+        if away.difference > 0 and s > NOISE * usual:
             out.append(
                 RigFault(
-                    "record_noise", r,
+                    "record_noise", p.record,
                     f"its force has {s / usual:.2g} times the noise of the other records"
                     f" ({s:.3g} N for {usual:.3g} N rms)",
                     "it is left out of fits; look at the cable, and record it again", blocks=True,
@@ -239,10 +258,9 @@ def _late(rows: Sequence[Rows]) -> RigFault | None:
     seen, lags, cycles, least = [], [], [], []
     for r in rows:
         lag = _lag_of(r.columns @ theta, r.force, r.settled, r.piece.step)
-        speed = float(np.std(r.piece.xdot))
-        if lag is None or speed == 0.0:
+        cycle = r.piece.cycle
+        if lag is None or cycle == 0.0:
             continue
-        cycle = 2.0 * np.pi * float(np.std(r.piece.x)) / speed
         unit = cycle if _steady(rows) else 1.0
         seen.append(r)
         lags.append(lag[0] / unit)
