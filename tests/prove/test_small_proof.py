@@ -16,9 +16,9 @@ from erdctl.prove.tables import line
 
 # Short campaigns of every kind, looked at before: of white and coloured noise, of exact motion and
 # of xdot from a noisy x, logged and not logged.
-SINGLES = (2012, 2013, 2018, 2019, 2031, 2052, 2079)
-PAIRS = (2011, 2075)
-NULLS = (2006, 2021)
+SINGLES = (2012, 2013, 2018, 2031)
+PAIRS = (2011,)
+NULLS = (2006,)
 UNKNOWNS = (2016, 2036)
 SEEDS: tuple[int, ...] = (*SINGLES, *PAIRS, *NULLS, *UNKNOWNS)
 LEAST = {
@@ -48,7 +48,7 @@ def figures(s: Summary) -> dict[str, float | None]:
     }
 
 
-def test_a_dozen_cases(tmp_path: Path) -> None:
+def test_eight_cases(tmp_path: Path) -> None:
     """One test for all figures, as under xdist every process with one would run all the cases."""
     outcomes = prove(Wish(), SEEDS, tmp_path, jobs=2, on_outcome=lambda o: print(line(o)))
     proof = proof_of(Wish(), SEEDS, outcomes)
