@@ -8,7 +8,7 @@ in the source, and the larger the sharper: in the limit the yield force stops to
 saturate at one duty v_s, a = v_s^-beta differs between directions as beta does.
 Valid for a yield stress that grows monotonically; beta takes up most of a weak saturation.
 Check: a = 2, v^beta = 0.5 gives tanh(1) / 2 = 0.3808 of sigma; 1 gives tanh(2) / 2 = 0.4820;
-with n = 2 the first gives sqrt(tanh(1)) / 2 = 0.4363.
+with n = 2 sqrt(tanh(1)) / 2 = 0.4363 and sqrt(tanh(4)) / 2 = 0.4998.
 >>> s, p = signals([0.1, 0.1]), {"a_c": 2.0, "a_r": 0.0, "n": 1.0}
 >>> field_saturation(np.array([0.5, 1.0]), s, p, "compression").round(4).tolist()
 [0.3808, 0.482]
@@ -31,7 +31,6 @@ from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.core.signals import Signals
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import FieldSlot, Values
-
 
 FAR = 1e3  # times the level
 

@@ -1,6 +1,8 @@
 """Before it yields the fluid creeps, at a speed that goes with the field.
 
     sign(xdot) -> erf(sqrt(pi)/2 xdot / v_k),   v_k = s times the top speed (U / U_top)^q
+
+Mostly it yields later in a stronger field, in some dampers earlier.
 """
 
 from __future__ import annotations
@@ -24,7 +26,6 @@ HOOKS = Hooks("preyield_field_dependence", sign=_sign)
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
-    # Mostly yielding later in a stronger field, which the damper may also do earlier.
     power = q["q"] if q["way"] < 0.7 else -0.6 * q["q"]
     return plant.with_own(HOOKS, v_k=s * by.v, top=by.duty, q=power)
 

@@ -39,5 +39,4 @@ TWIN = Twin(
     build=_build,
     shows={"own.noise": "m/s", "own.samples": "1", "own.draw": "1"},
     shape={"samples": (0.0, 0.5), "draw": (0.0, 1e6)},
-    rigid=True,
 )
