@@ -3,7 +3,7 @@
     F_ER -> sigma tanh((a v^beta)^n)^(1/n) / a,   a = a_c in compression, a_r in release
 
 v : (n,) duty cycle [1];  a : saturation [1], a >= 0, off at 0;  n : sharpness of the knee [1], 1 as
-in the source, and the larger the sharper: in the limit the yield force stops to grow at a v^beta = 1
+in the source; in the limit of a large n the yield force stops to grow at a v^beta = 1
 1/a is the level, in units of sigma, that the yield force approaches. Where the dipoles of the fluid
 saturate at one duty v_s, a = v_s^-beta differs between directions as beta does.
 Valid for a yield stress that grows monotonically; beta takes up most of a weak saturation.

@@ -70,7 +70,7 @@ EFFECT = Effect(
     quantities=(
         Quantity(
             symbol="g", unit="N/J", title="static force gained per heat",
-            low=0.0, high=1e6, start=0.01,
+            low=0.0, high=1e3, start=0.01,
         ),
         Quantity(
             symbol="tau_g", unit="s", title="time constant of cooling",

@@ -7,8 +7,9 @@
     F    -> recorded(F)                   what the channel makes of it, before skew, drift and range
     xdot -> velocity(xdot)                what the velocity channel shows, at the samples of the log
 
-All but the last see a whole record at once, on the fine grid of the simulation, its piston as the rod
-and its free play move it. So they are not for what lies behind a spring, which moves by its force.
+All but the last see a whole record at once, on the fine grid of the simulation, its piston as the
+rod and its free play move it. So they are not for what lies behind a spring, which moves by its
+force.
 """
 
 from __future__ import annotations

@@ -51,12 +51,16 @@ def joined(over: Sequence[Ride]) -> Joined:
 
 
 def shown(samples: Joined, plant: Plant) -> Joined:
-    """The samples with the velocity that the plant's own channel shows."""
+    """The samples with the velocity that the plant's own channel shows, of the true direction.
+
+    At a turn a wrong one is an error of twice the yield force, which would be all of the misfit;
+    whoever fits leaves such samples out.
+    """
     if not any(o.hooks.velocity for o in plant.own):
         return samples
     records = pairwise(samples.starts.tolist())
     v = [velocity(plant.own, samples.v[a:b], k) for k, (a, b) in enumerate(records)]
-    return replace(samples, v=np.concatenate(v))
+    return replace(samples, v=np.copysign(np.concatenate(v), samples.v))
 
 
 @njit(cache=True)

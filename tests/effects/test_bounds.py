@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from rig import TRUTH
 
 from erdctl.core.blocks import whole
-from erdctl.core.errors import InputProblem
+from erdctl.core.errors import ComputationProblem, InputProblem
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
@@ -52,7 +52,7 @@ def sides(q: Quantity, bound: float) -> list[float]:
     """A bound as logarithms and units leave it: itself, its neighbours, and 1e-12 beyond."""
     away = np.inf if bound == q.high else -np.inf
     through = [float(np.exp(np.log(bound)))] if q.scale is Scale.LOG else []
-    beyond = bound + np.sign(away) * 1e-12 * abs(bound)
+    beyond = bound + float(np.sign(away)) * 1e-12 * abs(bound)
     return [bound, float(np.nextafter(bound, away)), float(np.nextafter(bound, -away)), beyond,
             *through, bound * 1e3 * 1e-3]  # fmt: skip
 
@@ -70,8 +70,13 @@ def test_at_and_next_to_each_bound(effect: Effect) -> None:
             else:
                 values = sides(q, bound)
             for value in values:
-                force = round_trip(model, start | {effect.key(q.symbol): value})
-                assert np.isfinite(force).all(), (q.symbol, value)
+                try:
+                    force = round_trip(model, start | {effect.key(q.symbol): value})
+                except ComputationProblem:
+                    # Read, but forces that no damper makes: a fit does not end there.
+                    assert abs(value) >= 1e4 * abs(q.start), (q.symbol, value)
+                else:
+                    assert np.isfinite(force).all(), (q.symbol, value)
 
 
 @every
@@ -79,7 +84,8 @@ def test_beyond_a_bound_is_refused(effect: Effect) -> None:
     model = Model((effect,))
     start = TRUTH | {effect.key(q.symbol): q.start for q in effect.quantities}
     for q in effect.quantities:
-        for value in (q.high * 1.001, (q.low if q.read_low is None else q.read_low) - 1e-3):
+        low = q.low if q.read_low is None else q.read_low
+        for value in (q.high + 0.01 * abs(q.high), low - max(0.01 * abs(low), 1e-3)):
             if not q.admits(value):
                 with pytest.raises(InputProblem, match="is outside"):
                     round_trip(model, start | {effect.key(q.symbol): value})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from plant_rig import DAMPER, ACTING, campaign, effect, hidden, over, plain, rms, samples
+from plant_rig import ACTING, DAMPER, campaign, effect, hidden, over, plain, rms, samples
 
 from erdctl.plant.noise import ForceNoise, MotionNoise, draw_force_noise, draw_motion_noise
 from erdctl.plant.refit import predicted, refit, shape_of

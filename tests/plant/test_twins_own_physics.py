@@ -110,9 +110,7 @@ def test_the_gas_warms_by_the_work_done() -> None:
     """A dashpot: T' = heating c v^2 - cooling T, and F_g T / T_0 more force."""
     c, heating, cooling = 400.0, 2.0, 0.3
     dashpot = Plant(*[Side(k_nom=0.0, c_vis=c, T_d=0.02, sigma=0.0, beta=1.0)] * 2)
-    plant = dashpot.with_own(
-        gas_thermal_drift.HOOKS, static=30.0, heating=heating, cooling=cooling
-    )
+    plant = dashpot.with_own(gas_thermal_drift.HOOKS, static=30.0, heating=heating, cooling=cooling)
     t, _, v = ride(TONE).sampled()
     gained = simulate(plant, TONE) - c * v
     whole = slice(round(RATE / F), None, round(RATE / F))  # once a cycle, the power is its mean

@@ -25,7 +25,9 @@ def _grown(U: Array, h: float, start: int, top: float, k: float, T: float) -> Ar
     left = math.exp(-h / T)
     for i in range(len(U)):
         goal = (U[i] / top) ** k
-        state = (U[min(i + 1, len(U) - 1)] / top) ** k if i == start else goal + (state - goal) * left
+        state = goal + (state - goal) * left
+        if i == start:  # U is that of the step before a node
+            state = (U[min(i + 1, len(U) - 1)] / top) ** k
         out[i] = state
     return out
 
