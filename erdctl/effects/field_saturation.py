@@ -76,7 +76,7 @@ EFFECT = Effect(
         ),
         Quantity(
             symbol="n", unit="1", title="sharpness of the knee",
-            low=0.5, high=20.0, start=1.0, off=1.0, scale=Scale.LOG,
+            low=0.5, high=100.0, start=1.0, off=1.0, scale=Scale.LOG,
         ),
     ),
     earlier=(("n", 1.0),),
