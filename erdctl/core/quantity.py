@@ -26,6 +26,7 @@ class Quantity:
     off : finite value at which the physics that it belongs to is exactly absent
     scale : LINEAR or LOG; LOG needs low > 0; an off value of 0 then lies outside the bounds
     linear : the force is linear in it, so a fit solves for it instead of searching
+    read_low : where given, the lowest value of a file; earlier versions fitted below `low`
     """
 
     symbol: str
@@ -37,6 +38,7 @@ class Quantity:
     off: float = 0.0
     scale: Scale = Scale.LINEAR
     linear: bool = False
+    read_low: float | None = None
 
     def __post_init__(self) -> None:
         if not self.low <= self.start <= self.high:
@@ -60,6 +62,19 @@ class Quantity:
                 return bound
         return None
 
+    def snapped(self, value: float) -> float:
+        """The value; the bound, where it lies beyond that by no more than rounding.
+
+        Units, logarithms and printed digits move a value at its bound to just beyond it.
+        Check: exp(log(100)) is 100 and an ulp, and 100 is what was meant; 100.1 is not.
+        >>> q = Quantity(symbol="g", unit="1", title="", low=0.05, high=100.0, start=1.0)
+        >>> q.snapped(100.00000000000004), q.snapped(100.1)
+        (100.0, 100.1)
+        """
+        near = min(max(value, self.low), self.high)
+        return near if abs(value - near) <= NEAR**3 * abs(near) else value
+
     def admits(self, value: float) -> bool:
         """Whether a model may have this value: within the bounds, or off."""
-        return self.low <= value <= self.high or value == self.off
+        low = self.low if self.read_low is None else self.read_low
+        return low <= value <= self.high or value == self.off

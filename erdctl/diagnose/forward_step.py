@@ -14,7 +14,7 @@ from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.screening import Candidate, Screen
 from erdctl.estimate.least_squares import NEAR, at_bound
 from erdctl.estimate.starts import fresh_start
-from erdctl.model.effect import Effect
+from erdctl.model.effect import Effect, Stage
 from erdctl.model.slots import FeedbackSlot, GasSlot, SeriesSlot, SignSlot, ViscousSlot
 
 DISTINCT = (SignSlot, ViscousSlot, GasSlot, SeriesSlot)  # one effect at most in each
@@ -103,7 +103,8 @@ def _worth_a_fit(
         candidate = screen.candidate(effect)
         if candidate is not None:
             found.append(candidate)
-    found.sort(key=lambda c: -c.gain)
+    # Of two that are the same force the damper's own comes first, before an error of the rig.
+    found.sort(key=lambda c: (-round(c.gain, 6), c.effect.stage is Stage.SENSOR))
     found = _one_of_each_kind(found)
     bar = thresholds.SCREENED_GAIN * found[0].gain if found else 0.0
     # What feeds the force back can be worth nothing near the present fit and all of it elsewhere.

@@ -2,9 +2,10 @@
 
     F = F_0 = P_0 A_s
 
-F_0 : [N], off at 0;  P_0 : filling pressure [Pa];  A_s : area of the rod [m^2]
-Valid at any stroke. Of either sign, since on force data alone it is the same as a force_offset, a
-zero error of the force channel; below 0 it must be that.
+F_0 : [N], F_0 >= 0, off at 0;  P_0 : filling pressure [Pa];  A_s : area of the rod [m^2]
+Valid at any stroke. On force data alone it is the same as a force_offset, a zero error of the force
+channel: above 0 it has the name by convention, as every damper with a gas chamber has a preload;
+below 0 it must be that, as gas does not pull.
 Check: P_0 = 500 kPa, A_s = 50 mm^2 = 5e-5 m^2 gives 25 N at every stroke.
 >>> s = signals([0.0, 0.0], x=[-0.01, 0.01])
 >>> (500e3 * 5e-5 * gas_preload(s, {})[0]).round(9).tolist()
@@ -37,13 +38,13 @@ EFFECT = Effect(
     equation="F = F_0",
     said="{F_0} of static force",
     source="the ER damper paper, Eqs. 3 and 4",
-    validity="on force data alone it is the same as force_offset, a zero error of the channel",
+    validity="on force data alone the same as force_offset, a zero error of the channel",
     requires=(Requirement.STROKE,),
     shows=Variable.X,
     quantities=(
         Quantity(
             symbol="F_0", unit="N", title="static force",
-            low=-1e9, high=1e9, start=1.0, linear=True,
+            low=0.0, high=1e9, start=1.0, linear=True, read_low=-1e9,
         ),
     ),
     columns=gas_preload,

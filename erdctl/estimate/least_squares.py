@@ -197,6 +197,7 @@ class _Axis(NamedTuple):
     low: float
     high: float
     log: bool
+    quantity: Quantity
 
     @classmethod
     def of(cls, q: Quantity, value: float) -> _Axis:
@@ -205,11 +206,13 @@ class _Axis(NamedTuple):
         if not low <= value <= q.high:
             value = q.start
         if q.scale is Scale.LOG:
-            return cls(value, float(np.log(low)), float(np.log(q.high)), log=True)
-        return cls(value, low, q.high, log=False)
+            return cls(value, float(np.log(low)), float(np.log(q.high)), log=True, quantity=q)
+        return cls(value, low, q.high, log=False, quantity=q)
 
     def forth(self, value: float) -> float:
         return float(np.log(value)) if self.log else value
 
     def back(self, u: float) -> float:
-        return float(np.exp(u)) if self.log else u
+        """Within the bounds: exp(log(high)) can be an ulp above, which no file may hold."""
+        value = float(np.exp(u)) if self.log else u
+        return min(max(value, self.quantity.low), self.quantity.high)

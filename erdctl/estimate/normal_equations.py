@@ -59,4 +59,4 @@ class Normal(NamedTuple):
         root = (self.vectors * np.sqrt(self.eigenvalues)).T
         target = (self.vectors.T @ (right / self.scale)) / np.sqrt(self.eigenvalues)
         found = lsq_linear(root, target, bounds=(low * self.scale, high * self.scale))
-        return np.asarray(found.x / self.scale)
+        return np.asarray(np.clip(found.x / self.scale, low, high))

@@ -12,6 +12,7 @@ from erdctl.core.quantity import Quantity
 from erdctl.core.recording import DIRECTIONS
 from erdctl.io import documents
 from erdctl.model.composed import Model
+from erdctl.model.effect import Effect
 from erdctl.model.paper import QUANTITIES
 from erdctl.model.parameters import Estimate, Parameters
 
@@ -97,7 +98,8 @@ def parse_parameters(data: bytes, name: str) -> Parameters:
             raise InputProblem(f"effects[{i}]: '{effect.name}' is listed twice", file=name)
         chosen.append(effect)
         known = {q.symbol: q for q in effect.quantities}
-        if set(extra.parameters) != set(known):
+        values = _completed(extra.parameters, effect)
+        if set(values) != set(known):
             raise InputProblem(
                 f"effects[{i}] ({effect.name}): expected the parameters"
                 f" {', '.join(known)}, found {', '.join(extra.parameters) or 'none'}",
@@ -105,7 +107,7 @@ def parse_parameters(data: bytes, name: str) -> Parameters:
             )
         for symbol, quantity in known.items():
             full = effect.key(symbol)
-            estimates[full] = _estimate(extra.parameters[symbol], quantity, full, name)
+            estimates[full] = _estimate(values[symbol], quantity, full, name)
     documents.converted(document.provenance, KnownProvenance, name=name, path=".provenance")
     found = Parameters(
         model=Model(tuple(chosen)),
@@ -117,6 +119,15 @@ def parse_parameters(data: bytes, name: str) -> Parameters:
     if len(chosen) > 1:
         _check_together(found, name)
     return found
+
+
+def _completed(given: dict[str, Value | float], effect: Effect) -> dict[str, Value | float]:
+    """Parameters of an effect, with those that it had not when the file was written."""
+    out = dict(given)
+    for symbol, was in effect.earlier:
+        if symbol not in out and (not isinstance(was, str) or was in given):
+            out[symbol] = given[was] if isinstance(was, str) else was
+    return out
 
 
 def _check_together(parameters: Parameters, name: str) -> None:
@@ -147,6 +158,7 @@ def _estimate(given: Value | float, quantity: Quantity, full: str, name: str) ->
     for what, number in (("", value), ("the standard error of ", stderr), ("assumed ", assumed)):
         if number is not None and not math.isfinite(number):
             raise InputProblem(f"{what}{full} is not a finite number", file=name)
+    value, assumed = (None if v is None else quantity.snapped(v) for v in (value, assumed))
     used = assumed if value is None else value
     if used is not None and not quantity.admits(used):
         raise InputProblem(

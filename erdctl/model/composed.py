@@ -1,7 +1,7 @@
 """The paper's model with any list of effects: force, or unit columns for a fit.
 
     motion -> control -> field -> lag -> sign -> yield -> groups gas + viscous + yield, scaled
-    -> terms -> compliance in series -> force channel
+    -> terms -> compliance in series -> driven forces -> force channel
 
 Nothing here names an effect; each enters through the slot that it declares. With every effect at
 its off value the force equals that of the model without it, bit for bit.
@@ -22,6 +22,7 @@ from erdctl.model.effect import Effect, S, in_slot
 from erdctl.model.response import Factors, Prepared, multiplied
 from erdctl.model.slots import (
     ControlSlot,
+    DrivenSlot,
     FeedbackSlot,
     FieldSlot,
     GasSlot,
@@ -68,9 +69,10 @@ class Model:
 
     @cached_property
     def separable(self) -> bool:
-        """Whether the force is linear in the amplitudes: no effect feeds the force back."""
+        """Whether the force is linear in the amplitudes: no effect is made from the force."""
         return not any(
-            isinstance(e.slot, SeriesSlot | FeedbackSlot | LagSlot) for e in self.effects
+            isinstance(e.slot, SeriesSlot | FeedbackSlot | DrivenSlot | LagSlot)
+            for e in self.effects
         )
 
     def of(self, kind: type[S]) -> list[tuple[Effect, S]]:

@@ -83,6 +83,8 @@ class Effect:
     companions : effects that commonly come with it, and without which it may improve no fit
     equivalents : effects that force data can hardly tell from this one, whatever the log
     order : effects of one slot act in this order
+    earlier : parameters that files lack which were written before there were any, and what they are
+        there: a number, or the symbol whose value it is
     """
 
     name: str
@@ -103,6 +105,7 @@ class Effect:
     said: str = ""
     alters: tuple[tuple[str, str], ...] = ()
     order: int = 0
+    earlier: tuple[tuple[str, float | str], ...] = ()
 
     def __post_init__(self) -> None:
         if bool(self.amplitudes) != (self.columns is not None):

@@ -17,6 +17,7 @@ from erdctl.model.effect import Effect, in_slot
 from erdctl.model.paper import pair
 from erdctl.model.slots import (
     ChannelSlot,
+    DrivenSlot,
     FeedbackSlot,
     ScaleSlot,
     SeriesSlot,
@@ -69,7 +70,12 @@ class Prepared:
         springs = self._springs(values)
         if springs:
             factors = self._fed_back(values, factors)
-            return self._recorded(self._total_behind_spring(values, factors, *springs[0]))
+            force = self._total_behind_spring(values, factors, *springs[0])
+            if in_slot(self.effects, DrivenSlot):
+                parts = self._behind_spring(values, factors, *springs[0])
+                for row in self._driven(parts, values):
+                    force = force + row
+            return self._recorded(force)
         parts = self.parts(values, factors)
         total = parts["gas"] + parts["viscous"] + parts["yield"]
         return total + parts["other"] if "other" in parts else total
@@ -77,7 +83,17 @@ class Prepared:
     def parts(self, values: Values, factors: Factors | None = None) -> dict[str, Array]:
         """(n,) force of each group and, if there are any terms, of all `other` forces."""
         out = self._parts(values, self._fed_back(values, factors))
+        for row in self._driven(out, values):
+            out["other"] = out["other"] + row if "other" in out else row
         return {name: self._recorded(part) for name, part in out.items()}
+
+    def _driven(self, parts: Mapping[str, Array], values: Values) -> list[Array]:
+        """(n,) forces that those of the groups bring about [N]."""
+        groups = {g: parts[g] for g in GROUPS}
+        return [
+            law(groups, self.signals, e.local(values))
+            for e, law in in_slot(self.effects, DrivenSlot)
+        ]
 
     def _fed_back(self, values: Values, factors: Factors | None) -> Factors:
         """(n,) factors of groups, with those that depend on the forces themselves."""

@@ -68,6 +68,12 @@ class FeedbackFunction(Protocol):
     def __call__(self, parts: Groups, s: Signals, p: Values, /) -> Groups: ...
 
 
+class DrivenFunction(Protocol):
+    """(n,) force [N] that the forces of the groups bring about."""
+
+    def __call__(self, parts: Groups, s: Signals, p: Values, /) -> Array: ...
+
+
 class NumberFunction(Protocol):
     """One number."""
 
@@ -202,6 +208,16 @@ class FeedbackSlot(FunctionSlot[FeedbackFunction]):
         return groups(self.function, called(self.function, parts, s, p), s)
 
 
+class DrivenSlot(FunctionSlot[DrivenFunction]):
+    """(n,) a further force [N] from those of the groups `gas`, `viscous`, `yield`, at the samples.
+
+    It acts beside them and is not fed back: what it is made from does not hold it.
+    """
+
+    def __call__(self, parts: Groups, s: Signals, p: Values) -> Array:
+        return samples(self.function, called(self.function, parts, s, p), s)
+
+
 class SeriesSlot(FunctionSlot[NumberFunction]):
     """Compliance [m/N] in series with some groups, or with the whole damper (`carries` None)."""
 
@@ -225,7 +241,7 @@ class TermSlot:
 
 Slot = (
     MotionSlot | ControlSlot | FieldSlot | LagSlot | SignSlot | YieldSlot | ViscousSlot | GasSlot
-    | ScaleSlot | TermSlot | FeedbackSlot | SeriesSlot | ChannelSlot
+    | ScaleSlot | TermSlot | FeedbackSlot | DrivenSlot | SeriesSlot | ChannelSlot
 )  # fmt: skip
 
 

@@ -2,7 +2,8 @@
 
     e = voltage as a fraction of full scale, delayed, slew-limited
     target = sigma (e - e_c)^beta                 chains form above a critical field only
-    target = sigma e_s^beta tanh((e / e_s)^beta)  polarisation is exhausted towards e_s
+    target = sigma e_s^beta tanh((e / e_s)^beta)  polarisation is exhausted towards e_s, or sharply
+    target = sigma e^beta (1 + (e / e_s)^(beta n))^(-1/n)
     T_d dF/dt + F = target                        Eq. 12; on the force with its sign if `signed`
 
 Source: the paper, Eqs. 7, 10-12; saturation of the dipoles: Choi, Cho, Jhon (2001).
@@ -73,7 +74,10 @@ def target(voltage: float, side: Side, p: Physics) -> float:
     if p.screening == 0.0:
         return float(side.sigma * e**side.beta)
     full = p.screening**side.beta
-    return float(side.sigma * math.tanh(full * e**side.beta) / full)
+    level = full * e**side.beta
+    if p.knee == 0.0:
+        return float(side.sigma * math.tanh(level) / full)
+    return float(side.sigma * level / (full * (1.0 + level**p.knee) ** (1.0 / p.knee)))
 
 
 class Fades(NamedTuple):

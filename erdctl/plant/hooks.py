@@ -5,9 +5,11 @@
     sign(xdot) -> sign                    of the yield force
     F    -> force(F)                      what acts beside gas and fluid, or on the whole damper
     F    -> recorded(F)                   what the channel makes of it, before skew, drift and range
+    xdot -> velocity(xdot)                what the velocity channel shows, at the samples of the log
 
-They see a whole record at once, on the fine grid of the simulation, its piston as the rod and its
-free play move it. So they are not for what lies behind a spring, which moves by its force.
+All but the last see a whole record at once, on the fine grid of the simulation, its piston as the
+rod and its free play move it. So they are not for what lies behind a spring, which moves by its
+force.
 """
 
 from __future__ import annotations
@@ -54,6 +56,8 @@ class Hooks:
     sign : (grid, p) -> (m,) in -1..1 in place of sign(xdot) in the yield force
     force : (F, grid, p) -> (m,) force of the damper from that without it [N]
     recorded : (F, grid, p) -> (m,) what the force channel shows of it [N]
+    velocity : (v, record, p) -> (n,) what the velocity channel shows of the rod's [m/s]; record is
+        its number, so that each can have noise of its own
     """
 
     name: str
@@ -63,6 +67,7 @@ class Hooks:
     sign: Callable[[FineGrid, Values], Array] | None = None
     force: Callable[[Array, FineGrid, Values], Array] | None = None
     recorded: Callable[[Array, FineGrid, Values], Array] | None = None
+    velocity: Callable[[Array, int, Values], Array] | None = None
 
     @property
     def rigid(self) -> bool:

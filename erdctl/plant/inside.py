@@ -83,7 +83,7 @@ def beside(x: float, v: float, way: float, i: Instant, up: Side, down: Side, p: 
     """Gas, stops and seals, which act beside the fluid [N]."""
     now = i.way0 if way == 0.0 else way
     held = i.on_gas * (gas(x, up if now > 0.0 else down, p) + p.preload)
-    return held + stops(x, p) + friction(v, way, p) + bent(i.bend, x - i.x0, p)
+    return held + stops(x, v, p) + friction(v, way, p) + bent(i.bend, x - i.x0, p)
 
 
 @njit(cache=True)

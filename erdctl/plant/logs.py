@@ -12,6 +12,7 @@ import pyarrow as pa
 
 from erdctl.plant.campaign import Campaign
 from erdctl.plant.case import Case
+from erdctl.plant.own import velocity
 from erdctl.plant.plan import stream
 from erdctl.plant.plant import Side
 from erdctl.plant.simulate import Ride, force, rides
@@ -30,9 +31,11 @@ def log(case: Case) -> pa.Table:
     edges = np.cumsum([0, *lengths])
     rig = stream(case.seed, "rig")
     columns: dict[str, list[Array]] = {name: [] for name in COLUMNS[:-1]}
-    for r, gain, a, b in zip(over, case.gains, edges[:-1], edges[1:], strict=True):
+    bounds = zip(over, case.gains, edges[:-1], edges[1:], strict=True)
+    for number, (r, gain, a, b) in enumerate(bounds):
         t, x, v = r.sampled()
         x, v = case.motion_noise.at(rig, x, v, r.record.rate)
+        v = velocity(case.plant.own, v, number)
         measured = gain * force(case.plant, r) + noise[a:b]
         for name, values in zip(columns, (t, x, v, r.duty, measured), strict=True):
             columns[name].append(values)

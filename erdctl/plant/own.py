@@ -17,6 +17,14 @@ EMPTY = np.empty(0)
 NOTHING = OwnLaws(EMPTY, EMPTY, EMPTY, EMPTY)
 
 
+def velocity(own: tuple[Own, ...], v: Array, record: int) -> Array:
+    """(n,) velocity of the rod in one record, as its channel shows it [m/s]."""
+    for hooks, values in own:
+        if hooks.velocity:
+            v = hooks.velocity(v, record, dict(values))
+    return v
+
+
 @dataclass(frozen=True, eq=False)
 class Applied:
     """Some twins' own physics on one record."""

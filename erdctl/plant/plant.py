@@ -31,11 +31,13 @@ class Physics(NamedTuple):
     stop_high: float = FOREVER  # deflection at which the bump stop is touched [m]
     stop_low: float = -FOREVER  # and the rebound stop [m]
     stop_rate: float = 0.0  # stiffness of the stops [N/m]
+    stop_loss: float = 0.0  # of their damping, by depth and speed (Hunt and Crossley) [s/m]
 
     dead_time: float = 0.0  # between duty and voltage [s]
     slew: float = 0.0  # time that the supply needs over its full range [s]
     threshold: float = 0.0  # duty below which no chains form [1]
     screening: float = 0.0  # 1 / duty at which polarisation is exhausted [1]
+    knee: float = 0.0  # sharpness of that, tanh at 0 [1]
     rise: float = 1.0  # factor on T_d while chains form [1]
     decay: float = 1.0  # factor on T_d while they dissolve [1]
 

@@ -9,13 +9,15 @@ six are solved for. Written here anew: the strength of an effect must not depend
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
 from numba import njit
 from scipy.optimize import least_squares
 
+from erdctl.plant.own import velocity
 from erdctl.plant.plant import Plant, Side
 from erdctl.plant.simulate import Ride
 
@@ -46,6 +48,19 @@ def joined(over: Sequence[Ride]) -> Joined:
         np.concatenate(x), np.concatenate(v), np.concatenate([r.duty for r in over]),
         np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64), 1.0 / over[0].record.rate,
     )  # fmt: skip
+
+
+def shown(samples: Joined, plant: Plant) -> Joined:
+    """The samples with the velocity that the plant's own channel shows, of the true direction.
+
+    At a turn a wrong one is an error of twice the yield force, which would be all of the misfit;
+    whoever fits leaves such samples out.
+    """
+    if not any(o.hooks.velocity for o in plant.own):
+        return samples
+    records = pairwise(samples.starts.tolist())
+    v = [velocity(plant.own, samples.v[a:b], k) for k, (a, b) in enumerate(records)]
+    return replace(samples, v=np.copysign(np.concatenate(v), samples.v))
 
 
 @njit(cache=True)

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.refit import Joined, Refit, refit, shape_of
+from erdctl.plant.refit import Joined, Refit, refit, shape_of, shown
 from erdctl.plant.regions import near_reversals
 from erdctl.plant.simulate import Ride, forces
 from erdctl.plant.twin import Scales, Twin
@@ -92,7 +92,7 @@ def outcome(
     starts = [own if warm is None else warm]
     if full:
         starts += [own, own + np.array([-0.7, -0.7, -1.0, -1.0]), own + np.array([0.5, 0.5, 1, 1])]
-    fitted = refit(setting.samples, force, starts)
+    fitted = refit(shown(setting.samples, plant), force, starts)
     plain = setting.plain
     if plant.compression != setting.base.compression:  # the effect has its own time constant
         plain = forces(plant.plain(), setting.over)

@@ -18,6 +18,7 @@ from erdctl.model.effect import Effect, Stage, Variable
 from erdctl.model.slots import (
     ChannelSlot,
     ControlSlot,
+    DrivenSlot,
     FeedbackSlot,
     FieldSlot,
     GasSlot,
@@ -43,9 +44,10 @@ def effect(slot: Slot, name: str = "probe") -> Effect:
     )  # fmt: skip
 
 
-NOT_LINEAR: tuple[Slot, ...] = (  # the force acts on itself
+NOT_LINEAR: tuple[Slot, ...] = (  # the force is made from itself
     LagSlot(lambda s, p: np.full(len(s), 1 + p["p"])),
     FeedbackSlot(lambda parts, s, p: {"yield": 1 - p["p"] * np.tanh(parts["yield"] ** 2 / 1e3)}),
+    DrivenSlot(lambda parts, s, p: p["p"] * np.abs(parts["viscous"])),
     SeriesSlot(lambda p: p["p"] * 1e-4),
 )
 LINEAR: tuple[Slot, ...] = (

@@ -89,5 +89,10 @@ def hidden(name: str, s: float) -> Plant:
     return e.build(DAMPER, s, shape, scales())
 
 
+# Of these the force is that of the plain damper: their own tests hold them to the motion they log.
+MOTION_ALONE = tuple(n for n in EVERY if any(o.hooks.velocity for o in hidden(n, 0.01).own))
+ACTING = tuple(n for n in EVERY if n not in MOTION_ALONE)
+
+
 def rms(u: Array) -> float:
     return float(np.sqrt(np.mean(u**2)))

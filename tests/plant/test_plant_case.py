@@ -125,7 +125,8 @@ def test_what_was_not_logged_can_be_asked_for() -> None:
     drawn = {
         draw_plan(s, kind="single", concealment="not_logged").effects[0].name for s in range(40)
     }
-    assert drawn == {"thermal_fade", "oil_leakage", "electrical_fault", "deformation_fault"}
+    faults = {"oil_leakage", "electrical_fault", "deformation_fault"}
+    assert drawn == {"thermal_fade", "gas_thermal_drift", *faults}
 
 
 def test_wishes_that_cannot_be_met_are_refused() -> None:

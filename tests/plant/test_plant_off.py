@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from plant_rig import DAMPER, EVERY, effect, hidden, over, plain, rms
+from plant_rig import ACTING, DAMPER, effect, hidden, over, plain, rms
 
 from erdctl.plant import ForceChannel, Outside, Physics, Plant
 from erdctl.plant.simulate import forces
@@ -35,7 +35,7 @@ def test_switches_that_change_nothing() -> None:
     assert np.array_equal(forces(idle, over()), plain())
 
 
-@pytest.mark.parametrize("name", EVERY)
+@pytest.mark.parametrize("name", ACTING)
 def test_a_fading_effect_goes_over_into_the_plain_damper(name: str) -> None:
     e = effect(name)
     weak, strong = hidden(name, e.low), hidden(name, e.start)
@@ -45,7 +45,7 @@ def test_a_fading_effect_goes_over_into_the_plain_damper(name: str) -> None:
     assert left < 0.03 * np.ptp(plain())
 
 
-@pytest.mark.parametrize("name", EVERY)
+@pytest.mark.parametrize("name", ACTING)
 def test_strength_is_what_it_says(name: str) -> None:
     """More of it changes the force more, over the part of its range that logs are drawn from."""
     e = effect(name)

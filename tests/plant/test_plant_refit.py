@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from plant_rig import DAMPER, EVERY, campaign, effect, hidden, over, plain, rms, samples
+from plant_rig import ACTING, DAMPER, campaign, effect, hidden, over, plain, rms, samples
 
 from erdctl.plant.noise import ForceNoise, MotionNoise, draw_force_noise, draw_motion_noise
 from erdctl.plant.refit import predicted, refit, shape_of
@@ -23,7 +23,7 @@ def test_prediction_is_the_plain_plant() -> None:
     assert rms(apart) < 1e-5 * np.ptp(plain())
 
 
-@pytest.mark.parametrize("name", EVERY)
+@pytest.mark.parametrize("name", ACTING)
 def test_it_absorbs_a_part_and_never_adds(name: str) -> None:
     plant = hidden(name, effect(name).start)
     force = forces(plant, over())

@@ -140,7 +140,7 @@ def test_another_package_adds_a_twin(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(twins, "entry_points", lambda **asked: [entry])
     forget()
     try:
-        assert twins.names()[-1] == "rust"
+        assert "rust" in twins.names()[len(twins.FIRST) :]
         assert twins.get("rust") is other
         entry.name, entry.load = "moss", lambda: other
         with pytest.raises(TypeError, match="does not declare itself under that name"):

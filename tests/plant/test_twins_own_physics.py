@@ -8,9 +8,19 @@ import numpy as np
 import pytest
 from plant_rig import DAMPER, RATE, constant, effect, hidden, over, record, rms, scales, sine
 
-from erdctl.plant import Plant, Side, simulate
+from erdctl.plant import DutyProgramme, Plant, Side, draw, log, simulate
+from erdctl.plant.own import velocity
 from erdctl.plant.simulate import forces, ride
-from erdctl.plant.twins import force_smoothing, power_law_yield, preyield_elasticity
+from erdctl.plant.twins import (
+    field_viscosity,
+    force_offset,
+    force_smoothing,
+    gas_thermal_drift,
+    power_law_yield,
+    preyield_elasticity,
+    preyield_field_dependence,
+    velocity_noise,
+)
 
 F, A = 1.25, 0.01  # Hz, m
 SPRING = Plant(*[Side(k_nom=1000.0, c_vis=0.0, T_d=0.02, sigma=0.0, beta=1.0)] * 2)
@@ -77,6 +87,68 @@ def test_a_record_that_does_not_turn_is_not_smoothed() -> None:
     slow = record(sine(0.02, A, -0.5), constant(1.0), seconds=2.0)
     smooth = simulate(DAMPER.with_own(force_smoothing.HOOKS, window=0.3), slow)
     np.testing.assert_array_equal(smooth, simulate(DAMPER, slow))
+
+
+def test_a_zero_error_is_a_constant() -> None:
+    plant = DAMPER.with_own(force_offset.HOOKS, zero=-0.5)
+    np.testing.assert_allclose(simulate(plant, TONE), simulate(DAMPER, TONE) - 0.5)
+
+
+def test_chains_thicken_the_fluid_within_their_time() -> None:
+    """c v (1 + s (U/U_top)^k (1 - exp(-t/T))) after a step from no field."""
+    at, T = 500, 0.05
+    dashpot = Plant(*[Side(k_nom=0.0, c_vis=100.0, T_d=0.02, sigma=0.0, beta=1.0)] * 2)
+    plant = dashpot.with_own(field_viscosity.HOOKS, growth=2.0, top=0.4, power=1.5, chains=T)
+    tone = record(sine(F, A), DutyProgramme((0.0, 0.2), (0, at)), seconds=6.0)
+    t, _, v = ride(tone).sampled()
+    grown = np.where(t > t[at], 1 - np.exp(-(t - t[at]) / T), 0.0)
+    expected = 100 * v * (1 + 2 * 0.5**1.5 * grown)
+    np.testing.assert_allclose(simulate(plant, tone), expected, rtol=1e-6, atol=1e-9)
+
+
+def test_the_gas_warms_by_the_work_done() -> None:
+    """A dashpot: T' = heating c v^2 - cooling T, and F_g T / T_0 more force."""
+    c, heating, cooling = 400.0, 2.0, 0.3
+    dashpot = Plant(*[Side(k_nom=0.0, c_vis=c, T_d=0.02, sigma=0.0, beta=1.0)] * 2)
+    plant = dashpot.with_own(gas_thermal_drift.HOOKS, static=30.0, heating=heating, cooling=cooling)
+    t, _, v = ride(TONE).sampled()
+    gained = simulate(plant, TONE) - c * v
+    whole = slice(round(RATE / F), None, round(RATE / F))  # once a cycle, the power is its mean
+    mean = heating * c * (2 * math.pi * F * A) ** 2 / 2
+    expected = 30.0 / 293.0 * mean / cooling * (1 - np.exp(-cooling * t))
+    np.testing.assert_allclose(gained[whole], expected[whole], rtol=0.04)
+    assert gained[0] == 0.0
+
+
+def test_the_knee_of_a_creeping_fluid_goes_with_the_field() -> None:
+    plant = BINGHAM.with_own(preyield_field_dependence.HOOKS, v_k=0.05, top=1.0, q=1.0)
+    half = record(sine(F, A), constant(0.5), seconds=6.0)
+    _, _, v = ride(half).sampled()
+    force = simulate(plant, half)
+    slow = np.abs(v) < 2e-3
+    np.testing.assert_allclose(force[slow], 10 * v[slow] / 0.025, rtol=5e-3, atol=1e-6)
+    assert np.abs(force).max() == pytest.approx(10.0, rel=2e-3)
+
+
+def test_a_velocity_channel_is_noisy_and_late_and_the_force_is_not() -> None:
+    plant = DAMPER.with_own(velocity_noise.HOOKS, noise=1e-3, samples=0.4, draw=7.0)
+    np.testing.assert_array_equal(simulate(plant, TONE), simulate(DAMPER, TONE))
+    _, _, v = ride(TONE).sampled()
+    late = np.append(v[:1], 0.6 * v[1:] + 0.4 * v[:-1])
+    noise = velocity(plant.own, v, 0) - late
+    assert rms(noise) == pytest.approx(1e-3, rel=0.05)
+    other = velocity(plant.own, v, 1) - late
+    assert abs(np.corrcoef(noise, other)[0, 1]) < 0.1
+
+
+def test_the_log_of_a_case_has_the_velocity_of_its_channel() -> None:
+    case = draw(7399, effects=["velocity_noise"], level=1.0, motion="exact")
+    table = log(case)
+    v = np.concatenate([ride(r).sampled()[2] for r in case.campaign.records])
+    found = rms(table["xdot"].to_numpy() - v)
+    noise = dict(case.plant.own[0].values)["noise"]
+    assert noise < found < 2.0 * noise  # and the delay
+    assert case.truth[0].parameters["noise"] == (noise, "m/s")
 
 
 @pytest.mark.parametrize("name", ["power_law_yield", "preyield_elasticity"])

@@ -13,6 +13,7 @@ diagnoses the effect. It holds
        sign (grid, p)        -> (m,) in -1..1, in place of sign(xdot)
        force (F, grid, p)    -> (m,) force with what acts beside gas and fluid [N]
        recorded (F, grid, p) -> (m,) what the force channel shows [N]
+       velocity (v, record, p) -> (n,) what the velocity channel shows [m/s]
 
    grid has t, x, v, a of the piston and the duty U, (m,) each, and the step h; p the parameters by
    symbol. A state is a loop over the nodes (`numba.njit`), one of a record from `grid.start` on;

@@ -1,6 +1,7 @@
 """Polarisation is exhausted at high fields.
 
-tau_y = alpha E_s^beta tanh((E/E_s)^beta); E_s = the highest field / s.
+tau_y = alpha E_s^beta tanh((E/E_s)^beta), or with a sharper knee alpha E^beta (1 +
+(E/E_s)^(beta n))^(-1/n); E_s = the highest field / s.
 """
 
 from __future__ import annotations
@@ -10,7 +11,9 @@ from erdctl.plant.twin import Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
-    return plant.with_physics(screening=s / by.duty)
+    # Half of the fluids have the smooth knee of the source, others one that is all but a corner.
+    knee = 10.0 ** q["knee"] if q["knee"] > 0.4 else 0.0
+    return plant.with_physics(screening=s / by.duty, knee=knee)
 
 
 TWIN = Twin(
@@ -21,5 +24,6 @@ TWIN = Twin(
     start=1.5,
     high=12.0,
     build=_build,
-    shows={"physics.screening": "1"},
+    shows={"physics.screening": "1", "physics.knee": "1"},
+    shape={"knee": (-0.3, 1.1)},
 )

@@ -1,0 +1,80 @@
+"""Viscous force that grows with the field.
+
+    F_viscous -> (1 + r u) F_viscous,   T_v du/dt + u = v^m
+
+v : (n,) duty cycle, held from its sample to the next [1];  u : (n,) field that the chains have
+followed [1], v^m as a record begins;  r : growth of the viscosity up to full duty [1], r >= 0, off
+at 0;  m : exponent [1], 1 in the source;  T_v : time constant of the chains [s], 0 at once
+Valid where chains thicken the flowing fluid too, so that the slope of force over speed rises with
+the field.
+Check: r = 3, m = 1, T_v = 10 ms, duty 0 and then 0.4: 1, and 10 ms after the step 1 + 3 * 0.4 *
+(1 - exp(-1)) = 1.7585 of the viscous force.
+>>> s = signals(np.ones(3), duty=[0.0, 0.4, 0.4], step=0.01)
+>>> field_viscosity(s, {"r": 3.0, "m": 1.0, "T_v": 0.01})["viscous"].round(4).tolist()
+[1.0, 1.0, 1.7585]
+
+Source: B. F. Spencer, S. J. Dyke, M. K. Sain, J. D. Carlson, Phenomenological model for
+magnetorheological dampers, J. Engineering Mechanics 123 (1997) 230-238 (Eqs. 11 to 14: damping
+linear in a filtered field).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from erdctl.core.quantity import Quantity
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.kernels import first_order
+from erdctl.model.slots import ScaleSlot, Values
+
+AT_ONCE = 1e-9  # s
+
+
+def field_viscosity(s: Signals, p: Values) -> dict[str, Array]:
+    """Factor of the viscous force, (n,) [1]."""
+    if p["r"] == 0.0:
+        return {}
+    field = s.duty ** p["m"]
+    step = s.step if s.common_step is None else s.common_step
+    decay = step / max(p["T_v"], AT_ONCE)
+    followed = first_order(decay, -np.expm1(-decay) * field, field[s.starts[:-1]], s.starts)
+    return {"viscous": 1.0 + p["r"] * followed}
+
+
+def doubled(s: Signals, rest: Array) -> list[dict[str, float]]:
+    """Starts of a search: the highest duty doubles the viscosity, in several ways."""
+    top = max(float(s.duty.max()), 1e-3)
+    ways = ((1.0, 0.0), (0.5, 0.0), (2.0, 0.0), (1.0, 0.03))
+    return [{"r": min(top**-m, 1e3), "m": m, "T_v": T_v} for m, T_v in ways]
+
+
+EFFECT = Effect(
+    name="field_viscosity",
+    stage=Stage.FIELD,
+    slot=ScaleSlot(field_viscosity),
+    title="viscous force grows with the field",
+    equation="F_viscous -> (1 + r u) F_viscous, T_v du/dt + u = v^m",
+    said="viscosity growing by {r} times v^{m}",
+    alters=(("viscous", "(1 + r u) {}"),),
+    source="Spencer, Dyke, Sain and Carlson, J. Engineering Mechanics 123 (1997) 230-238",
+    validity="speeds and duty levels that vary apart from each other",
+    requires=(Requirement.FIELD, Requirement.SPEEDS),
+    shows=Variable.DUTY,
+    quantities=(
+        Quantity(
+            symbol="r", unit="1", title="growth of the viscosity up to full duty",
+            low=0.0, high=1e4, start=1.0,
+        ),
+        Quantity(
+            symbol="m", unit="1", title="exponent of the duty",
+            low=0.1, high=4.0, start=1.0, off=1.0,
+        ),
+        Quantity(
+            symbol="T_v", unit="s", title="time constant with which it follows the field",
+            low=0.0, high=1.0, start=0.02,
+        ),
+    ),
+    guesses=doubled,
+)  # fmt: skip

@@ -1,0 +1,95 @@
+"""Velocity channel that is noisy, or late, by itself.
+
+    xdot -> xdot_s = (1 - w) xdot + w V[x]
+    V[x]_i = sum over k of a_k (x_{i+k} - x_{i-k}) / (t_{i+k} - t_{i-k})
+
+x, xdot : (n,) logged deflection [m] and velocity [m/s]
+V[x] : (n,) what the deflection says of the velocity, without phase: slopes over 1 to 40 samples
+each way, weighted by a_k such that V[x] comes as near as it can to xdot, in each record by itself
+w : part of the velocity that is taken from the deflection [1], 0..1, off at 0; by the theory of
+errors s_v^2 / (s_v^2 + s_x^2) with the noise of xdot and that of V[x], and 1 where xdot is late
+Valid for a velocity with a sensor of its own. Of an xdot that was derived from x by any filter that
+is not late V[x] is the same, whatever its noise: then nothing changes. Towards the ends of a record
+and in records of few samples xdot stays as logged.
+Check: x = 0.1 t m, xdot = 0.1 m/s with an error of +-0.02 m/s from sample to sample, w = 0.5: half
+of the error is left.
+>>> way = np.where(np.arange(900) % 2, 1.0, -1.0)
+>>> s = signals(0.1 + 0.02 * way, x=0.001 * np.arange(900), step=0.01)
+>>> half = velocity_noise(s, {"w": 0.5}).xdot[400:402] - 0.1
+>>> half.round(4).tolist()
+[-0.01, 0.01]
+
+Source: A. Savitzky, M. J. E. Golay, Analytical Chemistry 36 (1964) 1627-1639 (derivative as
+weighted differences); W. A. Fuller, Measurement Error Models (1987), ch. 1 (noise in what a model
+is given).
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from itertools import pairwise
+
+import numpy as np
+
+from erdctl.core.quantity import Quantity
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.slots import MotionSlot, Values
+
+REACHES = (*range(1, 17), 20, 25, 32, 40)  # samples each way
+FEWEST = 20  # samples of a record for each weight, or these would follow the noise
+DETERMINED = 1e-9  # of the largest singular value
+
+
+def velocity_noise(s: Signals, p: Values) -> Signals:
+    """Motion with a better velocity."""
+    if p["w"] == 0.0:
+        return s
+    return s.with_motion(s.x, s.xdot + p["w"] * (_of_deflection(s) - s.xdot))
+
+
+@lru_cache(maxsize=2)
+def _of_deflection(s: Signals) -> Array:
+    """(n,) V[x]; xdot where there is none. The same for all values of w."""
+    out, far = s.xdot.copy(), REACHES[-1]
+    for a, b in pairwise(s.starts.tolist()):
+        if b - a < 2 * far + FEWEST * len(REACHES):
+            continue
+        x, t, inner = s.x[a:b], s.t[a:b], slice(a + far, b - far)
+        n = b - a - 2 * far
+        rows = np.empty((len(REACHES), n))
+        for row, k in zip(rows, REACHES, strict=True):
+            on, back = slice(far + k, far + k + n), slice(far - k, far - k + n)
+            row[:] = (x[on] - x[back]) / (t[on] - t[back])
+        weights = np.linalg.lstsq(rows.T, s.xdot[inner], rcond=DETERMINED)[0]
+        out[inner] = weights @ rows
+    return out
+
+
+def replaced(s: Signals, rest: Array) -> list[dict[str, float]]:
+    """The start of a search: the deflection alone."""
+    return [{"w": 0.9}]
+
+
+EFFECT = Effect(
+    name="velocity_noise",
+    stage=Stage.SENSOR,
+    slot=MotionSlot(velocity_noise),
+    title="the velocity channel is noisy or late by itself",
+    equation="xdot_s = (1 - w) xdot + w V[x], V[x] the velocity from slopes of the deflection",
+    said="{w:%} of the velocity better taken from the deflection",
+    alters=(("xdot", "xdot_s"),),
+    source="Savitzky and Golay, Analytical Chemistry 36 (1964) 1627-1639; Fuller (1987)",
+    validity="a velocity with a sensor of its own, not derived from the deflection",
+    requires=(Requirement.SPEEDS,),
+    shows=Variable.XDOT,
+    quantities=(
+        Quantity(
+            symbol="w", unit="1", title="part of the velocity taken from the deflection",
+            low=0.0, high=1.0, start=0.5,
+        ),
+    ),
+    guesses=replaced,
+    order=-10,  # the measuring chain comes before what moves behind the rod
+)  # fmt: skip
