@@ -26,6 +26,8 @@ class Quantity:
     off : finite value at which the physics that it belongs to is exactly absent
     scale : LINEAR or LOG; LOG needs low > 0; an off value of 0 then lies outside the bounds
     linear : the force is linear in it, so a fit solves for it instead of searching
+    absent : value where a file does not list it, since it was written before there was such a
+        parameter; None if every file must
     """
 
     symbol: str
@@ -37,6 +39,7 @@ class Quantity:
     off: float = 0.0
     scale: Scale = Scale.LINEAR
     linear: bool = False
+    absent: float | None = None
 
     def __post_init__(self) -> None:
         if not self.low <= self.start <= self.high:

@@ -97,6 +97,9 @@ def parse_parameters(data: bytes, name: str) -> Parameters:
             raise InputProblem(f"effects[{i}]: '{effect.name}' is listed twice", file=name)
         chosen.append(effect)
         known = {q.symbol: q for q in effect.quantities}
+        for symbol, quantity in known.items():
+            if quantity.absent is not None:
+                extra.parameters.setdefault(symbol, quantity.absent)
         if set(extra.parameters) != set(known):
             raise InputProblem(
                 f"effects[{i}] ({effect.name}): expected the parameters"
