@@ -25,7 +25,7 @@ from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.faults import FaultKind, set_in
-from erdctl.model.onset import ONSET
+from erdctl.model.onset import ONSET, anywhere
 from erdctl.model.slots import ScaleSlot, Values
 
 
@@ -47,5 +47,6 @@ EFFECT = Effect(
     requires=(Requirement.FIELD, Requirement.TIME),
     shows=Variable.TIME,
     quantities=ONSET,
+    guesses=anywhere,
     sets_in=FaultKind.ELECTRICAL.groups,
 )

@@ -13,6 +13,7 @@ import numpy as np
 
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
 
 AMOUNT, START, RAMP = "f", "t_0", "t_r"
 
@@ -30,6 +31,11 @@ ONSET = (
         low=0.0, high=1e6, start=1.0, off=0.0, absent=0.0,
     ),
 )  # fmt: skip
+
+
+def anywhere(s: Signals, rest: Array) -> list[dict[str, float]]:
+    """The start of a fit, which searches all times itself (`erdctl.estimate.onsets`)."""
+    return [{AMOUNT: 0.7, START: float(np.median(s.t)), RAMP: 0.0}]
 
 
 def onset_weight(t: Array, t_0: float, t_r: float, step: float) -> Array:

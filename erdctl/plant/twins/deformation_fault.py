@@ -1,6 +1,7 @@
 """Deformation (Eq. 23).
 
-Yield and viscous force times 1 - s, from its onset on; in half of the draws at once, else over a ramp.
+Yield and viscous force times 1 - s, from its onset on. In half of the draws at once, else
+over a ramp.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """Electrical fault (Eq. 22).
 
-The yield force times 1 - s, from its onset on; in half of the draws at once, else over a ramp.
+The yield force times 1 - s, from its onset on. In half of the draws at once, else
+over a ramp.
 """
 
 from __future__ import annotations

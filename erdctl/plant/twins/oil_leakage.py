@@ -1,6 +1,7 @@
 """Oil leakage (Eq. 20).
 
-All of the force times 1 - s, from its onset on; in half of the draws at once, else over a ramp.
+All of the force times 1 - s, from its onset on. In half of the draws at once, else
+over a ramp.
 """
 
 from __future__ import annotations
