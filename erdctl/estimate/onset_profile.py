@@ -161,17 +161,17 @@ class Profile:
 
     def _given(self, best: Onset, symbol: str, value: float) -> Onset:
         """The best with one of onset and ramp given, the other searched for near and far."""
-        end = best.t_0 + best.t_r
+        end, width = best.t_0 + best.t_r, max(value if symbol == RAMP else 0.0, best.t_r)
+        width = max(width, 2.0 * self.step)
         if symbol == START:
-            spans = np.unique(np.concatenate([
-                [0.0, max(end - value, 0.0)],
-                np.geomspace(0.5, 2.0, 13) * max(end - value, 2.0 * self.step),
-            ]))  # fmt: skip
+            # The same end, none, and others: a ramp that outlasts the record may have any.
+            spans = [0.0, *(max(end - value, 2.0 * self.step) * np.geomspace(0.5, 2.0, 7))]
             pairs = [(value, float(span)) for span in spans]
         else:
-            middle = best.t_0 + 0.5 * best.t_r
-            width = 0.5 * max(value, best.t_r, 2.0 * self.step)
-            pairs = [(middle - 0.5 * value + k * width / 6.0, value) for k in range(-6, 7)]
+            # The same onset, the same end, and others: where it outlasts the record, f makes up.
+            starts = best.t_0 + width * np.linspace(-0.75, 0.75, 7)
+            starts = np.unique([*starts, best.t_0, end - value, 0.5 * (best.t_0 + end - value)])
+            pairs = [(float(t_0), value) for t_0 in starts]
         found = [self.least(*pair, best.f) for pair in pairs]
         k = int(np.argmin([o.square for o in found]))
         # Once more between the neighbours of the best.
@@ -179,7 +179,7 @@ class Profile:
         fine = [
             (a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]))
             for a, b in pairwise(around)
-            for part in (0.25, 0.5, 0.75)
+            for part in (0.2, 0.5, 0.8)
         ]
         return min([*found, *(self.least(*pair, best.f) for pair in fine)], key=lambda o: o.square)
 
@@ -187,7 +187,7 @@ class Profile:
         """The best f of a given onset and ramp."""
         TA, AA = self._sums(t_0, t_r)
         size = 1.0 - f
-        tried = np.unique(np.clip(size * np.array([0.5, 0.8, 0.9, 1.0, 1.1, 1.25, 2.0]), 1e-3, 1.0))
+        tried = np.unique(np.clip(size * np.array([0.5, 0.85, 1.0, 1.2, 2.0]), 1e-3, 1.0))
         sizes, least = self._over_sizes((TA + TA.T)[None], AA[None], tried)
         return Onset(1.0 - float(sizes[0]), t_0, t_r, float(least[0]))
 
