@@ -54,11 +54,15 @@ class Onset(NamedTuple):
 class Profile:
     """What any onset of a loss in some groups leaves of the residual's square."""
 
-    def __init__(self, signals: Signals, whole: Array, failing: Array) -> None:
-        """whole, failing : (p + 1, n) rows (J, r) and (J_A, -A), weighted"""
+    def __init__(self, signals: Signals, acted: Array, whole: Array, failing: Array) -> None:
+        """The samples' onset times and rows.
+
+        acted : (n,) time at which the force of a sample acted, before its channel showed it [s]
+        whole, failing : (p + 1, n) rows (J, r) and (J_A, -A), weighted
+        """
         self.step, self.starts = signals.typical_step, signals.starts
-        self.order = np.argsort(signals.t, kind="stable")
-        self.t, self.q = signals.t[self.order], len(whole)
+        self.order = np.argsort(acted, kind="stable")
+        self.t, self.q = acted[self.order], len(whole)
         self.X = np.concatenate([whole, failing])[:, self.order]
         self.middle = 0.5 * float(self.t[0] + self.t[-1])
         between = np.unique(self.t)

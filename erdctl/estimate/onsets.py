@@ -18,7 +18,7 @@ from erdctl.model.checked import GROUPS
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 from erdctl.model.onset import AMOUNT, RAMP, START
-from erdctl.model.slots import Values
+from erdctl.model.slots import ChannelSlot, Values
 
 DIFFERENCE = 1e-6  # relative step of a one-sided difference
 
@@ -64,7 +64,11 @@ def profile(
                 failing[k] += change * lever
     whole[-1] = residual
     failing[-1] = -lever * np.sum([parts[g] for g in effect.sets_in], axis=0)
-    return Profile(signals, whole, failing)
+    acted = signals.t
+    for channel, slot in model.of(ChannelSlot):
+        # What is linear in a force and keeps a steady one delays the time as it does that.
+        acted = slot(acted, signals, channel.local(values))
+    return Profile(signals, acted, whole, failing)
 
 
 def profile_within(

@@ -1,4 +1,4 @@
-"""Faults that set in within a record, hidden in the plant: kind, onset, ramp, and where they act."""
+"""Faults that set in within a record, hidden in the plant: kind, onset, ramp, and their place."""
 
 from __future__ import annotations
 
@@ -24,7 +24,11 @@ DAMPER = Plant(
     Side(k_nom=900.0, c_vis=64.6, T_d=0.043, sigma=12.8, beta=0.6),
     Side(k_nom=700.0, c_vis=68.8, T_d=0.030, sigma=17.0, beta=0.8),
 )
-FIELDS = {"oil_leakage": "oil", "electrical_fault": "electrical", "deformation_fault": "deformation"}
+FIELDS = {
+    "oil_leakage": "oil",
+    "electrical_fault": "electrical",
+    "deformation_fault": "deformation",
+}
 
 
 @cache

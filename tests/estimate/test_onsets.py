@@ -140,6 +140,21 @@ def test_a_ramp_that_outlasts_the_record_may_be_longer() -> None:
     assert found[effect.key("t_r")][1] > 4.0
 
 
+def test_a_late_channel_does_not_delay_the_onset() -> None:
+    """What the channel shows 50 ms late set in when it did."""
+    s, effect, skew = drive(), FAULTS[0], get("time_skew")
+    t = s.t - 0.05
+    x = 0.01 * np.sin(2 * np.pi * 0.9 * t) + 0.004 * np.sin(2 * np.pi * 2.3 * t + 1.0)
+    xdot = 0.018 * np.pi * np.cos(2 * np.pi * 0.9 * t)
+    xdot += 0.0184 * np.pi * np.cos(2 * np.pi * 2.3 * t + 1.0)
+    force = faulty(signals(xdot, x=x, t=t, duty=0.4), effect, 0.5, 3.0, 0.0)
+    model, block = Model((effect, skew)), Block(s, force, np.ones(len(s)))
+    start = {effect.key("f"): 0.7, effect.key("t_0"): 2.0, effect.key("t_r"): 0.0}
+    held = HELD | {skew.key(q.symbol): 0.05 for q in skew.quantities}
+    found = fit(model, block, start=DAMPER | start | held, fixed=held).values
+    assert found[effect.key("t_0")] == pytest.approx(3.0, abs=2 * STEP)
+
+
 def test_nothing_sets_in_where_nothing_does() -> None:
     """In noise alone no onset is worth much, whatever it is called."""
     s = drive()
@@ -154,5 +169,5 @@ def test_nothing_sets_in_where_nothing_does() -> None:
 
 def test_a_log_of_one_time_has_no_onset() -> None:
     s = signals(np.ones(1))
-    at = Profile(s, np.ones((2, 1)), np.ones((2, 1))).best()
+    at = Profile(s, s.t, np.ones((2, 1)), np.ones((2, 1))).best()
     assert (at.f, at.t_r) == (1.0, 0.0)

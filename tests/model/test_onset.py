@@ -13,7 +13,7 @@ from erdctl.model.onset import onset_weight
 def by_sums(t: float, t_0: float, t_r: float, step: float) -> float:
     """Mean of the ramp over a step about t, of 20,000 midpoints."""
     u = t + step * ((np.arange(20_000) + 0.5) / 20_000 - 0.5) - t_0
-    ramp = np.where(u >= t_r, 1.0, u / t_r) if t_r > 0 else (u >= 0).astype(float)
+    ramp = np.minimum(u, t_r) / t_r if t_r > 0 else (u >= 0).astype(float)
     return float(np.mean(np.clip(ramp, 0.0, 1.0)))
 
 
