@@ -22,11 +22,12 @@ from erdctl.diagnose.executor import executor
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem, prepare, with_given
 from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying, errors
-from erdctl.diagnose.residual.localisation import Region, locate, record_region
+from erdctl.diagnose.residual.localisation import Region, locate, record_region, since_onset
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
 from erdctl.diagnose.search import Selection, refit, search
 from erdctl.estimate.covariance import Fit, assess
+from erdctl.estimate.onsets import onset_intervals, placed
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
 from erdctl.model.simulate import simulate
@@ -147,7 +148,9 @@ def diagnose(
     mismatch: list[Region] = []
     if verdict is not Verdict.ADEQUATE:
         alone = record_region(best.problem, energy)
-        mismatch = locate(best.problem, energy)[: thresholds.REGIONS]
+        first = [f.effect for f in findings[:1]]
+        mismatch = since_onset(best.problem, first, best.values, energy)
+        mismatch += locate(best.problem, energy)[: thresholds.REGIONS - len(mismatch)]
         mismatch += [alone] if alone else []
     refitted = _validate(problem, selection.base)
     fit, record_effects = _errors(problem, best)
@@ -214,7 +217,8 @@ def _findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
         # Where it acts; what acts everywhere is seen where the other parameters fail to absorb it.
         alone = best.model.force(problem.block.signals, {**best.values, **effect.off})
         absent = without.model.force(problem.block.signals, without.values)
-        regions = [
+        regions = since_onset(best.problem, [effect], best.values, (with_all - alone) ** 2)
+        regions += [
             r for f in (alone, absent) for r in locate(best.problem, (with_all - f) ** 2)[:1]
         ]
         gain = compare(problem, without, best)
@@ -237,8 +241,11 @@ def _errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEffect
     model = hypothesis.model
     block, record_effects = hypothesis.problem.block, hypothesis.record_effects
     shared = block if record_effects is None else record_effects.shared(block)
-    fixed = set(model.quantities).difference(hypothesis.free)
+    fixed = set(model.quantities).difference(hypothesis.free) | set(placed(model))
     fit = assess(model, [shared], hypothesis.values, fixed=fixed, threads=1)
+    fit = replace(
+        fit, intervals=onset_intervals(model, shared, fit.values, hypothesis.problem.held)
+    )
     if record_effects is None:
         return fit, None
     covariance, record_effects = errors(

@@ -19,6 +19,7 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
 from erdctl.estimate.covariance import jacobian
+from erdctl.estimate.onsets import profile
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 from erdctl.model.slots import TermSlot
@@ -51,6 +52,8 @@ class Screen:
 
     def candidate(self, effect: Effect) -> Candidate | None:
         """What one effect promises; None if it cannot act together with the parent's."""
+        if effect.sets_in:
+            return self._onset(effect)
         found = []
         for guess in starts(effect, self.parent.problem, self.parent.residual):
             try:
@@ -61,6 +64,20 @@ class Screen:
         found.sort(key=lambda f: -f[0])
         best = found[: thresholds.SEARCHED_STARTS]
         return Candidate(effect, found[0][0], tuple(guess for _, guess in best))
+
+    def _onset(self, effect: Effect) -> Candidate:
+        """What sets in: the gain of its best time, exact to first order in the other parameters.
+
+        With these as the parent has them, fitted to before and after alike, it would count a tenth.
+        """
+        parent, signals = self.parent, self.problem.block.signals
+        residual = parent.residual * self.root
+        lookup = profile(
+            parent.model, effect, signals, residual, self.lever, parent.values, parent.problem.held
+        )
+        best = lookup.best()
+        start = {effect.key(s): v for s, v in best.values.items()}
+        return Candidate(effect, 1.0 - best.square / max(lookup.square, 1e-300), (start,))
 
     def _gain(self, effect: Effect, guess: dict[str, float]) -> float:
         """Part of the residual's square that an effect takes, in the amounts that suit best.

@@ -1,17 +1,18 @@
 """Loss of field: only the yield force shrinks.
 
-    F = k_nom x + c_vis xdot + f F_ER sign(xdot)   for t >= t_0
+    F = k_nom x + c_vis xdot + f F_ER sign(xdot)   once it has set in
 
 f : effectiveness that is left [1], 0..1, off at 1
 t_0 : onset [s], in the time of each record as logged
-From t_0 on the factor acts; it sets in over four samples about t_0, so that the force is
-continuous in t_0. Which forces it takes `erdctl.model.faults` says, for mimic and simulate too.
-Valid for a fault that sets in at once and stays; a record that ends before t_0 is healthy.
+t_r : time over which the factor falls linearly from 1 to f [s], >= 0; 0 is at once
+Which forces it takes `erdctl.model.faults` says, for mimic and simulate too; `erdctl.model.onset`
+how it sets in.
+Valid for a fault that sets in once and stays; a record that ends before t_0 is healthy.
 Check: f = 0.5, t_0 = 15 s: 10 N of gas, 6 N of viscous and 4 N of yield force, 20 N at 14 s, are
 18 N at 16 s.
 >>> s = signals(np.ones(9), t=np.linspace(14.0, 16.0, 9))
->>> left = electrical_fault(s, {"f": 0.5, "t_0": 15.0})
->>> force = 10.0 * left["gas"] + 6.0 * left["viscous"] + 4.0 * left["yield"]
+>>> left = electrical_fault(s, {"f": 0.5, "t_0": 15.0, "t_r": 0.0})
+>>> force = 10.0 + 6.0 + 4.0 * left["yield"]
 >>> force[[0, -1]].round(9).tolist()
 [20.0, 18.0]
 
@@ -23,7 +24,8 @@ from __future__ import annotations
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
-from erdctl.model.faults import ONSET, FaultKind, onsets, set_in
+from erdctl.model.faults import FaultKind, set_in
+from erdctl.model.onset import ONSET, anywhere
 from erdctl.model.slots import ScaleSlot, Values
 
 
@@ -37,13 +39,15 @@ EFFECT = Effect(
     stage=Stage.FAULT,
     slot=ScaleSlot(electrical_fault),
     title="a fault of the supply takes a part of the yield force",
-    equation="F = gas + viscous + f yield, f = 1 for t < t_0",
+    equation="F = gas + viscous + f yield, f = 1 until t_0",
     said="{f:%} of the yield force left from {t_0} on",
     alters=(("yield", "f {}"),),
     source="the ER damper paper, Eq. 22",
-    validity="a fault that sets in at once and stays",
+    validity="a fault that sets in once, at once or over a ramp, and stays",
     requires=(Requirement.FIELD, Requirement.TIME),
     shows=Variable.TIME,
     quantities=ONSET,
-    guesses=onsets,
+    guesses=anywhere,
+    earlier=(("t_r", 0.0),),
+    sets_in=FaultKind.ELECTRICAL.groups,
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -30,6 +30,7 @@ class Fit:
     covariance : (p, p) of the free ones, valid under correlated residuals
     rms : weighted residual [N];  samples : number of samples with weight
     flat : groups of free parameters along which the data do not change the cost at all
+    intervals : 95 % intervals of those that have no standard error, or for which it would not do
     """
 
     model: Model
@@ -42,6 +43,7 @@ class Fit:
     evaluations: int
     converged: bool
     flat: tuple[tuple[str, ...], ...] = ()
+    intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     @property
     def stderr(self) -> dict[str, float]:
@@ -145,7 +147,8 @@ def estimates(found: Fit, reasons: Mapping[str, str]) -> dict[str, Estimate]:
             # A fit that presses against a bound is no bell curve around it.
             out[name] = Estimate(value=bound, unit=q.unit, at_bound=True)
         elif reason is None:
-            out[name] = Estimate(value=value, unit=q.unit, stderr=error)
+            within = found.intervals.get(name)
+            out[name] = Estimate(value=value, unit=q.unit, stderr=error, within=within)
         else:
             out[name] = Estimate(value=None, unit=q.unit, assumed=value, reason=reason)
     return out

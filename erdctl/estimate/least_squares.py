@@ -20,6 +20,7 @@ from erdctl.core.blocks import Block
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.estimate.normal_equations import Normal
+from erdctl.estimate.onsets import place, placed
 from erdctl.model.composed import Model
 from erdctl.model.slots import Values
 
@@ -28,6 +29,7 @@ HUBER = 1.345  # tuning constant for 95 % efficiency under normal noise
 FINISH = 8  # steps of a search that is to end where the best is
 NEAR = 1e-4  # of the range of a search, from a bound that it was driven to
 FAILED = 1e100  # N, in place of the residual of a simulation that gave no finite force
+PLACED = 4  # times that an onset is looked for again after a search of the others
 SHORTEST = 1e-5  # s; a time constant of exactly 0 has no derivative, a search stays above
 
 
@@ -62,14 +64,20 @@ def fit(
     start : a value for every parameter;  fixed : names that keep it
     """
     held = set(fixed)
-    shape = [n for n in model.shape if n not in held]
+    onsets = set(placed(model)) - held
+    shape = [n for n in model.shape if n not in held | onsets]
     values = dict(start)
     weight = block.weight
     evaluations, converged = 0, True
-    for _ in range(6 if robust else 1):
+    for turn in range(6 if robust or onsets else 1):
         problem = _Projected(model, block._replace(weight=weight), values, held, shape)
         values, converged = problem.search(max_evaluations)
         evaluations += problem.evaluations
+        if onsets and turn < PLACED:
+            found = place(model, block._replace(weight=weight), values, held)
+            if any(found[n] != values[n] for n in onsets):
+                values = found
+                continue
         if not robust:
             break
         updated = block.weight * huber_weight(problem.residual(values), block.weight)

@@ -24,7 +24,7 @@ class Value(msgspec.Struct, omit_defaults=True):
 
     A parameter that the data do not identify has value null, the `reason`, and in `assumed` what a
     simulation uses in its place. One that a fit pressed against its bound has `at_bound` and no
-    standard error.
+    standard error. `interval` holds it with 95 % where a standard error does not do.
     """
 
     value: float | None
@@ -34,6 +34,7 @@ class Value(msgspec.Struct, omit_defaults=True):
     assumed: float | None = None
     reason: str | None = None
     at_bound: bool = False
+    interval: tuple[float, float] | None = None
 
 
 class Direction(msgspec.Struct):
@@ -159,6 +160,9 @@ def _estimate(given: Value | float, quantity: Quantity, full: str, name: str) ->
         if number is not None and not math.isfinite(number):
             raise InputProblem(f"{what}{full} is not a finite number", file=name)
     value, assumed = (None if v is None else quantity.snapped(v) for v in (value, assumed))
+    within = None
+    if given.interval is not None:
+        within = (given.interval[0] * factor, given.interval[1] * factor)
     used = assumed if value is None else value
     if used is not None and not quantity.admits(used):
         raise InputProblem(
@@ -167,7 +171,7 @@ def _estimate(given: Value | float, quantity: Quantity, full: str, name: str) ->
         )
     return Estimate(
         value=value, unit=quantity.unit, stderr=stderr, assumed=assumed, reason=given.reason,
-        at_bound=given.at_bound,
+        at_bound=given.at_bound, within=within,
     )  # fmt: skip
 
 
@@ -184,6 +188,7 @@ def to_document(parameters: Parameters) -> ParameterFile:
             assumed=e.assumed,
             reason=e.reason,
             at_bound=e.at_bound,
+            interval=e.within,
         )
 
     directions = {

@@ -82,6 +82,8 @@ class Effect:
         and 1/J from what the recording spans, others from 0.1 to 10 times the parameter's start
     companions : effects that commonly come with it, and without which it may improve no fit
     equivalents : effects that force data can hardly tell from this one, whatever the log
+    sets_in : groups of which it takes a part from a time on, by the law of `erdctl.model.onset`,
+        whose time a fit finds by a search of all (`estimate.onsets`); no others
     order : effects of one slot act in this order
     earlier : parameters that files lack which were written before there were any, and what they are
         there: a number, or the symbol whose value it is
@@ -104,6 +106,7 @@ class Effect:
     equivalents: tuple[str, ...] = ()
     said: str = ""
     alters: tuple[tuple[str, str], ...] = ()
+    sets_in: tuple[str, ...] = ()
     order: int = 0
     earlier: tuple[tuple[str, float | str], ...] = ()
 

@@ -17,14 +17,11 @@ from enum import Enum
 import numpy as np
 
 from erdctl.core.errors import UsageProblem
-from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array, Index
 from erdctl.core.signals import Signals
+from erdctl.model.onset import AMOUNT, RAMP, START, onset_weight
 
 EXAMPLE = "write for instance oil=0.5@15:31 or electrical=0.8@31,ramp=2,channel=fr"
-
-
-EDGE = 4.0  # samples over which a fault as an effect sets in
 
 
 class FaultKind(Enum):
@@ -38,6 +35,15 @@ class FaultKind(Enum):
     def short(self) -> str:
         """The short name on the command line."""
         return self.name.lower()
+
+    @property
+    def groups(self) -> tuple[str, ...]:
+        """The forces that it takes a part of."""
+        return {
+            FaultKind.OIL: ("gas", "viscous", "yield"),
+            FaultKind.ELECTRICAL: ("yield",),
+            FaultKind.DEFORMATION: ("viscous", "yield"),
+        }[self]
 
 
 class Corner(Enum):
@@ -138,15 +144,12 @@ def factors(faults: Sequence[Fault], t: Array, xdot: Array, starts: Index) -> Fa
     >>> [a.round(9).tolist() for a in (f.gas, f.viscous, f.yield_)]
     [[0.5, 1.0], [0.35, 0.7], [0.35, 0.7]]
     """
-    gas, viscous, yield_ = np.ones((3, len(t)))
+    left = {group: np.ones(len(t)) for group in FaultKind.OIL.groups}
     for fault in faults:
         f = effectiveness(fault, t, xdot, starts)
-        yield_ *= f
-        if fault.kind is not FaultKind.ELECTRICAL:
-            viscous *= f
-        if fault.kind is FaultKind.OIL:
-            gas *= f
-    return FaultFactors(gas=gas, viscous=viscous, yield_=yield_)
+        for group in fault.kind.groups:
+            left[group] *= f
+    return FaultFactors(gas=left["gas"], viscous=left["viscous"], yield_=left["yield"])
 
 
 def effectiveness(fault: Fault, t: Array, xdot: Array, starts: Index) -> Array:
@@ -188,34 +191,15 @@ def effectiveness(fault: Fault, t: Array, xdot: Array, starts: Index) -> Array:
 def set_in(kind: FaultKind, s: Signals, p: Mapping[str, float]) -> dict[str, Array]:
     """Factors by group, (n,) each [1], of a fault that sets in once and stays, as an effect.
 
-    p : f, effectiveness that is left [1], and t_0, onset [s] in the time of each record as logged
-
-    It sets in over EDGE samples about t_0, so that the force is continuous in t_0.
+    p : f, effectiveness that is left [1]; t_0, onset [s] in the time of each record as logged; t_r,
+    time over which it falls linearly from 1 [s]
     """
-    if p["f"] == 1.0:
+    f = p[AMOUNT]
+    if f == 1.0:
         return {}
-    ramp = EDGE * s.typical_step
-    fault = Fault(kind=kind, factor=p["f"], start=p["t_0"] - 0.5 * ramp, ramp=ramp)
-    found = factors([fault], s.t, s.xdot, s.starts)
-    return {"gas": found.gas, "viscous": found.viscous, "yield": found.yield_}
-
-
-def onsets(s: Signals, rest: Array) -> list[dict[str, float]]:
-    """Where a search for a fault may begin: onsets over the length of the records [s]."""
-    parts = (0.15, 0.3, 0.45, 0.6, 0.75, 0.9)
-    return [{"f": 0.5, "t_0": float(t_0)} for t_0 in np.quantile(s.t, parts)]
-
-
-ONSET = (
-    Quantity(
-        symbol="f", unit="1", title="effectiveness that is left",
-        low=0.0, high=1.0, start=0.7, off=1.0,
-    ),
-    Quantity(
-        symbol="t_0", unit="s", title="onset, in the time of each record",
-        low=-1e6, high=1e6, start=10.0, off=10.0,
-    ),
-)  # fmt: skip
+    weight = onset_weight(s.t, p[START], p[RAMP], s.typical_step)
+    factor: Array = (1.0 - weight) + weight * f
+    return dict.fromkeys(kind.groups, factor)
 
 
 def leakage(xdot: Array, flow: float) -> Array:

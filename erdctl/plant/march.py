@@ -101,12 +101,14 @@ def march(
             out.restart(states, xp, o)
             if k > 0:
                 step = 0.0  # the state stands at its start
-        after = t >= p.onset
-        oil = p.oil if after else 1.0
-        whole = oil * (p.deformation if after else 1.0)
+        come = 1.0 if t >= p.onset else 0.0
+        if p.ramp > 0.0:
+            come = min(max((t - p.onset) / p.ramp, 0.0), 1.0)
+        oil = 1.0 + come * (p.oil - 1.0)
+        whole = oil * (1.0 + come * (p.deformation - 1.0))
         on_viscous = whole * math.exp(-p.thin * hot) * out.viscous_factor(at_plates, o)
         on_yield = (
-            whole * (p.electrical if after else 1.0)
+            whole * (1.0 + come * (p.electrical - 1.0))
             * math.exp(-p.weaken * hot) * out.yield_factor(states, t, o)
         )  # fmt: skip
         if len(g.on_viscous) > 0:

@@ -71,6 +71,7 @@ class Physics(NamedTuple):
     groove: float = 0.0  # and per square metre [1/m2]
 
     onset: float = FOREVER  # of the faults, in the record's own time [s]
+    ramp: float = 0.0  # over which they come in, each factor linear in time [s]
     oil: float = 1.0  # factor of Eq. 20 after it [1]
     electrical: float = 1.0  # of Eq. 22 [1]
     deformation: float = 1.0  # of Eq. 23 [1]

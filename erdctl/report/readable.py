@@ -75,16 +75,27 @@ def error_of(stderr: float | None, factor: float = 1.0, *, at_bound: bool = Fals
 
 
 def estimate(
-    value: float | None, unit: str, stderr: float | None = None, *, at_bound: bool = False
+    value: float | None,
+    unit: str,
+    stderr: float | None = None,
+    *,
+    at_bound: bool = False,
+    within: tuple[float, float] | None = None,
 ) -> str:
     """A value with its standard error and unit, as a sentence holds it.
 
+    within : 95 % interval in place of the error
     >>> estimate(0.002, "m", 1.2e-5), estimate(0.0, "N/m", at_bound=True)
     ('2 +- 0.012 mm', '0 N/m (at its bound)')
+    >>> estimate(13.21, "s", within=(13.205, 13.215))
+    '13.21 (13.205 to 13.215) s'
     """
     if value is None:
         return "not identified"
     factor, shown = scaled(unit, value)
+    if within is not None:
+        low, high = (number(end * factor, 5) for end in within)
+        return f"{number(value * factor)} ({low} to {high}) {_after(shown)}".rstrip()
     error = "" if stderr is None or at_bound else f" +- {number(stderr * factor, 2)}"
     text = f"{number(value * factor)}{error} {_after(shown)}".rstrip()
     return f"{text} ({AT_BOUND})" if at_bound else text

@@ -257,6 +257,10 @@ def test_faults_are_the_papers_factors() -> None:
         force = forces(DAMPER.with_physics(onset=1.5, **{fault: 0.6}), over())
         expected = sum(p * np.where(after & (name in hit), 0.6, 1.0) for name, p in parts.items())
         np.testing.assert_allclose(force, expected, atol=1e-9)
+        come = np.clip((np.tile(np.arange(n) / RATE, len(over())) - 1.5) / 0.8, 0.0, 1.0)
+        force = forces(DAMPER.with_physics(onset=1.5, ramp=0.8, **{fault: 0.6}), over())
+        expected = sum(p * (1.0 - 0.4 * come * (name in hit)) for name, p in parts.items())
+        np.testing.assert_allclose(force, expected, atol=1e-9)
 
 
 def test_drift_clipping_and_steps_of_the_channel() -> None:

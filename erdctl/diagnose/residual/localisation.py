@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +11,9 @@ from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem
-from erdctl.model.effect import Variable
+from erdctl.model.effect import Effect, Variable
+from erdctl.model.onset import START
+from erdctl.model.slots import Values
 
 UNITS = {
     Variable.XDOT: (1e3, "mm/s"),
@@ -72,6 +75,32 @@ def locate(problem: Problem, square: Array) -> list[Region]:
         if region is not None and region.time < thresholds.REGION_WIDEST:
             found.append(region)
     return sorted(found, key=lambda r: r.time - r.share)
+
+
+def since_onset(
+    problem: Problem, effects: Sequence[Effect], values: Values, square: Array
+) -> list[Region]:
+    """From the onset on, for each effect that sets in at a time: there it acts, and only there.
+
+    square : (n,) squared misfit [N^2], of which the region has its share. It may be less than the
+        region's part of the time: a model that was fitted to before and after alike misses the
+        shorter of the two by more.
+    """
+    s, weight = problem.block.signals, problem.block.weight
+    end, energy = float(s.t.max()), weight * square
+    found = []
+    for effect in effects:
+        t_0 = values[effect.key(START)] if effect.sets_in else end
+        if t_0 < end:
+            inside = s.t >= t_0
+            share = float(energy[inside].sum() / max(energy.sum(), 1e-300))
+            time = float(weight[inside].sum() / max(weight.sum(), 1e-300))
+            low = max(t_0, float(s.t.min()))
+            text = (
+                f"{100 * share:.0f} % of the misfit lies from {low:.4g} s to the end of the records"
+            )
+            found.append(Region(Variable.TIME, low, end, share, time, text))
+    return found
 
 
 def record_region(problem: Problem, square: Array) -> Region | None:

@@ -1,6 +1,7 @@
 """Oil leakage (Eq. 20).
 
-All of the force times 1 - s.
+All of the force times 1 - s, from its onset on. In half of the draws at once, else
+over a ramp.
 """
 
 from __future__ import annotations
@@ -10,7 +11,8 @@ from erdctl.plant.twin import Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
-    return plant.with_physics(oil=1.0 - s, onset=q["onset"] * by.shortest)
+    ramp = max(q["ramp"], 0.0) * by.shortest
+    return plant.with_physics(oil=1.0 - s, onset=q["onset"] * by.shortest, ramp=ramp)
 
 
 TWIN = Twin(
@@ -20,7 +22,7 @@ TWIN = Twin(
     start=0.2,
     high=0.98,
     build=_build,
-    shows={"physics.oil": "1", "physics.onset": "s"},
-    shape={"onset": (0.2, 0.75)},
+    shows={"physics.oil": "1", "physics.onset": "s", "physics.ramp": "s"},
+    shape={"onset": (0.2, 0.75), "ramp": (-0.25, 0.25)},
     hidden=True,
 )
