@@ -62,10 +62,12 @@ def fit(
     fixed: Iterable[str] = (),
     robust: bool = False,
     max_evaluations: int = 200,
+    tolerance: float = 1e-8,
 ) -> Fitted:
     """Search from one start.
 
     start : a value for every parameter;  fixed : names that keep it
+    tolerance : part of the cost by which a step has to lower it, or the search has converged
     """
     held = set(fixed)
     shape = [n for n in model.shape if n not in held]
@@ -74,7 +76,7 @@ def fit(
     evaluations, converged = 0, True
     for _ in range(6 if robust else 1):
         problem = _Projected(model, block._replace(weight=weight), values, held, shape)
-        values, converged = problem.search(max_evaluations)
+        values, converged = problem.search(max_evaluations, tolerance)
         evaluations += problem.evaluations
         if not robust:
             break
@@ -178,7 +180,7 @@ class _Projected:
         point = [a.forth(values[n]) for n, a in zip(self.names, self.axes, strict=True)]
         return self.solve(np.array(point))[1]
 
-    def search(self, max_evaluations: int) -> tuple[dict[str, float], bool]:
+    def search(self, max_evaluations: int, tolerance: float) -> tuple[dict[str, float], bool]:
         """The best values from the start, and whether the search converged."""
         if not self.names:
             return self.solve(np.empty(0))[0], True
@@ -194,7 +196,7 @@ class _Projected:
             jac=self.jacobian,
             bounds=(low, high),
             x_scale="jac",
-            ftol=1e-8,
+            ftol=tolerance,
             xtol=1e-7,
             gtol=1e-12,
         )
