@@ -155,7 +155,7 @@ def _fitted(
     given = {**start, **problem.held}
     full = {n: given.get(n, q.start) for n, q in model.quantities.items()}
     block = problem.block if record_effects is None else record_effects.shared(problem.block)
-    tolerance = thresholds.SETTLED / max(np.count_nonzero(block.weight), 1)
+    tolerance = thresholds.SETTLED / max(int(np.count_nonzero(block.weight)), 1)
     found = fit(
         model, block, start=full, fixed=problem.held, max_evaluations=max_evaluations,
         tolerance=tolerance,
