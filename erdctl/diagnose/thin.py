@@ -35,11 +35,11 @@ def thinned(problem: Problem, most: int) -> Problem:
     row = np.arange(len(s)) - s.starts[record]
     apart = -(-len(s) // (most // 2))
     even = row % np.array([min(apart, _apart(s, r)) for r in range(len(s.starts) - 1)])[record] == 0
-    whole, part = _stretches(problem, record, most // 2)
+    whole, left = _stretches(problem, record, most // 2)
     fine = max(1, int(thresholds.FINE_STEP / s.typical_step))
     rows = np.flatnonzero(even | (whole & (row % fine == 0)) | _at_duty_steps(s, record))
     starts = np.searchsorted(rows, s.starts)
-    weight = np.where(part & ~whole, 0.0, problem.block.weight)[rows]
+    weight = np.where(left, 0.0, problem.block.weight)[rows]
     recording = problem.recording.take(rows, starts, problem.recording.names)
     return replace(
         problem,
@@ -52,7 +52,7 @@ def thinned(problem: Problem, most: int) -> Problem:
 
 
 def _stretches(problem: Problem, record: Index, most: int) -> tuple[Mask, Mask]:
-    """(n,) what lies in a stretch that is kept, of about `most` samples, and in any."""
+    """(n,) what lies in a stretch that is kept, of about `most` samples in all, and in another."""
     s, rng = problem.block.signals, np.random.default_rng(0)
     sure = np.flatnonzero(~problem.unsure)
     turned = (s.compressing[sure[1:]] != s.compressing[sure[:-1]]) & (
@@ -64,17 +64,22 @@ def _stretches(problem: Problem, record: Index, most: int) -> tuple[Mask, Mask]:
     step = s.typical_step
     before, after = (int(np.ceil(t / step)) for t in (thresholds.BEFORE, thresholds.AFTER))
     fine = max(1, int(thresholds.FINE_STEP / step))
-    marked = [_marked(s, record, e[0] - before, e[1] + after, e[0]) for e in events]
-    size = sum(float(np.count_nonzero(m)) for m in marked) / fine
+
+    def marked(e: Index) -> Mask:
+        return _marked(s, record, e[0] - before, e[1] + after, e[0])
+
+    size = sum(np.count_nonzero(marked(e)) for e in events) / fine
     share = min(1.0, most / max(size, 1.0))
-    whole = np.zeros(len(s), dtype=np.bool_)
+    whole, left = np.zeros((2, len(s)), dtype=np.bool_)
     for e in events:
         count = int(np.ceil(share * e.shape[1]))
         # One of each of so many equal groups: even cover, but in step with no periodic test.
-        chosen = ((np.arange(count) + rng.random(count)) * e.shape[1] / max(count, 1)).astype(int)
-        kept = e[:, chosen] if count < e.shape[1] else e
-        whole |= _marked(s, record, kept[0] - before, kept[1] + after, kept[0])
-    return whole, np.asarray(marked[0] | marked[1])
+        kept = np.zeros(e.shape[1], dtype=np.bool_)
+        kept[((np.arange(count) + rng.random(count)) * e.shape[1] / max(count, 1)).astype(int)] = 1
+        kept |= share == 1.0
+        whole |= marked(e[:, kept])
+        left |= marked(e[:, ~kept])
+    return whole, left
 
 
 def _marked(s: Signals, record: Index, first: Index, last: Index, of: Index) -> Mask:
