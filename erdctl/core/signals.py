@@ -157,7 +157,7 @@ class Signals:
         average the noise of xdot and pass what a damper test moves at: a sine of f loses
         (2 pi f 10 ms)^2 / 10 of its amplitude, 2 % at 7 Hz.  0 in a record of one sample.
         """
-        reach = max(1, round(HALF_WINDOW / self.typical_step)) if self.typical_step > 0 else 0
+        reach = max(1, round(HALF_WINDOW / self.finest_step)) if self.finest_step > 0 else 0
         record = np.repeat(np.arange(len(self.starts) - 1), np.diff(self.starts))
         count = np.ones(len(self))
         su, sv, suu, suv = np.zeros((4, len(self)))
@@ -196,6 +196,17 @@ class Signals:
             return self.common_step
         inner = self.step[self.step > 0]
         return float(np.median(inner)) if inner.size else 0.0
+
+    @cached_property
+    def finest_step(self) -> float:
+        """The step where a log is dense [s], a tenth of it or more; 0 if no record has two samples.
+
+        That of most of the log, unless this is dense in parts alone.
+        """
+        if self.common_step is not None:
+            return self.common_step
+        inner = self.step[self.step > 0]
+        return float(np.quantile(inner, 0.1)) if inner.size else 0.0
 
     @cached_property
     def since_duty_step(self) -> Array:

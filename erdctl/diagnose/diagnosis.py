@@ -11,7 +11,6 @@ import numpy as np
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import untestable
 from erdctl.bench.rig import Rig, look
-from erdctl.core.blocks import thinned
 from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Array, Recording
@@ -26,6 +25,7 @@ from erdctl.diagnose.residual.localisation import Region, locate, record_region,
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
 from erdctl.diagnose.search import Selection, refit, search
+from erdctl.diagnose.thin import thinned
 from erdctl.estimate.covariance import Fit, assess
 from erdctl.estimate.onsets import onset_intervals, placed
 from erdctl.model.effect import Effect
@@ -118,17 +118,17 @@ def diagnose(
     recording = rig.usable()
     problem = prepare(recording, free)
     _enough(problem)
-    thin = prepare(thinned(recording, thresholds.SEARCH_SAMPLES), free)
     survey = Survey(recording, problem.block.signals)
     if given is not None:
         simulate(given, recording)  # one that diverges is refused before the search, not judged
         lacking = untestable(survey, given.model.effects)
-        problem, thin = (with_given(s, given, lacking) for s in (problem, thin))
+        problem = with_given(problem, given, lacking)
         candidates = [e for e in candidates if e not in given.model.effects]
     if rig.blocking:
         candidates = []  # what a wrong sign or unit does is no physics
     missing = untestable(survey, candidates)
     testable = [e for e in candidates if e.name not in missing]
+    thin = thinned(problem, thresholds.SEARCH_SAMPLES)
     with executor((thin, problem), jobs, progress) as workers:
         selection = search(thin, testable, most, workers, seed, given)
         selection = refit(problem, selection, workers)

@@ -82,9 +82,7 @@ def fit_hypothesis(
     model = Model(tuple(effects))
     if problem.free and record_effects is None:
         record_effects = RecordEffects.none(len(problem.recording.names))
-    all_ = [_fitted(problem, model, start, max_evaluations, record_effects) for start in starts]
-    found = min(all_, key=lambda f: f.cost)
-    evaluations = sum(f.evaluations for f in all_)
+    found, evaluations = _best(problem, model, starts, max_evaluations, record_effects)
     part = mask_doubtful(problem, model, found.values)
     if part is not problem:
         found = _fitted(part, model, found.values, max_evaluations, record_effects)
@@ -104,6 +102,34 @@ def fit_hypothesis(
     fitted = replace(found, evaluations=evaluations)
     hypothesis = Hypothesis(part, fitted, found.residual, record_effects)
     return replace(hypothesis, cross_validated=_cross_validated(hypothesis))
+
+
+def _best(
+    problem: Problem,
+    model: Model,
+    starts: Sequence[Mapping[str, float]],
+    max_evaluations: int,
+    record_effects: RecordEffects | None,
+) -> tuple[Fitted, int]:
+    """The best of the searches from several starts, and the evaluations of all.
+
+    Most starts end in one minimum or are far behind after a few steps: of those that have not
+    converged by then only the ones near the best are searched to the end.
+    """
+    if len(starts) == 1:
+        only = _fitted(problem, model, starts[0], max_evaluations, record_effects)
+        return only, only.evaluations
+    steps = min(thresholds.STEPS_LOOK, max_evaluations)
+    looks = [_fitted(problem, model, start, steps, record_effects) for start in starts]
+    evaluations = sum(f.evaluations for f in looks)
+    bar = thresholds.LOOK_BEHIND * min(f.cost for f in looks)
+    found = min(looks, key=lambda f: f.cost)
+    for look in looks:
+        if not look.converged and look.cost <= bar and max_evaluations > steps:
+            end = _fitted(problem, model, look.values, max_evaluations - steps, record_effects)
+            evaluations += end.evaluations
+            found = min(found, end, key=lambda f: f.cost)
+    return found, evaluations
 
 
 def rank_starts(
@@ -128,12 +154,14 @@ def _fitted(
     """A search from one start, which may be that of a larger model; beyond the record effects."""
     given = {**start, **problem.held}
     full = {n: given.get(n, q.start) for n, q in model.quantities.items()}
+    block = problem.block if record_effects is None else record_effects.shared(problem.block)
+    tolerance = thresholds.SETTLED / max(int(np.count_nonzero(block.weight)), 1)
+    found = fit(
+        model, block, start=full, fixed=problem.held, max_evaluations=max_evaluations,
+        tolerance=tolerance,
+    )  # fmt: skip
     if record_effects is None:
-        return fit(
-            model, problem.block, start=full, fixed=problem.held, max_evaluations=max_evaluations
-        )
-    block = record_effects.shared(problem.block)
-    found = fit(model, block, start=full, fixed=problem.held, max_evaluations=max_evaluations)
+        return found
     residual = found.residual * record_effects.along(block.signals.starts)[0]
     cost = float(np.dot(problem.block.weight, residual * residual))
     return replace(found, residual=residual, cost=cost if np.isfinite(cost) else np.inf)

@@ -28,6 +28,7 @@ class Problem:
     block : signals, force, weights (0 where a record settles or the direction is uncertain)
     group : (n,) which left-out part a sample belongs to
     stretch : (n,) which piece of that, of about STRETCH, by which hypotheses are compared
+    unsure : (n,) whether the direction of motion is uncertain
     held : paper parameters that the log cannot identify, and their values
     free : what of the force may differ from record to record
     """
@@ -36,6 +37,7 @@ class Problem:
     block: Block
     group: Index
     stretch: Index
+    unsure: npt.NDArray[np.bool_]
     held: dict[str, float]
     needs: dict[str, Lack]
     free: Varying = NONE_VARY
@@ -103,7 +105,7 @@ def mask_doubtful(problem: Problem, model: Model, values: Values) -> Problem:
     if not channel:
         return problem
     s = problem.block.signals
-    unsure = uncertain(s)
+    unsure = problem.unsure.copy()
     unsure[1:] |= unsure[:-1]  # and the samples that share a step with them
     unsure[:-1] |= unsure[1:]
     turned = s.turns[0]
@@ -120,11 +122,12 @@ def prepare(recording: Recording, free: Varying = NONE_VARY) -> Problem:
     needs = unmet(recording)
     held = held_values(needs)
     block = whole(recording)
-    block.weight[uncertain(block.signals)] = 0.0
+    unsure = uncertain(block.signals)
+    block.weight[unsure] = 0.0
     group = groups(recording)
     if len(recording.names) == 1:
         free = NONE_VARY  # one record has nothing to differ from
-    return Problem(recording, block, group, stretches(recording, group), held, needs, free)
+    return Problem(recording, block, group, stretches(recording, group), unsure, held, needs, free)
 
 
 def with_given(problem: Problem, given: Parameters, untestable: Mapping[str, str]) -> Problem:

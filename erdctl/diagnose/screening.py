@@ -160,7 +160,7 @@ def _axis(q: Quantity, problem: Problem) -> list[float]:
             values = [0.0, thresholds.INVERSE_SQUARE / stroke**2]
             values += [negative / stroke**2] if q.low < 0 else []
         case "s" if q.start < longest:
-            values = np.geomspace(s.typical_step, longest / 2, thresholds.DELAYS).tolist()
+            values = np.geomspace(s.finest_step, longest / 2, thresholds.DELAYS).tolist()
         case "1/J":
             values = [p / work for p in thresholds.ENERGY_PARTS]
         case _ if q.low < 0 < q.high:

@@ -96,6 +96,16 @@ WORTH_PROCESSES = 60_000
 # Origin: budget.
 SEARCH_SAMPLES = 12_000
 
+# Of the thinned log: the longest step [s] next to a turn of the motion or a step of the duty, and
+# the time [s] before and after them in which it counts.
+# Origin: time constants of springs and yield forces, 5 to 50 ms.
+FINE_STEP, BEFORE, AFTER = 0.005, 0.01, 0.05
+
+# Part of the samples beyond which steps of the duty are no events; part of the motion's energy that
+# the samples between follow, and how many of them a cycle.
+# Origin: budget; a straight line over 1/20 of a cycle is off by 1 % of its amplitude.
+STEPS_PART, FOLLOWED, PER_CYCLE = 0.05, 0.9, 20
+
 # Hypotheses that are extended side by side, and the number of effects up to which they are.
 # Decides: the width of the beam.
 # Origin: budget; with a beam of one, pairs of which neither gains alone were missed.
@@ -115,6 +125,17 @@ LOOK_ALIKES, LOOK_ALIKES_LISTED = 6, 2
 # look at a start, of the first fit.
 # Origin: budget.
 STEPS, STEPS_AGAIN, STEPS_TOGETHER, STEPS_RANKING, STEPS_BASE = 25, 12, 40, 4, 40
+
+# Steps after which the starts of one search are compared, and the cost over that of the best beyond
+# which one is given up.
+# Origin: budget; of 136 fits to 12 logs of the plant none was lost by it that had been better than
+# the model without the effect.
+STEPS_LOOK, LOOK_BEHIND = 6, 1.5
+
+# Chi-square by which a step has to lower the cost, or a search has ended.
+# Decides: how far from its minimum a search may stop, in standard errors: 0.03.
+# Origin: the square of that; at 0.01 a search in a flat valley ended early (0.2 % of the cost).
+SETTLED = 1e-3
 
 # Starts of each companion that are combined, and combinations that are searched to the end.
 # Origin: budget.

@@ -5,6 +5,10 @@
 The inner problem is solved by linear algebra (variable projection, Golub and Pereyra 1973), so
 the search runs over the few shape parameters only. Where the force feeds back on itself it is not
 linear in the amplitudes, and all parameters are searched. Nothing here names an effect.
+
+The Jacobian of the projected residual is that of Kaufman (1975): differences of the force at the
+amplitudes of the point, less what a change of these makes up for. Its gradient is exact, and it
+asks for one force a parameter (`model.shifts`) in place of all columns and their solution.
 """
 
 from __future__ import annotations
@@ -22,6 +26,8 @@ from erdctl.core.recording import Array
 from erdctl.estimate.normal_equations import Normal
 from erdctl.estimate.onsets import place, placed
 from erdctl.model.composed import Model
+from erdctl.model.response import Prepared
+from erdctl.model.shifts import Shifts
 from erdctl.model.slots import Values
 
 STEP = 1e-5  # of a one-sided difference, in units of the search
@@ -58,10 +64,12 @@ def fit(
     fixed: Iterable[str] = (),
     robust: bool = False,
     max_evaluations: int = 200,
+    tolerance: float = 1e-8,
 ) -> Fitted:
     """Search from one start.
 
     start : a value for every parameter;  fixed : names that keep it
+    tolerance : part of the cost by which a step has to lower it, or the search has converged
     """
     held = set(fixed)
     onsets = set(placed(model)) - held
@@ -71,7 +79,7 @@ def fit(
     evaluations, converged = 0, True
     for turn in range(6 if robust or onsets else 1):
         problem = _Projected(model, block._replace(weight=weight), values, held, shape)
-        values, converged = problem.search(max_evaluations)
+        values, converged = problem.search(max_evaluations, tolerance)
         evaluations += problem.evaluations
         if onsets and turn < PLACED:
             found = place(model, block._replace(weight=weight), values, held)
@@ -130,6 +138,7 @@ class _Projected:
         self.high = np.array([q.high for q in quantities])
         self.root = np.sqrt(block.weight)
         self.evaluations = 0
+        self.at: _Solved | None = None  # where the model was last computed
 
     def solve(self, point: Array) -> tuple[dict[str, float], Array]:
         """All values and the (n,) residual at given searched parameters."""
@@ -138,24 +147,48 @@ class _Projected:
         for name, axis, u in zip(self.names, self.axes, point.tolist(), strict=True):
             values[name] = axis.back(u)
         force = self.block.force
+        prepared = self.model.prepare(self.block.signals, values)
+        self.at = _Solved(point.copy(), values, prepared, np.empty((0, len(force))))
         if not self.model.separable:
-            residual = force - self.model.force(self.block.signals, values)
+            residual = force - prepared.force(values)
             return values, residual if np.isfinite(residual).all() else np.full_like(force, FAILED)
-        columns = self.model.columns(self.block.signals, values)
+        columns = prepared.columns()
         if not self.open.all():
             given = np.array([values[n] for n in self.model.linear])[~self.open]
             force = force - given @ columns[~self.open]
             columns = columns[self.open]
         amplitude = solve_linear(columns, force, self.block.weight, self.low, self.high)
         values.update(zip(self.linear, amplitude.tolist(), strict=True))
+        inside = (amplitude > self.low) & (amplitude < self.high)
+        self.at = _Solved(point.copy(), values, prepared, columns[inside])
         return values, force - amplitude @ columns
+
+    def jacobian(self, point: Array) -> Array:
+        """(n, p) derivative of the weighted residual by the searched parameters."""
+        if self.at is None or not np.array_equal(self.at.point, point):
+            self.solve(point)
+        assert self.at is not None
+        values, columns = self.at.values, self.at.columns * self.root
+        near = Shifts(self.model, self.block.signals, values, self.at.prepared)
+        rows = np.zeros((len(point), len(self.root)))
+        for row, name, axis, u in zip(rows, self.names, self.axes, point.tolist(), strict=True):
+            self.evaluations += 1
+            step = STEP * max(abs(u), axis.least)
+            step = -step if u + step > axis.high else step
+            moved = near.at(name, axis.back(u + step))
+            # Where a simulation gives no finite force there is no slope to follow.
+            if np.isfinite(moved).all():
+                row[:] = (near.force - moved) * (self.root / step)
+        if len(columns):
+            rows -= Normal.of(columns @ columns.T).solve(columns @ rows.T).T @ columns
+        return rows.T
 
     def residual(self, values: Values) -> Array:
         """(n,) residual at given values of the searched parameters."""
         point = [a.forth(values[n]) for n, a in zip(self.names, self.axes, strict=True)]
         return self.solve(np.array(point))[1]
 
-    def search(self, max_evaluations: int) -> tuple[dict[str, float], bool]:
+    def search(self, max_evaluations: int, tolerance: float) -> tuple[dict[str, float], bool]:
         """The best values from the start, and whether the search converged."""
         if not self.names:
             return self.solve(np.empty(0))[0], True
@@ -168,10 +201,10 @@ class _Projected:
         search = partial(
             least_squares,
             lambda p: self.root * self.solve(p)[1],
+            jac=self.jacobian,
             bounds=(low, high),
-            diff_step=STEP,
             x_scale="jac",
-            ftol=1e-8,
+            ftol=tolerance,
             xtol=1e-7,
             gtol=1e-12,
         )
@@ -198,13 +231,26 @@ def at_bound(q: Quantity, value: float, *, near: float = 0.0) -> bool:
     return not axis.low + margin < axis.forth(value) < axis.high - margin
 
 
+class _Solved(NamedTuple):
+    """A point of the search, all values there, the model, and the columns that are free to move."""
+
+    point: Array
+    values: dict[str, float]
+    prepared: Prepared
+    columns: Array
+
+
 class _Axis(NamedTuple):
-    """One searched parameter: its start, and the search's own coordinate."""
+    """One searched parameter: its start, and the search's own coordinate.
+
+    least : size of a value from which on a step is a part of it
+    """
 
     value: float
     low: float
     high: float
     log: bool
+    least: float
     quantity: Quantity
 
     @classmethod
@@ -214,8 +260,10 @@ class _Axis(NamedTuple):
         if not low <= value <= q.high:
             value = q.start
         if q.scale is Scale.LOG:
-            return cls(value, float(np.log(low)), float(np.log(q.high)), log=True, quantity=q)
-        return cls(value, low, q.high, log=False, quantity=q)
+            bounds = float(np.log(low)), float(np.log(q.high))
+            return cls(value, *bounds, log=True, least=1.0, quantity=q)
+        least = 1e-3 * max(abs(q.start), 1e-3)
+        return cls(value, low, q.high, log=False, least=least, quantity=q)
 
     def forth(self, value: float) -> float:
         return float(np.log(value)) if self.log else value

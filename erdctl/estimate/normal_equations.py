@@ -38,9 +38,13 @@ class Normal(NamedTuple):
         return cls(scale, w[keep], v[:, keep], v[:, ~keep])
 
     def solve(self, right: Array) -> Array:
-        """(k,) least-squares solution of least norm, in scaled units, for a right side (k,)."""
+        """(k,) least-squares solution of least norm, in scaled units, for a right side (k,).
+
+        Or (k, m) for as many.
+        """
         v = self.vectors
-        return np.asarray(v @ ((v.T @ (right / self.scale)) / self.eigenvalues) / self.scale)
+        scaled = (right.T / self.scale).T
+        return np.asarray(((v @ ((v.T @ scaled).T / self.eigenvalues).T).T / self.scale).T)
 
     def pseudo_inverse(self) -> Array:
         """(k, k) inverse in the determined directions.

@@ -123,10 +123,10 @@ class Model:
         return Prepared(
             effects=self.effects,
             signals=s,
-            gas=self._replaced(GasSlot, s, values, s.x),
-            viscous=self._replaced(ViscousSlot, s, values, s.xdot),
-            sign=self._replaced(SignSlot, s, values, s.sign),
-            fields=self._fields(s, values),
+            gas=self.replaced(GasSlot, s, values, s.x),
+            viscous=self.replaced(ViscousSlot, s, values, s.xdot),
+            sign=self.replaced(SignSlot, s, values, s.sign),
+            fields=self.fields(s, values),
             falls=falls,
             scale=scale,
             of_speed=of_speed,
@@ -139,13 +139,14 @@ class Model:
         springs = [(e, spring) for e, spring in self.of(SeriesSlot) if spring.carries is None]
         return any(spring(e.local(values)) > 0.0 for e, spring in springs)
 
-    def _replaced(
+    def replaced(
         self,
         kind: type[GasSlot] | type[ViscousSlot] | type[SignSlot],
         s: Signals,
         values: Values,
         plain: Array,
     ) -> Array:
+        """(n,) what stands in the place of a signal of the piston: that itself, or an effect's."""
         laws = [(e, e.slot) for e in self.effects if isinstance(e.slot, kind)]
         if len(laws) > 1:
             names = ", ".join(e.name for e, _ in laws)
@@ -153,7 +154,8 @@ class Model:
             raise IncompatibleEffects(f"only one effect can take the place of {what}: {names}")
         return laws[0][1](s, laws[0][0].local(values)) if laws else plain
 
-    def _fields(self, s: Signals, values: Values) -> tuple[Array, Array]:
+    def fields(self, s: Signals, values: Values) -> tuple[Array, Array]:
+        """(n,) normalised steady yield force for either direction, on the piston's signals."""
         laws = self.of(FieldSlot)
 
         def law(direction: int) -> Array:

@@ -67,63 +67,98 @@ class Prepared:
 
     def force(self, values: Values, factors: Factors | None = None) -> Array:
         """(n,) force; `factors` multiply groups sample by sample (faults, Eqs. 20-23)."""
-        springs = self._springs(values)
-        if springs:
-            factors = self._fed_back(values, factors)
-            force = self._total_behind_spring(values, factors, *springs[0])
-            if in_slot(self.effects, DrivenSlot):
-                parts = self._behind_spring(values, factors, *springs[0])
-                for row in self._driven(parts, values):
-                    force = force + row
-            return self._recorded(force)
-        parts = self.parts(values, factors)
-        total = parts["gas"] + parts["viscous"] + parts["yield"]
-        return total + parts["other"] if "other" in parts else total
+        return self.total(self.bare(values, factors), values, factors)
 
     def parts(self, values: Values, factors: Factors | None = None) -> dict[str, Array]:
         """(n,) force of each group and, if there are any terms, of all `other` forces."""
-        out = self._parts(values, self._fed_back(values, factors))
+        springs = self._springs(values)
+        if springs:
+            out = self._behind_spring(values, self._fed_back(values, factors), *springs[0])
+        else:
+            out = self._scaled(self.bare(values), values, factors)
         for row in self._driven(out, values):
             out["other"] = out["other"] + row if "other" in out else row
         return {name: self._recorded(part) for name, part in out.items()}
 
-    def _driven(self, parts: Mapping[str, Array], values: Values) -> list[Array]:
-        """(n,) forces that those of the groups bring about [N]."""
-        groups = {g: parts[g] for g in GROUPS}
-        return [
-            law(groups, self.signals, e.local(values))
-            for e, law in in_slot(self.effects, DrivenSlot)
-        ]
+    def bare(self, values: Values, factors: Factors | None = None) -> dict[str, Array]:
+        """(n,) force of each group and of the terms before any factor; see `total`.
 
-    def _fed_back(self, values: Values, factors: Factors | None) -> Factors:
-        """(n,) factors of groups, with those that depend on the forces themselves."""
-        factors = multiplied(self.scale, factors or {})
-        for effect, feedback in in_slot(self.effects, FeedbackSlot):
-            out = self._parts(values, factors)
-            back = feedback(out, self.signals, effect.local(values))
-            factors = multiplied(factors, back)
-        return factors
-
-    def _parts(self, values: Values, factors: Factors) -> dict[str, Array]:
+        Behind a spring its force in place of what it carries, and that with all factors.
+        """
         springs = self._springs(values)
         if springs:
-            return self._behind_spring(values, factors, *springs[0])
+            spring, compliance = springs[0]
+            factors = self._fed_back(values, factors)
+            out = {"spring": self._march(values, factors, spring, compliance).force}
+            if spring.carries is not None:
+                gas = self.group("gas", values)
+                out["gas"] = gas * factors["gas"] if "gas" in factors else gas
+        else:
+            out = {group: self.group(group, values) for group in GROUPS}
+        if any(e.amplitudes for e in self.effects):
+            out["other"] = self.group("other", values)
+        return out
+
+    def group(self, group: str, values: Values) -> Array:
+        """(n,) force of a group, or of the terms outside a spring, before any factor."""
+        if group == "other":
+            springs = self._springs(values)
+            inner = bool(springs) and springs[0][0].carries is None
+            rows = self._outside(inner=inner)
+            return sum((values[name] * row for name, row in rows), np.zeros(len(self.signals)))
+        per = self.signals.per_direction
+        if group == "gas":
+            return np.asarray(self.gas * per(*pair(values, "k_nom")))
+        if group == "viscous":
+            return np.asarray(self.viscous * per(*pair(values, "c_vis")))
         sigma = pair(values, "sigma")
         u_c = self.fields[COMPRESSION] * sigma[COMPRESSION]
         shared = sigma[0] == sigma[1] and self.fields[0] is self.fields[1]
-        u_r = u_c if shared else self.fields[RELEASE] * sigma[RELEASE]
-        per = self.signals.per_direction
-        out = {
-            "gas": self.gas * per(*pair(values, "k_nom")),
-            "viscous": self.viscous * per(*pair(values, "c_vis")),
-            "yield": self._signed_yield(u_c, u_r),
-        }
-        for group, factor in multiplied(factors, self.of_speed).items():
-            out[group] = out[group] * factor
-        rows = self.terms()
-        if rows:
-            out["other"] = np.sum([values[name] * row for name, row in rows], axis=0)
+        return self._signed_yield(u_c, u_c if shared else self.fields[RELEASE] * sigma[RELEASE])
+
+    def total(self, bare: Factors, values: Values, factors: Factors | None = None) -> Array:
+        """(n,) recorded force that bare ones add up to."""
+        if "spring" not in bare:
+            bare = parts = self._scaled(bare, values, factors)
+        elif in_slot(self.effects, DrivenSlot):
+            fed = self._fed_back(values, factors)
+            parts = self._behind_spring(values, fed, *self._springs(values)[0])
+        else:
+            parts = {}
+        out = None
+        for name in ("spring", *GROUPS, "other"):
+            if name in bare:
+                out = bare[name] if out is None else out + bare[name]
+        assert out is not None
+        for row in self._driven(parts, values):
+            out = out + row
+        return self._recorded(out)
+
+    def _driven(self, parts: Factors, values: Values) -> list[Array]:
+        """(n,) forces that those of the groups bring about [N]."""
+        return [
+            law({g: parts[g] for g in GROUPS}, self.signals, e.local(values))
+            for e, law in in_slot(self.effects, DrivenSlot)
+        ]
+
+    def _scaled(
+        self, bare: Factors, values: Values, factors: Factors | None = None
+    ) -> dict[str, Array]:
+        """(n,) forces with the factors of their groups, also those that depend on the forces."""
+        scale = multiplied(multiplied(self.scale, factors or {}), self.of_speed)
+        out = multiplied(bare, scale)
+        for effect, feedback in in_slot(self.effects, FeedbackSlot):
+            out = multiplied(out, feedback(out, self.signals, effect.local(values)))
         return out
+
+    def _fed_back(self, values: Values, factors: Factors | None) -> Factors:
+        """(n,) factors of groups behind a spring, with those that depend on the forces."""
+        factors = multiplied(self.scale, factors or {})
+        for effect, feedback in in_slot(self.effects, FeedbackSlot):
+            out = self._behind_spring(values, factors, *self._springs(values)[0])
+            back = feedback(out, self.signals, effect.local(values))
+            factors = multiplied(factors, back)
+        return factors
 
     def columns(self) -> Array:
         """(k, n) unit responses in the order of `Model.linear`."""
@@ -174,18 +209,6 @@ class Prepared:
         if len(springs) > 1:
             raise IncompatibleEffects("only one compliance can be in series")
         return springs
-
-    def _total_behind_spring(
-        self, values: Values, factors: Factors, spring: SeriesSlot, compliance: float
-    ) -> Array:
-        """(n,) what `_behind_spring` adds up to, without taking it apart."""
-        force = self._march(values, factors, spring, compliance).force
-        if spring.carries is not None:
-            gas = self.gas * self.signals.per_direction(*pair(values, "k_nom"))
-            force = force + gas * factors["gas"] if "gas" in factors else force + gas
-        for name, row in self._outside(inner=spring.carries is None):
-            force = force + values[name] * row
-        return force
 
     def _outside(self, *, inner: bool) -> Sequence[tuple[str, Array]]:
         """Terms in parallel with the spring; behind one of all forces are those of speed alone."""

@@ -38,8 +38,6 @@ def features(s: Signals) -> tuple[Array, Array]:
 
     All that a damper's force may depend on, as far as it is in a log.
     """
-    step = s.typical_step or 1.0
-    past = [max(1, round(lag / step)) for lag in thresholds.LAGS]
     longest, farthest = thresholds.LONGEST_SINCE, thresholds.FARTHEST_SINCE
     start = np.repeat(s.starts[:-1], np.diff(s.starts))
     index = np.arange(len(s))
@@ -48,9 +46,17 @@ def features(s: Signals) -> tuple[Array, Array]:
         np.minimum(s.since_reversal, longest), np.minimum(s.since_duty_step, longest),
         np.minimum(s.path_since_reversal, farthest), s.sign * np.sqrt(s.duty),
     ]  # fmt: skip
-    for lag in past:
-        before = np.maximum(index - lag, start)
+    for lag in thresholds.LAGS:
+        before = np.maximum(_earlier(s, lag, index), start)
         columns += [s.xdot[before], s.duty[before]]
     total = np.concatenate([[0.0], np.cumsum(s.path[0][:-1])])
     slow = [s.t - s.t[start], total - total[start]]
     return np.column_stack(columns), np.column_stack(slow)
+
+
+def _earlier(s: Signals, lag: float, index: Index) -> Index:
+    """(n,) the sample a time [s] before each, perhaps of another record; one before it at least."""
+    if s.common_step is not None:
+        return np.asarray(index - max(1, round(lag / (s.typical_step or 1.0))))
+    clock = np.concatenate([[0.0], np.cumsum(s.step[:-1])])
+    return np.minimum(np.searchsorted(clock, clock - lag, side="right") - 1, index - 1)

@@ -1,0 +1,119 @@
+"""A problem with fewer samples, among whose hypotheses is searched.
+
+What an effect does to the force it does mostly after the motion turns or the control steps, within
+tens of milliseconds: a spring stretches, a play runs out, the yield force rises. Every k-th sample
+of a long log would leave none there, and one effect would look like another. So such stretches are
+kept at the full rate, if there are many a part of them, and between them every k-th sample, as far
+apart as the motion allows. Time runs on: states with a long memory see all of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from erdctl.core.blocks import Block
+from erdctl.core.recording import Array, Index
+from erdctl.core.signals import Signals
+from erdctl.diagnose import thresholds
+from erdctl.diagnose.problem import Problem
+
+Mask = npt.NDArray[np.bool_]
+
+
+def thinned(problem: Problem, most: int) -> Problem:
+    """The problem with about `most` of its samples, more where the motion is fast.
+
+    Samples in a stretch after a turn or a step that is not kept whole stay without weight.
+    """
+    s = problem.block.signals
+    if len(s) <= most:
+        return problem
+    record = np.repeat(np.arange(len(s.starts) - 1), np.diff(s.starts))
+    row = np.arange(len(s)) - s.starts[record]
+    apart = -(-len(s) // (most // 2))
+    even = row % np.array([min(apart, _apart(s, r)) for r in range(len(s.starts) - 1)])[record] == 0
+    whole, left = _stretches(problem, record, most // 2)
+    fine = max(1, int(thresholds.FINE_STEP / s.typical_step))
+    rows = np.flatnonzero(even | (whole & (row % fine == 0)) | _at_duty_steps(s, record))
+    starts = np.searchsorted(rows, s.starts)
+    weight = np.where(left, 0.0, problem.block.weight)[rows]
+    recording = problem.recording.take(rows, starts, problem.recording.names)
+    return replace(
+        problem,
+        recording=recording,
+        block=Block(Signals.of(recording), problem.block.force[rows], weight),
+        group=_numbered(problem.group[rows]),
+        stretch=_numbered(problem.stretch[rows]),
+        unsure=problem.unsure[rows],
+    )
+
+
+def _stretches(problem: Problem, record: Index, most: int) -> tuple[Mask, Mask]:
+    """(n,) what lies in a stretch that is kept, of about `most` samples in all, and in another."""
+    s, rng = problem.block.signals, np.random.default_rng(0)
+    sure = np.flatnonzero(~problem.unsure)
+    turned = (s.compressing[sure[1:]] != s.compressing[sure[:-1]]) & (
+        record[sure[1:]] == record[sure[:-1]]
+    )
+    turns = np.stack([sure[:-1][turned], sure[1:][turned]])
+    steps = np.flatnonzero(_stepped(s, record)) + 1
+    events = [turns, np.stack([steps - 1, steps])]
+    step = s.typical_step
+    before, after = (int(np.ceil(t / step)) for t in (thresholds.BEFORE, thresholds.AFTER))
+    fine = max(1, int(thresholds.FINE_STEP / step))
+
+    def marked(e: Index) -> Mask:
+        return _marked(s, record, e[0] - before, e[1] + after, e[0])
+
+    size = sum(np.count_nonzero(marked(e)) for e in events) / fine
+    share = min(1.0, most / max(size, 1.0))
+    whole, left = np.zeros((2, len(s)), dtype=np.bool_)
+    for e in events:
+        count = int(np.ceil(share * e.shape[1]))
+        # One of each of so many equal groups: even cover, but in step with no periodic test.
+        kept = np.zeros(e.shape[1], dtype=np.bool_)
+        kept[((np.arange(count) + rng.random(count)) * e.shape[1] / max(count, 1)).astype(int)] = 1
+        kept |= share == 1.0
+        whole |= marked(e[:, kept])
+        left |= marked(e[:, ~kept])
+    return whole, left
+
+
+def _marked(s: Signals, record: Index, first: Index, last: Index, of: Index) -> Mask:
+    """(n,) samples between some, the last one included, within the record of others."""
+    change = np.zeros(len(s) + 1)
+    np.add.at(change, np.maximum(first, s.starts[record[of]]), 1.0)
+    np.add.at(change, np.minimum(last + 1, s.starts[record[of] + 1]), -1.0)
+    return np.asarray(np.cumsum(change[:-1]) > 0)
+
+
+def _stepped(s: Signals, record: Index) -> Mask:
+    """(n - 1,) whether the duty steps after a sample; never if it changes all the time."""
+    stepped = (np.diff(s.duty) != 0) & (record[1:] == record[:-1])
+    often = np.count_nonzero(stepped) > thresholds.STEPS_PART * len(s)
+    return np.zeros_like(stepped) if often else stepped
+
+
+def _at_duty_steps(s: Signals, record: Index) -> Mask:
+    """(n,) the samples on both sides of a step: the duty is held, so that it stays where it was."""
+    stepped = _stepped(s, record)
+    out = np.zeros(len(s), dtype=np.bool_)
+    out[:-1] |= stepped
+    out[1:] |= stepped
+    return out
+
+
+def _apart(s: Signals, record: int) -> int:
+    """How many samples of a record lie between those that still follow its motion."""
+    xdot: Array = s.xdot[s.starts[record] : s.starts[record + 1]]
+    power = np.cumsum(np.abs(np.fft.rfft(xdot - xdot.mean())) ** 2)
+    fastest = int(np.searchsorted(power, thresholds.FOLLOWED * power[-1]))  # cycles in the record
+    return max(1, int(len(xdot) / (thresholds.PER_CYCLE * max(fastest, 1))))
+
+
+def _numbered(label: Index) -> Index:
+    """Labels counted from 0 without gaps."""
+    return np.unique(label, return_inverse=True)[1].astype(np.intp)

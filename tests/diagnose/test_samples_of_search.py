@@ -1,0 +1,110 @@
+"""The samples of the search keep what a spring does, over whatever time a log runs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numba import njit
+
+from erdctl.core.recording import Array, Recording
+from erdctl.diagnose import thresholds
+from erdctl.diagnose.executor import Task, fitted
+from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
+from erdctl.diagnose.problem import Problem, prepare
+from erdctl.diagnose.thin import thinned
+from erdctl.effects import get
+from erdctl.estimate.starts import fresh_start
+
+STEP, MOST, COMPLIANCE = 0.005, 6_000, 4e-6
+
+
+@njit
+def _damper(x: Array, v: Array, u: Array, fine: float, s: float) -> Array:
+    """(n,) force [N] of a mount of compliance s in series with c p + y tanh(p / p_0), by Euler."""
+    force = np.empty(len(x))
+    e, y = 0.0, u[0]
+    for i in range(len(x)):
+        force[i] = e / s
+        rest = e / s - 500.0 * (x[i] - e)
+        low, high = -2.0, 2.0
+        for _ in range(40):
+            p = 0.5 * (low + high)
+            if 120.0 * p + y * np.tanh(p / 4e-4) < rest:
+                low = p
+            else:
+                high = p
+        e += fine * (v[i] - 0.5 * (low + high))
+        y += fine / 0.02 * (u[i] - y)
+    return force
+
+
+def mounted(samples: int, every: int = 20) -> Recording:
+    """Six sines at held levels of duty, at 5 ms, with a noise of 0.4 N."""
+    rng = np.random.default_rng(2)
+    n = samples // 6
+    t = np.arange(n * every) * STEP / every
+    parts = []
+    for f in (0.7, 1.3, 2.1, 0.5, 1.7, 2.6):
+        w, phase = 2 * np.pi * f, rng.uniform(0.0, 6.0)
+        x, v = 0.08 / w * np.sin(w * t + phase), 0.08 * np.cos(w * t + phase)
+        duty = rng.permutation([0.05, 0.1, 0.2, 0.35, 0.5])[(t / 2.9).astype(int) % 5]
+        force = _damper(x, v, 16.0 * duty**0.6, STEP / every, COMPLIANCE)
+        parts.append([c[::every] for c in (t, x, v, duty, force)])
+    t, x, v, duty, force = (np.concatenate(c) for c in zip(*parts, strict=True))
+    return Recording(
+        t=t, x=x, xdot=v, duty=duty, force=force + 0.4 * rng.standard_normal(len(t)),
+        starts=np.arange(7) * n, names=tuple("abcdef"),
+    )  # fmt: skip
+
+
+def hypothesis(problem: Problem, base: Hypothesis, name: str, **start: float) -> Hypothesis:
+    effect = get(name)
+    first = {**base.values, **fresh_start(*thresholds.FRESH_SERIES)}
+    first |= {effect.key(symbol): value for symbol, value in start.items()}
+    found = fitted(problem, Task("", (effect,), (first,)))
+    assert found is not None
+    return found
+
+
+def test_a_spring_in_a_long_log_is_not_taken_for_a_late_channel() -> None:
+    problem = thinned(prepare(mounted(30_000)), MOST)
+    assert len(problem.recording) < 2 * MOST
+    base = fit_hypothesis(problem, (), [fresh_start(*thresholds.FRESH)])
+    spring = hypothesis(problem, base, "mount_compliance", s_m=1e-6)
+    skew = hypothesis(problem, base, "time_skew", tau=5e-4)
+    assert spring.score < 0.25 * skew.score
+    assert abs(spring.values["mount_compliance.s_m"] / COMPLIANCE - 1.0) < 0.15
+
+
+def test_next_to_turns_with_weight_no_step_is_long() -> None:
+    whole = prepare(mounted(30_000))
+    problem = thinned(whole, MOST)
+    s, weight = problem.block.signals, problem.block.weight
+    kept = np.isin(_clock(whole.recording), _clock(problem.recording))
+    since = whole.block.signals.since_reversal[kept]
+    near = (since < 0.8 * thresholds.AFTER) & (weight > 0)
+    near[s.starts[:-1]] = False
+    assert near.any()
+    assert s.step[np.flatnonzero(near) - 1].max() < 1.5 * thresholds.FINE_STEP
+    assert s.step.max() > 2 * thresholds.FINE_STEP  # and elsewhere they are
+
+
+def _clock(r: Recording) -> Array:
+    """(n,) time with the records one after the other [s]."""
+    return r.t + 1e4 * np.repeat(np.arange(len(r.names)), np.diff(r.starts))
+
+
+def test_a_short_log_is_searched_whole() -> None:
+    problem = prepare(mounted(6_000))
+    assert thinned(problem, MOST) is problem
+
+
+def test_every_group_and_stretch_has_a_sample_and_records_stay() -> None:
+    whole = prepare(mounted(30_000))
+    few = thinned(replace(whole, held={"release.beta": 0.6}), MOST)
+    assert few.recording.names == whole.recording.names
+    assert few.held == {"release.beta": 0.6}
+    for label in (few.group, few.stretch):
+        assert np.array_equal(np.unique(label), np.arange(label.max() + 1))
+    assert few.count == whole.count
