@@ -31,13 +31,19 @@ def without_each(x: Exploration, best: Hypothesis) -> list[Hypothesis]:
 def eliminate(x: Exploration, best: Hypothesis) -> Hypothesis:
     """Remove effects that others have made useless, the one with the least evidence first.
 
-    Losses that are not significant one by one may be so together: then the last of them stays.
+    Losses that are not significant one by one may be so together: then the last of them stays,
+    unless the model does no worse without it: what does not help on unseen data is no finding,
+    however good another hypothesis is.
     """
     top = ranked(x.explored.values())[0]
     while x.added(best):
         smaller = without_each(x, best)
         loss = [(compare(x.problem, h, best), h) for h in smaller]
         useless = [(c.t_stretches, i, h) for i, (c, h) in enumerate(loss) if not c.significant]
+        harmful = [(c.gain, i, h) for i, (c, h) in enumerate(loss) if not c.gain > 0.0]
+        if harmful:
+            best = min(harmful)[-1]
+            continue
         # Where the present one misses the best hypothesis already, that keeps nothing.
         behind = compare(x.problem, best, top).significant
         idle = [

@@ -2,6 +2,10 @@
 
 Two are compared on the samples to which both give weight: where a force channel makes samples
 doubtful for one of them, that one would be spared the worst.
+
+Two tests stand side by side. That of log ratios (`Problem.t_statistics`) counts in how many places
+one is better, whatever the size; that of energy (`energy.energy_test`) how much better it is, in
+however few.
 """
 
 from __future__ import annotations
@@ -13,6 +17,7 @@ import numpy as np
 
 from erdctl.core.recording import Array
 from erdctl.diagnose import thresholds
+from erdctl.diagnose.energy import EnergyTest, energy_test
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
 
@@ -23,6 +28,7 @@ class Comparison:
 
     gain : relative reduction of the cross-validated mean square
     t_stretches, t_groups : see `Problem.t_statistics`
+    energy : the test of what the two predict differently
     size : root of the reduction over the range of the force
     before, after : the mean squares themselves [N^2]
     """
@@ -30,6 +36,7 @@ class Comparison:
     gain: float
     t_stretches: float
     t_groups: float
+    energy: EnergyTest
     size: float
     before: float
     after: float
@@ -38,8 +45,8 @@ class Comparison:
     def significant(self) -> bool:
         """Whether the gain is beyond chance, and worth a name."""
         worth = self.gain > thresholds.LEAST_GAIN and self.size > thresholds.ROUNDING
-        t = self.t_stretches > thresholds.T_STRETCHES and self.t_groups > thresholds.T_GROUPS
-        return worth and t
+        many = self.t_stretches > thresholds.T_STRETCHES and self.t_groups > thresholds.T_GROUPS
+        return worth and (many or self.energy.significant)
 
     @property
     def tied(self) -> bool:
@@ -55,7 +62,8 @@ def compare(problem: Problem, worse: Hypothesis, better: Hypothesis) -> Comparis
     before, after = _mean_square(worse, weight), _mean_square(better, weight)
     gain = (before - after) / before if before > 0.0 else 0.0
     size = float(np.sqrt(max(before - after, 0.0))) / float(np.ptp(problem.block.force))
-    return Comparison(gain, t_stretches, t_groups, size, before, after)
+    energy = energy_test(common, worse.cross_validated, better.cross_validated)
+    return Comparison(gain, t_stretches, t_groups, energy, size, before, after)
 
 
 def is_better(one: Hypothesis, other: Hypothesis) -> bool:

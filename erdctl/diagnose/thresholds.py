@@ -69,6 +69,12 @@ T_STRETCHES = 3.5
 # Origin: none; p = 0.07.
 T_GROUPS = 1.5
 
+# z of the energy test over noise, t over the groups and over the records in which the two differ,
+# and the effective number of such groups at least.
+# Decides: whether a gain is beyond chance that is large in few places.
+# Origin: measured null, see `erdctl prove --nulls`.
+Z_ENERGY, T_PLACES, LEAST_PLACES = 6.0, 3.0, 2.0
+
 # Relative reduction of the cross-validated mean square.
 # Decides: whether a gain is worth a name.
 # Origin: none.

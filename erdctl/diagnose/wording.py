@@ -6,6 +6,7 @@ from math import isfinite
 from typing import Any
 
 from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict
+from erdctl.diagnose.residual.predictability import LackOfFit
 
 
 def finding_text(finding: Finding) -> str:
@@ -39,7 +40,7 @@ def remaining_text(found: Diagnosis) -> str:
     if found.verdict is not Verdict.UNEXPLAINED:
         return (
             f"what remains, {found.carried.overall.rms:.3g} N rms, holds nothing that motion,"
-            " duty, time or energy would predict: measurement noise"
+            f" duty, time or energy would predict: measurement noise{_hum(left)}"
         )
     words = (
         f"{left.misfit_rms:.3g} N rms beyond a noise of {left.noise_rms:.3g} N can be predicted"
@@ -59,7 +60,18 @@ def remaining_text(found: Diagnosis) -> str:
     resembles = found.resemblance
     if resembles is not None:
         words += f"; it is most like {resembles.form} (correlation {resembles.correlation:+.2f})"
+    words += _hum(left)
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
+
+
+def _hum(left: LackOfFit) -> str:
+    """A line of the force channel, which is no physics, with what to do about it."""
+    if left.hum is None:
+        return ""
+    return (
+        f"; {100 * left.hum.share:.0f} % of its square is a line of {left.hum.frequency:.3g} Hz in"
+        " the force channel (hum, or its alias), which no motion makes: look at shields and earths"
+    )
 
 
 def record_values(found: Diagnosis) -> list[dict[str, Any]]:

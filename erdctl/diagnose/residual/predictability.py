@@ -19,7 +19,7 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem, t_statistic
 from erdctl.diagnose.residual.impulses import impulse_share
 from erdctl.diagnose.residual.regression import cross_predicted, features
-from erdctl.diagnose.residual.spectral_line import SpectralLine, spectral_line
+from erdctl.diagnose.residual.spectral_line import SpectralLine, spectral_lines
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +32,7 @@ class LackOfFit:
     significant : whether there is a rest;  hint : whether a further search is worth while
     spectral_line : that turns over with the motion, if the rest holds one
     impulses : the share of the rest's square that they hold, if there are any
+    hum : a line of the force channel's own, which is noise
     """
 
     predicted: Array
@@ -42,6 +43,7 @@ class LackOfFit:
     hint: bool
     spectral_line: SpectralLine | None
     impulses: float
+    hum: SpectralLine | None = None
 
 
 def lack_of_fit_test(problem: Problem, residual: Array, seed: int = 0) -> LackOfFit:
@@ -67,7 +69,7 @@ def lack_of_fit_test(problem: Problem, residual: Array, seed: int = 0) -> LackOf
     total = float(problem.weight_of.sum())
     square = float(np.dot(weight, residual**2)) / total
     expected, noise = _variance(problem, splits[0][0], rest, rng)
-    line = spectral_line(problem, rest)
+    line, hum = spectral_lines(problem, rest)
     left = float(np.dot(weight, rest**2)) / total
     excess = predicted**2 + np.maximum(expected - noise, 0.0)
     if line is not None:
@@ -87,6 +89,7 @@ def lack_of_fit_test(problem: Problem, residual: Array, seed: int = 0) -> LackOf
         hint=hint or misfit > 0.0,
         spectral_line=line,
         impulses=impulses,
+        hum=hum,
     )
 
 

@@ -1,0 +1,94 @@
+"""The energy test: does what one hypothesis predicts otherwise lie in what the other one misses?
+
+    d = e_1 - e_2,   u = sum w d e_1,   p = sum w d^2,   slope = u / p,   z = u / sqrt(var u)
+
+e_1, e_2 : (n,) cross-validated residuals of two hypotheses [N], so d is the difference of what they
+predict of samples that neither has seen;  w : weights
+
+If the first is right, d is noise of a fit that has not seen e_1, and u is 0 on average; if the
+second is, the slope is 1. This is the test of forecast encompassing, of which the reduction of the
+square, 2 u - p, is a part. It is as strong in a single place as in all together: only noise is in
+the variance, taken from the rest e_1 - slope d as its autocovariance, or as the sums over stretches
+where those scatter more. Because a misfit that one record has alone would pass for noise of the
+right size elsewhere, the slope must also be the same in the groups, and in the records, in which
+the two differ (a t statistic over clusters with as many degrees of freedom as there are places).
+
+Source: D. I. Harvey, S. J. Leybourne, P. Newbold, J. Business and Economic Statistics 16 (1998)
+254-259; clusters: C. A. Carter, K. T. Schnepel, D. G. Steigerwald, Rev. Econ. Stat. 99 (2017).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from erdctl.core.recording import Array, Index
+from erdctl.diagnose import thresholds
+from erdctl.diagnose.problem import Problem
+from erdctl.estimate.autoregressive import ColouredNoise
+
+
+@dataclass(frozen=True)
+class Clusters:
+    """A slope over clusters: its t statistic, and the effective number of clusters."""
+
+    t: float
+    places: float
+
+
+@dataclass(frozen=True)
+class EnergyTest:
+    """z over noise, the slope, and its steadiness over groups and over records."""
+
+    z: float
+    slope: float
+    groups: Clusters
+    records: Clusters
+
+    @property
+    def significant(self) -> bool:
+        """Whether one is better beyond chance, in however few places."""
+        return (
+            self.z > thresholds.Z_ENERGY
+            and self.groups.places >= thresholds.LEAST_PLACES
+            and self.groups.t > thresholds.T_PLACES
+        )
+
+
+NOTHING = EnergyTest(0.0, 0.0, Clusters(0.0, 0.0), Clusters(0.0, 0.0))
+
+
+def energy_test(problem: Problem, worse: Array, better: Array) -> EnergyTest:
+    """The test of two cross-validated residuals (n,) [N], on the problem's weights."""
+    weight, starts = problem.block.weight, problem.block.signals.starts
+    d = worse - better
+    u, p = weight * d * worse, weight * d * d
+    power = float(p.sum())
+    if not power > 0.0:
+        return NOTHING
+    slope = float(u.sum()) / power
+    rest = worse - slope * d
+    noise = ColouredNoise.of(rest * np.sqrt(weight), starts)
+    flat = float(np.sum(noise.colour((weight * d)[None], starts) ** 2))
+    uneven = float(np.sum(np.bincount(problem.stretch, weight * d * rest) ** 2))
+    variance = max(flat, uneven)
+    record = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    return EnergyTest(
+        float(u.sum()) / float(np.sqrt(max(variance, 1e-300))),
+        slope,
+        _clusters(u, p, problem.group),
+        _clusters(u, p, record),
+    )
+
+
+def _clusters(u: Array, p: Array, of: Index) -> Clusters:
+    """The slope's t statistic over clusters, those counted by how much the two differ in them."""
+    sums, power = np.bincount(of, u), np.bincount(of, p)
+    total = float(power.sum())
+    places = total**2 / float(np.sum(power**2))
+    slope = float(sums.sum()) / total
+    if places <= 1.0:
+        return Clusters(0.0, places)
+    scatter = float(np.sum((sums - slope * power) ** 2)) * places / (places - 1.0)
+    return Clusters(slope * total / float(np.sqrt(max(scatter, 1e-300))), places)
