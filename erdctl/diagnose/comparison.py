@@ -17,7 +17,7 @@ import numpy as np
 
 from erdctl.core.recording import Array
 from erdctl.diagnose import thresholds
-from erdctl.diagnose.energy import EnergyTest, energy_test
+from erdctl.diagnose.energy import EnergyTest, critical_value, energy_columns, energy_test
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
 
@@ -31,6 +31,7 @@ class Comparison:
     energy : the test of what the two predict differently
     size : root of the reduction over the range of the force
     before, after : the mean squares themselves [N^2]
+    scatter : standard error of a mean square from as many groups, over itself
     """
 
     gain: float
@@ -40,18 +41,36 @@ class Comparison:
     size: float
     before: float
     after: float
+    scatter: float
 
     @property
     def significant(self) -> bool:
         """Whether the gain is beyond chance, and worth a name."""
+        return self.beyond(0.0)
+
+    def beyond(self, critical: float) -> bool:
+        """The same, where the best of many was picked, see `energy.critical_value`."""
         worth = self.gain > thresholds.LEAST_GAIN and self.size > thresholds.ROUNDING
-        many = self.t_stretches > thresholds.T_STRETCHES and self.t_groups > thresholds.T_GROUPS
-        return worth and (many or self.energy.significant)
+        many = self.t_stretches > max(thresholds.T_STRETCHES, critical)
+        much = self.energy.significant and self.energy.z > critical
+        return worth and ((many and self.t_groups > thresholds.T_GROUPS) or much)
+
+    @property
+    def earned(self) -> bool:
+        """Whether a richer form of the same is worth its parameters.
+
+        What one record has of its own, a gain or a zero, is easily taken by a free parameter; so
+        the gain must be the same in the records, where there are several.
+        """
+        records = self.energy.records
+        steady = records.places < thresholds.LEAST_PLACES or records.t > thresholds.T_PLACES
+        return self.significant and steady
 
     @property
     def tied(self) -> bool:
-        """Whether the two cannot be told apart."""
-        return self.t_stretches < thresholds.T_TIE or self.gain < thresholds.LEAST_GAIN
+        """Whether the two cannot be told apart: neither by places, nor by energy, nor by size."""
+        apart = max(self.t_stretches, self.energy.z) > thresholds.T_TIE
+        return self.gain < thresholds.LEAST_GAIN or not (apart or self.gain > self.scatter)
 
 
 def compare(problem: Problem, worse: Hypothesis, better: Hypothesis) -> Comparison:
@@ -63,7 +82,18 @@ def compare(problem: Problem, worse: Hypothesis, better: Hypothesis) -> Comparis
     gain = (before - after) / before if before > 0.0 else 0.0
     size = float(np.sqrt(max(before - after, 0.0))) / float(np.ptp(problem.block.force))
     energy = energy_test(common, worse.cross_validated, better.cross_validated)
-    return Comparison(gain, t_stretches, t_groups, energy, size, before, after)
+    scatter = float(np.sqrt(2.0 / problem.count))
+    return Comparison(gain, t_stretches, t_groups, energy, size, before, after, scatter)
+
+
+def critical_of(problem: Problem, worse: Hypothesis, others: Sequence[Hypothesis]) -> float:
+    """The value that the largest statistic of some hypotheses over one exceeds by chance."""
+    columns = []
+    for other in others:
+        weight = _common_weight(worse, other)
+        common = replace(problem, block=problem.block._replace(weight=weight))
+        columns += energy_columns(common, worse.cross_validated, other.cross_validated)
+    return critical_value(np.array(columns)) if columns else 0.0
 
 
 def is_better(one: Hypothesis, other: Hypothesis) -> bool:

@@ -34,6 +34,17 @@ CV_SINGULAR = 1e-10
 # Origin: none; a mean over fewer has no useful standard error.
 LEAST_GROUPS = 5
 
+# Records of a log that are left out whole, in turn, at least.
+# Decides: whether it can be asked if a correction carries over to other records.
+# Origin: with two, half of the data is left out.
+LEAST_RECORDS = 3
+
+# Range of the duty, and of the strokes' highest speeds over their largest, within which a log has
+# one duty and one speed.
+# Decides: `cannot_tell`.
+# Origin: the step of a duty that `bench.identifiability` asks for; a speed that a bench holds.
+ONE_DUTY, ONE_SPEED = 0.02, 0.1
+
 # --- doubtful samples ---------------------------------------------------------------------------
 
 # Standard deviations of the velocity noise within which the direction of motion is uncertain.
@@ -74,6 +85,12 @@ T_GROUPS = 1.5
 # Decides: whether a gain is beyond chance that is large in few places.
 # Origin: measured null, see `erdctl prove --nulls`.
 Z_ENERGY, T_PLACES, LEAST_PLACES = 6.0, 3.0, 2.0
+
+# Sign flips of stretches, and the part of them whose largest statistic over all candidates of a
+# step may lie beyond the critical value.
+# Decides: how much more the best of many must show than a single one would have to.
+# Origin: a step in 500 goes wrong, so that with four steps a null in a hundred is named.
+FLIPS, FALSE_ALARMS = 4000, 0.002
 
 # Relative reduction of the cross-validated mean square.
 # Decides: whether a gain is worth a name.

@@ -5,6 +5,8 @@ from __future__ import annotations
 from math import isfinite
 from typing import Any
 
+from erdctl.bench.excitation import Survey
+from erdctl.bench.identifiability import Bench
 from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict
 from erdctl.diagnose.residual.predictability import LackOfFit
 
@@ -36,6 +38,14 @@ def remaining_text(found: Diagnosis) -> str:
         return (
             "nothing was searched, because the recording itself is at fault:"
             f" {'; '.join(f.text for f in found.rig.blocking)}"
+        )
+    if found.verdict is Verdict.CANNOT_TELL:
+        bench = Bench.of(Survey(found.problem.recording, found.problem.block.signals))
+        return (
+            "the log has one duty and one speed, at which other effects, and other values of the"
+            " paper's parameters, explain the misfit as well: what is named is one of them; to tell"
+            f" them apart, record --drive {bench.sweep}, --drive {bench.levels} and --drive"
+            f" {bench.steps}{_hum(left)}"
         )
     if found.verdict is not Verdict.UNEXPLAINED:
         return (
