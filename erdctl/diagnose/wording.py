@@ -7,7 +7,7 @@ from typing import Any
 
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import Bench
-from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict
+from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict, one_condition
 from erdctl.diagnose.residual.predictability import LackOfFit
 
 
@@ -51,6 +51,8 @@ def remaining_text(found: Diagnosis) -> str:
         return (
             f"what remains, {found.carried.overall.rms:.3g} N rms, holds nothing that motion,"
             f" duty, time or energy would predict: measurement noise{_hum(left)}"
+            + "; the log has one duty and one speed, and says nothing of others"
+            * one_condition(found.problem.recording)
         )
     words = (
         f"{left.misfit_rms:.3g} N rms beyond a noise of {left.noise_rms:.3g} N can be predicted"
