@@ -103,7 +103,7 @@ def diagnose(
     recording: Recording,
     candidates: Sequence[Effect],
     *,
-    most: int = 5,
+    most: int = thresholds.MOST_EFFECTS,
     seed: int = 0,
     given: Parameters | None = None,
     free: Varying = NONE_VARY,

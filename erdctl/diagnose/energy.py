@@ -56,9 +56,6 @@ class EnergyTest:
         )
 
 
-NOTHING = EnergyTest(0.0, 0.0, Clusters(0.0, 0.0), Clusters(0.0, 0.0))
-
-
 def energy_test(problem: Problem, worse: Array, better: Array) -> EnergyTest:
     """The test of two cross-validated residuals (n,) [N], on the problem's weights."""
     weight, starts = problem.block.weight, problem.block.signals.starts
@@ -66,7 +63,7 @@ def energy_test(problem: Problem, worse: Array, better: Array) -> EnergyTest:
     u, p = weight * d * worse, weight * d * d
     power = float(p.sum())
     if not power > 0.0:
-        return NOTHING
+        return EnergyTest(0.0, 0.0, Clusters(0.0, 0.0), Clusters(0.0, 0.0))
     slope = float(u.sum()) / power
     rest = worse - slope * d
     noise = ColouredNoise.of(rest * np.sqrt(weight), starts)

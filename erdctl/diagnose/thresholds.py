@@ -84,7 +84,7 @@ T_GROUPS = 1.5
 # and the effective number of such groups at least.
 # Decides: whether a gain is beyond chance that is large in few places.
 # Origin: measured null, see `erdctl prove --nulls`.
-Z_ENERGY, T_PLACES, LEAST_PLACES = 6.0, 3.0, 2.0
+Z_ENERGY, T_PLACES, LEAST_PLACES = 6.0, 3.0, 1.5
 
 # Sign flips of stretches, and the part of them whose largest statistic over all candidates of a
 # step may lie beyond the critical value.
@@ -123,6 +123,11 @@ SEARCH_SAMPLES = 12_000
 # Decides: the width of the beam.
 # Origin: budget; with a beam of one, pairs of which neither gains alone were missed.
 BEAM, BEAM_DEPTH = 3, 3
+
+# Effects in one model, at most.
+# Origin: budget; more than the data of any damper so far have asked for, so that they end the
+# search and the names do not depend on a limit.
+MOST_EFFECTS = 12
 
 # Part of the most promising effect's screened gain, and the number of effects in any case.
 # Decides: which effects are fitted together with a parent's.
