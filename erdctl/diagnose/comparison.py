@@ -62,9 +62,7 @@ class Comparison:
         What one record has of its own, a gain or a zero, is easily taken by a free parameter; so
         the gain must be the same in the records, where there are several.
         """
-        records = self.energy.records
-        steady = records.places < thresholds.LEAST_PLACES or records.t > thresholds.T_PLACES
-        return self.significant and steady
+        return self.significant and self.energy.steady
 
     @property
     def tied(self) -> bool:

@@ -53,7 +53,14 @@ class EnergyTest:
             self.z > thresholds.Z_ENERGY
             and self.groups.places >= thresholds.LEAST_PLACES
             and self.groups.t > thresholds.T_PLACES
+            and self.steady
         )
+
+    @property
+    def steady(self) -> bool:
+        """Whether the slope is the same in the records, where the two differ in several."""
+        records = self.records
+        return records.places < thresholds.LEAST_PLACES or records.t > thresholds.T_PLACES
 
 
 def energy_test(problem: Problem, worse: Array, better: Array) -> EnergyTest:

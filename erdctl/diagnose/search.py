@@ -110,7 +110,9 @@ def refit(problem: Problem, found: Selection, executor: Executor) -> Selection:
     explored.restarts.update((key, key_of(found.best.effects)) for key in again)
     base = explored[key_of(found.base.effects)]
     x = Exploration(problem, base, explored, executor)
-    best = carried_over(x, eliminate(x, explored[key_of(found.best.effects)]))
+    best, last = explored[key_of(found.best.effects)], None
+    while best is not last:  # each may leave what the other one drops
+        last, best = best, carried_over(x, eliminate(x, best))
     names = [e.name for e in x.added(best)]
     without = {n: explored[key_of(best.effects) - {n}] for n in names}
     alike = {n: found.look_alikes[n] for n in names}
