@@ -45,24 +45,20 @@ class Comparison:
 
     @property
     def significant(self) -> bool:
-        """Whether the gain is beyond chance, and worth a name."""
+        """Whether the gain is beyond chance, and worth a name.
+
+        What one record has of its own, a gain or a zero, is easily taken by a free parameter, of a
+        richer form above all; so the gain must be as steady over records as noise lets it be.
+        """
         return self.beyond(0.0)
 
     def beyond(self, critical: float) -> bool:
         """The same, where the best of many was picked, see `energy.critical_value`."""
         worth = self.gain > thresholds.LEAST_GAIN and self.size > thresholds.ROUNDING
+        worth = worth and self.energy.steady
         many = self.t_stretches > max(thresholds.T_STRETCHES, critical)
         much = self.energy.significant and self.energy.z > critical
         return worth and ((many and self.t_groups > thresholds.T_GROUPS) or much)
-
-    @property
-    def earned(self) -> bool:
-        """Whether a richer form of the same is worth its parameters.
-
-        What one record has of its own, a gain or a zero, is easily taken by a free parameter; so
-        the gain must be the same in the records, where there are several.
-        """
-        return self.significant and self.energy.steady
 
     @property
     def tied(self) -> bool:

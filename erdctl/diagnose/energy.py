@@ -58,9 +58,18 @@ class EnergyTest:
 
     @property
     def steady(self) -> bool:
-        """Whether the slope is the same in the records, where the two differ in several."""
-        records = self.records
-        return records.places < thresholds.LEAST_PLACES or records.t > thresholds.T_PLACES
+        """Whether the slope is the same in the records, as far as noise lets it be.
+
+        (z / t)^2 is the scatter of the records over that of the noise, which is about chi^2 / k,
+        with k = places - 1, if they are alike. Where they are not, t itself must be large.
+        """
+        from scipy.special import chdtri
+
+        records, freedom = self.records, self.records.places - 1.0
+        if records.places < thresholds.LEAST_PLACES or records.t > thresholds.T_PLACES:
+            return True
+        most = float(chdtri(freedom, thresholds.UNLIKE_RECORDS)) / freedom
+        return records.t > 0.0 and self.z**2 < most * records.t**2
 
 
 def energy_test(problem: Problem, worse: Array, better: Array) -> EnergyTest:

@@ -21,9 +21,9 @@ def is_preferred(problem: Problem, other: Hypothesis, best: Hypothesis) -> bool:
     """
     extra = len(other.model.quantities) - len(best.model.quantities)
     if extra < 0:
-        return not compare(problem, other, best).earned
+        return not compare(problem, other, best).significant
     gain = compare(problem, best, other)
-    return gain.gain > 0.0 if extra == 0 else gain.earned
+    return gain.gain > 0.0 if extra == 0 else gain.significant
 
 
 def look_alikes(

@@ -86,6 +86,12 @@ T_GROUPS = 1.5
 # Origin: measured null, see `erdctl prove --nulls`.
 Z_ENERGY, T_PLACES, LEAST_PLACES = 6.0, 3.0, 1.5
 
+# Part of logs whose records are alike and seem not to be.
+# Decides: whether the records differ in a gain by more than noise makes them, so that what they
+# agree on must be shown over them.
+# Origin: p = 0.05.
+UNLIKE_RECORDS = 0.05
+
 # Sign flips of stretches, and the part of them whose largest statistic over all candidates of a
 # step may lie beyond the critical value.
 # Decides: how much more the best of many must show than a single one would have to.
