@@ -229,11 +229,6 @@ T_HINT, SHARE_HINT, HEAVY_TAILS = 1.0, 0.003, 1.1
 # Origin: none.
 T_VARIANCE, VARIANCE_RATIO = 3.0, 1.2
 
-# Correlation of neighbouring samples of what a residual has more of where it is loud.
-# Decides: whether that is a force, or noise that grows with the state.
-# Origin: half-way between that of white noise, 0, and of a force that is sampled well, 1.
-LASTING = 0.5
-
 # Part of the samples, those of the least expected variance, whose mean square is the noise.
 # Origin: none.
 NOISE_PART = 0.2

@@ -14,7 +14,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-import numpy.typing as npt
 
 from erdctl.core.recording import Array, Index
 from erdctl.diagnose import thresholds
@@ -193,21 +192,3 @@ def _variance(
     ):
         return even, mean
     return level[cell], float(level[0])
-
-
-def _lasting(problem: Problem, rest: Array, loud: npt.NDArray[np.bool_]) -> bool:
-    """Whether what a residual (n,) has more of where it is loud lasts from sample to sample.
-
-    A force lasts; noise that grows with the force, as a load cell's may, is gone with the next
-    sample. The correlation of neighbours is that of the excess: what the quiet states have of it is
-    taken off. A coloured noise that grows with the force passes for a misfit.
-    """
-    starts, use = problem.block.signals.starts, problem.block.weight > 0
-    both = use[1:] & use[:-1] & (loud[1:] == loud[:-1])
-    both[starts[1:-1] - 1] = False
-    product, square = rest[1:] * rest[:-1], 0.5 * (rest[1:] ** 2 + rest[:-1] ** 2)
-    high, low = both & loud[1:], both & ~loud[1:]
-    if not high.any() or not low.any():
-        return True
-    excess = float(square[high].mean() - square[low].mean())
-    return float(product[high].mean() - product[low].mean()) > thresholds.LASTING * excess
