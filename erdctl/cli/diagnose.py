@@ -10,6 +10,7 @@ from erdctl.cli.options import Damper, Date, Logs, Maps, Operator, Out, Text, Wh
 from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
 from erdctl.cli.rig import Accept, Strict
+from erdctl.diagnose.thresholds import MOST_EFFECTS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -60,7 +61,12 @@ def command(
             " An offset that all records share stays a finding.",
         ),
     ] = False,
-    max_effects: Annotated[int, typer.Option(min=1, max=6, help="Most effects in one model.")] = 5,
+    max_effects: Annotated[
+        int,
+        typer.Option(
+            min=1, max=MOST_EFFECTS, help="Most effects in one model; the data end it before."
+        ),
+    ] = MOST_EFFECTS,
     seed: Annotated[int, typer.Option(help="Of the regression of the lack-of-fit test.")] = 0,
     jobs: Annotated[
         int | None,
@@ -97,6 +103,8 @@ def command(
     A lack-of-fit test of the residual then decides the verdict. adequate: the model given is
     enough. explained: with the effects found, the residual is noise. unexplained: a misfit is left
     that no effect of the catalogue explains; the diagnosis says where it is and what it resembles.
+    cannot_tell: effects were found, but the log has one duty and one speed, at which others would
+    do as well; the drives that would tell them apart are named.
     Look-alikes, which these data cannot tell apart, are listed with a drive on which they differ.
 
     The JSON holds the corrected parameter file under corrected.params (schema: erdctl schema

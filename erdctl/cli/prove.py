@@ -55,6 +55,14 @@ def command(
     colour: Annotated[
         str | None, typer.Option(metavar="white|ar1|pink", help="Of the force noise.")
     ] = None,
+    nulls: Annotated[
+        int | None,
+        typer.Option(
+            min=1,
+            metavar="N",
+            help="Instead: N short logs with nothing hidden, of many kinds of noise.",
+        ),
+    ] = None,
     keep: Annotated[
         str | None,
         typer.Option(metavar="DIR", help="Keep logs, fresh records, keys and diagnoses here."),
@@ -79,6 +87,9 @@ def command(
     with a true one); spurious findings; and the attainable reduction, which is the error removed on
     fresh, noise-free records, over what the true structure, fitted to the same log, removes.
 
+    --nulls counts false alarms by the kind of noise, and prints how far noise alone moves each
+    statistic that decides, beside its threshold.
+
     \b
     Examples:
       erdctl prove
@@ -86,12 +97,19 @@ def command(
       erdctl prove --effects backlash,mount_compliance --level 3 --motion measured
       erdctl prove --kind null --colour pink --cases 40
       erdctl prove --seed 5017 --cases 1 --keep case
+      erdctl prove --nulls 90 --seed 9000
     """
-    from erdctl.core.errors import PartlyDone
+    from erdctl.core.errors import PartlyDone, UsageProblem
     from erdctl.io import documents
     from erdctl.prove.case import Wish, check
     from erdctl.prove.document import to_json
 
+    if nulls is not None:
+        asked = (only, level, kind, concealment, motion, colour, keep, output, report)
+        if any(asked) or as_json:
+            raise UsageProblem("--nulls takes --seed and --jobs alone: it prints two tables")
+        _nulls(range(seed, seed + nulls), jobs)
+        return
     names = tuple(n.strip() for option in only for n in option.split(",") if n.strip())
     wish = Wish(
         effects=names or None, level=level, kind=kind, concealment=concealment, motion=motion,
@@ -122,6 +140,25 @@ def command(
     _show(proof)
     if proof.failed:
         raise PartlyDone(f"{len(proof.failed)} of {cases} cases could not be scored")
+
+
+def _nulls(seeds: Sequence[int], jobs: int | None) -> None:
+    from erdctl.core.workers import cores
+    from erdctl.prove import nulls
+    from erdctl.report.text import progress, say, table
+
+    done = 0
+    with progress() as step:
+
+        def on_result(result: nulls.NullResult) -> None:
+            nonlocal done
+            done += 1
+            say(result.line)
+            step("nulls", f"{done} of {len(seeds)} ({100 * done // len(seeds)} %)")
+
+        results = nulls.nulls(seeds, jobs=min(jobs or cores(), len(seeds)), on_result=on_result)
+    for title, header, rows in nulls.tables(results):
+        table(title, header, rows)
 
 
 def _run(wish: Wish, seeds: Sequence[int], folder: Path, jobs: int | None) -> Proof:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import compare, is_better, ranked
 from erdctl.diagnose.executor import Task
 from erdctl.diagnose.forward_step import Exploration, key_of
-from erdctl.diagnose.hypothesis import Hypothesis
+from erdctl.diagnose.hypothesis import Hypothesis, over_records
 from erdctl.diagnose.look_alikes import is_preferred
 
 
@@ -31,13 +32,19 @@ def without_each(x: Exploration, best: Hypothesis) -> list[Hypothesis]:
 def eliminate(x: Exploration, best: Hypothesis) -> Hypothesis:
     """Remove effects that others have made useless, the one with the least evidence first.
 
-    Losses that are not significant one by one may be so together: then the last of them stays.
+    Losses that are not significant one by one may be so together: then the last of them stays,
+    unless the model does no worse without it: what does not help on unseen data is no finding,
+    however good another hypothesis is.
     """
     top = ranked(x.explored.values())[0]
     while x.added(best):
         smaller = without_each(x, best)
         loss = [(compare(x.problem, h, best), h) for h in smaller]
         useless = [(c.t_stretches, i, h) for i, (c, h) in enumerate(loss) if not c.significant]
+        harmful = [(c.gain, i, h) for i, (c, h) in enumerate(loss) if not c.gain > 0.0]
+        if harmful:
+            best = min(harmful)[-1]
+            continue
         # Where the present one misses the best hypothesis already, that keeps nothing.
         behind = compare(x.problem, best, top).significant
         idle = [
@@ -47,6 +54,25 @@ def eliminate(x: Exploration, best: Hypothesis) -> Hypothesis:
         if not idle:
             return best
         best = idle[0]
+    return best
+
+
+def carried_over(x: Exploration, best: Hypothesis) -> Hypothesis:
+    """Remove effects without which whole records that the fit leaves out are predicted better.
+
+    Left-out stretches have neighbours of the same motion in the fit, and so may speak for what only
+    holds there. A correction that carries over to no other record is none.
+    """
+    if len(x.problem.recording.names) < thresholds.LEAST_RECORDS:
+        return best
+    while x.added(best):
+        whole = over_records(best)
+        smaller = [*without_each(x, best), x.explored[key_of(x.base.effects)]]
+        gains = [compare(x.problem, over_records(h), whole).gain for h in smaller]
+        worst = min(range(len(gains)), key=lambda i: (gains[i], i))
+        if gains[worst] > 0.0:
+            break
+        best = smaller[worst]
     return best
 
 
@@ -61,11 +87,20 @@ def second_pass(x: Exploration, best: Hypothesis, most: int) -> Hypothesis:
 
 
 def as_good_as_explored(x: Exploration, best: Hypothesis) -> Hypothesis:
-    """Elimination goes one way down from one hypothesis; another of that size may do better."""
-    while True:
-        size = len(key_of(best.effects))
-        even = [h for k, h in x.explored.items() if len(k) == size and is_better(h, best)]
+    """Elimination goes one way down from one hypothesis; another of that size may do better.
+
+    Or as well with fewer parameters.
+    """
+    seen = set[frozenset[str]]()
+    while key_of(best.effects) not in seen:
+        seen.add(key_of(best.effects))
+        count = len(best.model.quantities)
+        even = [
+            h for k, h in x.explored.items()
+            if len(k) == len(best.effects) and k not in seen
+            and (is_better(h, best) or len(h.model.quantities) < count)
+        ]  # fmt: skip
         better = [h for h in even if is_preferred(x.problem, h, best)]
-        if not better:
-            return best
-        best = eliminate(x, ranked(better)[0])
+        if better:
+            best = eliminate(x, ranked(better)[0])
+    return best

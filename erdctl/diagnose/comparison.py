@@ -2,6 +2,10 @@
 
 Two are compared on the samples to which both give weight: where a force channel makes samples
 doubtful for one of them, that one would be spared the worst.
+
+Two tests stand side by side. That of log ratios (`Problem.t_statistics`) counts in how many places
+one is better, whatever the size; that of energy (`energy.energy_test`) how much better it is, in
+however few.
 """
 
 from __future__ import annotations
@@ -13,6 +17,7 @@ import numpy as np
 
 from erdctl.core.recording import Array
 from erdctl.diagnose import thresholds
+from erdctl.diagnose.energy import EnergyTest, critical_value, energy_columns, energy_test
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
 
@@ -23,28 +28,43 @@ class Comparison:
 
     gain : relative reduction of the cross-validated mean square
     t_stretches, t_groups : see `Problem.t_statistics`
+    energy : the test of what the two predict differently
     size : root of the reduction over the range of the force
     before, after : the mean squares themselves [N^2]
+    scatter : standard error of a mean square from as many groups, over itself
     """
 
     gain: float
     t_stretches: float
     t_groups: float
+    energy: EnergyTest
     size: float
     before: float
     after: float
+    scatter: float
 
     @property
     def significant(self) -> bool:
-        """Whether the gain is beyond chance, and worth a name."""
+        """Whether the gain is beyond chance, and worth a name.
+
+        What one record has of its own, a gain or a zero, is easily taken by a free parameter, of a
+        richer form above all; so the gain must be as steady over records as noise lets it be.
+        """
+        return self.beyond(0.0)
+
+    def beyond(self, critical: float) -> bool:
+        """The same, where the best of many was picked, see `energy.critical_value`."""
         worth = self.gain > thresholds.LEAST_GAIN and self.size > thresholds.ROUNDING
-        t = self.t_stretches > thresholds.T_STRETCHES and self.t_groups > thresholds.T_GROUPS
-        return worth and t
+        worth = worth and self.energy.steady
+        many = self.t_stretches > max(thresholds.T_STRETCHES, critical)
+        much = self.energy.significant and self.energy.z > critical
+        return worth and ((many and self.t_groups > thresholds.T_GROUPS) or much)
 
     @property
     def tied(self) -> bool:
-        """Whether the two cannot be told apart."""
-        return self.t_stretches < thresholds.T_TIE or self.gain < thresholds.LEAST_GAIN
+        """Whether the two cannot be told apart: neither by places, nor by energy, nor by size."""
+        apart = max(self.t_stretches, self.energy.z) > thresholds.T_TIE
+        return self.gain < thresholds.LEAST_GAIN or not (apart or self.gain > self.scatter)
 
 
 def compare(problem: Problem, worse: Hypothesis, better: Hypothesis) -> Comparison:
@@ -55,7 +75,19 @@ def compare(problem: Problem, worse: Hypothesis, better: Hypothesis) -> Comparis
     before, after = _mean_square(worse, weight), _mean_square(better, weight)
     gain = (before - after) / before if before > 0.0 else 0.0
     size = float(np.sqrt(max(before - after, 0.0))) / float(np.ptp(problem.block.force))
-    return Comparison(gain, t_stretches, t_groups, size, before, after)
+    energy = energy_test(common, worse.cross_validated, better.cross_validated)
+    scatter = float(np.sqrt(2.0 / problem.count))
+    return Comparison(gain, t_stretches, t_groups, energy, size, before, after, scatter)
+
+
+def critical_of(problem: Problem, worse: Hypothesis, others: Sequence[Hypothesis]) -> float:
+    """The value that the largest statistic of some hypotheses over one exceeds by chance."""
+    columns = []
+    for other in others:
+        weight = _common_weight(worse, other)
+        common = replace(problem, block=problem.block._replace(weight=weight))
+        columns += energy_columns(common, worse.cross_validated, other.cross_validated)
+    return critical_value(np.array(columns)) if columns else 0.0
 
 
 def is_better(one: Hypothesis, other: Hypothesis) -> bool:

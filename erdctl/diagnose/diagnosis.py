@@ -11,6 +11,7 @@ import numpy as np
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import untestable
 from erdctl.bench.rig import Rig, look
+from erdctl.bench.strokes import strokes
 from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Array, Recording
@@ -35,11 +36,16 @@ from erdctl.score.nrmse import Normalise, Validation, validate
 
 
 class Verdict(StrEnum):
-    """The answer in one word."""
+    """The answer in one word.
+
+    CANNOT_TELL: something is left out, but at one duty and one speed several effects would explain
+    it alike, and so would other values of the paper's parameters that the log does not determine.
+    """
 
     ADEQUATE = "adequate"
     EXPLAINED = "explained"
     UNEXPLAINED = "unexplained"
+    CANNOT_TELL = "cannot_tell"
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +104,7 @@ def diagnose(
     recording: Recording,
     candidates: Sequence[Effect],
     *,
-    most: int = 5,
+    most: int = thresholds.MOST_EFFECTS,
     seed: int = 0,
     given: Parameters | None = None,
     free: Varying = NONE_VARY,
@@ -139,8 +145,10 @@ def diagnose(
     left = lack_of_fit.significant and _matters(problem, selection, lack_of_fit)
     if left or rig.blocking:
         verdict = Verdict.UNEXPLAINED
+    elif not selection.named:
+        verdict = Verdict.ADEQUATE
     else:
-        verdict = Verdict.EXPLAINED if selection.named else Verdict.ADEQUATE
+        verdict = Verdict.CANNOT_TELL if one_condition(recording) else Verdict.EXPLAINED
     findings = _findings(problem, selection)
     energy = (best.residual - selection.base.residual) ** 2
     if left:
@@ -177,6 +185,21 @@ def diagnose(
         untestable=missing,
         rig=rig,
     )
+
+
+def one_condition(recording: Recording) -> bool:
+    """Whether a log has one duty and one speed: the same stroke again and again.
+
+    Then the force is known along one loop of deflection and speed, on which laws differ less than
+    their parameters can make up for.
+    """
+    if float(np.ptp(recording.duty)) >= thresholds.ONE_DUTY:
+        return False
+    found = strokes(recording)
+    if not len(found):
+        return True
+    speed = found.highest(np.abs(recording.xdot))
+    return float(np.ptp(speed)) < thresholds.ONE_SPEED * float(speed.max())
 
 
 def _matters(problem: Problem, selection: Selection, lack_of_fit: LackOfFit) -> bool:

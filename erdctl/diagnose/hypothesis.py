@@ -167,6 +167,15 @@ def _fitted(
     return replace(found, residual=residual, cost=cost if np.isfinite(cost) else np.inf)
 
 
+def over_records(hypothesis: Hypothesis) -> Hypothesis:
+    """The same fit, cross-validated with whole records left out in turn."""
+    problem = hypothesis.problem
+    starts = problem.block.signals.starts
+    record = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    again = replace(hypothesis, problem=replace(problem, group=record))
+    return replace(again, cross_validated=_cross_validated(again))
+
+
 def _cross_validated(fitted: Hypothesis) -> Array:
     """(n,) error on each group by a fit without it [N].
 

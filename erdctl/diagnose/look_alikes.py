@@ -15,11 +15,15 @@ from erdctl.model.effect import Effect
 
 
 def is_preferred(problem: Problem, other: Hypothesis, best: Hypothesis) -> bool:
-    """Whether another hypothesis should have the name: as good with less, better with no more."""
+    """Whether another hypothesis should have the name.
+
+    As good with less, better with no more, or so much better that it is worth its parameters.
+    """
     extra = len(other.model.quantities) - len(best.model.quantities)
     if extra < 0:
         return not compare(problem, other, best).significant
-    return extra == 0 and compare(problem, best, other).gain > 0.0
+    gain = compare(problem, best, other)
+    return gain.gain > 0.0 if extra == 0 else gain.significant
 
 
 def look_alikes(
@@ -37,6 +41,7 @@ def look_alikes(
     likely = [h.effects[-1] for h in singles[: thresholds.LOOK_ALIKES]]
     likely += [c for c in candidates if c.name in effect.equivalents]
     names, rest = key_of(best.effects), key_of(others)
+    likely += [c for c in candidates if rest | {c.name} in x.explored]
     keys = {e.name: rest | {e.name} for e in likely if e.name not in names}
     if rest not in x.explored:
         task = Task("second pass", others, (best.values,), record_effects=best.record_effects)

@@ -200,12 +200,16 @@ def velocity_noise(xdot: Array) -> float:
     window = np.hanning(len(xdot))
     power = np.abs(np.fft.rfft((xdot - xdot.mean()) * window)) ** 2
     total = np.cumsum(power)
-    if total[-1] == 0.0:
-        return 0.0
-    motion = int(np.searchsorted(total, thresholds.MOTION_ENERGY * total[-1]))
-    edge = thresholds.NOISE_BEYOND * motion + thresholds.NOISE_BINS
-    if edge >= len(power):
+    edge = motion_edge(power)
+    if total[-1] == 0.0 or edge >= len(power):
         return 0.0
     beyond = float(total[-1] - total[edge])
     share = 2.0 * beyond / (np.sum(window**2) * len(xdot))
     return float(np.sqrt(share))
+
+
+def motion_edge(power: Array) -> int:
+    """The bin of a velocity's power spectrum (k,) beyond which there is no motion."""
+    total = np.cumsum(power)
+    motion = int(np.searchsorted(total, thresholds.MOTION_ENERGY * total[-1]))
+    return thresholds.NOISE_BEYOND * motion + thresholds.NOISE_BINS

@@ -11,9 +11,15 @@ from dataclasses import dataclass
 
 from erdctl.core.progress import part_of
 from erdctl.diagnose import thresholds
-from erdctl.diagnose.backward_step import as_good_as_explored, eliminate, second_pass, without_each
+from erdctl.diagnose.backward_step import (
+    as_good_as_explored,
+    carried_over,
+    eliminate,
+    second_pass,
+    without_each,
+)
 from erdctl.diagnose.companion_effects import companion_sets, joint_task
-from erdctl.diagnose.comparison import compare, ranked
+from erdctl.diagnose.comparison import compare, critical_of, ranked
 from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.forward_step import Exploration, Explored, forward_step, key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
@@ -89,7 +95,8 @@ def search(
 def refit(problem: Problem, found: Selection, executor: Executor) -> Selection:
     """The same selection refitted to another problem, usually all samples, from where it ended.
 
-    What a part of the samples spoke for and all of them do not is dropped.
+    What a part of the samples spoke for and all of them do not is dropped, and so is what does not
+    carry over to records that were left out.
     """
     again = {key_of(h.effects): h for h in (found.base, found.best, *found.without.values())}
     tasks = [
@@ -103,7 +110,9 @@ def refit(problem: Problem, found: Selection, executor: Executor) -> Selection:
     explored.restarts.update((key, key_of(found.best.effects)) for key in again)
     base = explored[key_of(found.base.effects)]
     x = Exploration(problem, base, explored, executor)
-    best = eliminate(x, explored[key_of(found.best.effects)])
+    best, last = explored[key_of(found.best.effects)], None
+    while best is not last:  # each may leave what the other one drops
+        last, best = best, carried_over(x, eliminate(x, best))
     names = [e.name for e in x.added(best)]
     without = {n: explored[key_of(best.effects) - {n}] for n in names}
     alike = {n: found.look_alikes[n] for n in names}
@@ -127,7 +136,8 @@ def _forward_selection(
         stage = f"{depth + 1} effects" if depth else "each effect"
         more = ranked(forward_step(x, parents, candidates, stage))
         singles = singles if depth else more
-        better = [h for h in more if compare(x.problem, best, h).significant]
+        critical = critical_of(x.problem, best, more)
+        better = [h for h in more if compare(x.problem, best, h).beyond(critical)]
         if better:
             best, rest = better[0], None
         elif depth:

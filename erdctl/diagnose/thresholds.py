@@ -34,6 +34,17 @@ CV_SINGULAR = 1e-10
 # Origin: none; a mean over fewer has no useful standard error.
 LEAST_GROUPS = 5
 
+# Records of a log that are left out whole, in turn, at least.
+# Decides: whether it can be asked if a correction carries over to other records.
+# Origin: with two, half of the data is left out.
+LEAST_RECORDS = 3
+
+# Range of the duty, and of the strokes' highest speeds over their largest, within which a log has
+# one duty and one speed.
+# Decides: `cannot_tell`.
+# Origin: the step of a duty that `bench.identifiability` asks for; a speed that a bench holds.
+ONE_DUTY, ONE_SPEED = 0.02, 0.1
+
 # --- doubtful samples ---------------------------------------------------------------------------
 
 # Standard deviations of the velocity noise within which the direction of motion is uncertain.
@@ -68,6 +79,24 @@ T_STRETCHES = 3.5
 # Decides: whether a gain that is clear by many stretches lies in more than one group.
 # Origin: none; p = 0.07.
 T_GROUPS = 1.5
+
+# z of the energy test over noise, t over the groups and over the records in which the two differ,
+# and the effective number of such groups at least.
+# Decides: whether a gain is beyond chance that is large in few places.
+# Origin: measured null, see `erdctl prove --nulls`.
+Z_ENERGY, T_PLACES, LEAST_PLACES = 6.0, 3.0, 1.5
+
+# Part of logs whose records are alike and seem not to be.
+# Decides: whether the records differ in a gain by more than noise makes them, so that what they
+# agree on must be shown over them.
+# Origin: p = 0.05.
+UNLIKE_RECORDS = 0.05
+
+# Sign flips of stretches, and the part of them whose largest statistic over all candidates of a
+# step may lie beyond the critical value.
+# Decides: how much more the best of many must show than a single one would have to.
+# Origin: a step in 500 goes wrong, so that with four steps a null in a hundred is named.
+FLIPS, FALSE_ALARMS = 4000, 0.002
 
 # Relative reduction of the cross-validated mean square.
 # Decides: whether a gain is worth a name.
@@ -110,6 +139,11 @@ STEPS_PART, FOLLOWED, PER_CYCLE = 0.05, 0.9, 20
 # Decides: the width of the beam.
 # Origin: budget; with a beam of one, pairs of which neither gains alone were missed.
 BEAM, BEAM_DEPTH = 3, 3
+
+# Effects in one model, at most.
+# Origin: budget; more than the data of any damper so far have asked for, so that they end the
+# search and the names do not depend on a limit.
+MOST_EFFECTS = 12
 
 # Part of the most promising effect's screened gain, and the number of effects in any case.
 # Decides: which effects are fitted together with a parent's.

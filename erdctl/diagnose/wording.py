@@ -5,7 +5,10 @@ from __future__ import annotations
 from math import isfinite
 from typing import Any
 
-from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict
+from erdctl.bench.excitation import Survey
+from erdctl.bench.identifiability import Bench
+from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict, one_condition
+from erdctl.diagnose.residual.predictability import LackOfFit
 
 
 def finding_text(finding: Finding) -> str:
@@ -36,10 +39,20 @@ def remaining_text(found: Diagnosis) -> str:
             "nothing was searched, because the recording itself is at fault:"
             f" {'; '.join(f.text for f in found.rig.blocking)}"
         )
+    if found.verdict is Verdict.CANNOT_TELL:
+        bench = Bench.of(Survey(found.problem.recording, found.problem.block.signals))
+        return (
+            "the log has one duty and one speed, at which other effects, and other values of the"
+            " paper's parameters, explain the misfit as well: what is named is one of them; to tell"
+            f" them apart, record --drive {bench.sweep}, --drive {bench.levels} and --drive"
+            f" {bench.steps}{_hum(left)}"
+        )
     if found.verdict is not Verdict.UNEXPLAINED:
         return (
             f"what remains, {found.carried.overall.rms:.3g} N rms, holds nothing that motion,"
-            " duty, time or energy would predict: measurement noise"
+            f" duty, time or energy would predict: measurement noise{_hum(left)}"
+            + "; the log has one duty and one speed, and says nothing of others"
+            * one_condition(found.problem.recording)
         )
     words = (
         f"{left.misfit_rms:.3g} N rms beyond a noise of {left.noise_rms:.3g} N can be predicted"
@@ -59,7 +72,18 @@ def remaining_text(found: Diagnosis) -> str:
     resembles = found.resemblance
     if resembles is not None:
         words += f"; it is most like {resembles.form} (correlation {resembles.correlation:+.2f})"
+    words += _hum(left)
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
+
+
+def _hum(left: LackOfFit) -> str:
+    """A line of the force channel, which is no physics, with what to do about it."""
+    if left.hum is None:
+        return ""
+    return (
+        f"; {100 * left.hum.share:.0f} % of its square is a line of {left.hum.frequency:.3g} Hz in"
+        " the force channel (hum, or its alias), which no motion makes: look at shields and earths"
+    )
 
 
 def record_values(found: Diagnosis) -> list[dict[str, Any]]:

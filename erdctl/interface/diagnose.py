@@ -15,6 +15,7 @@ from erdctl.diagnose.diagnosis import Diagnosis
 from erdctl.diagnose.diagnosis import diagnose as diagnosed
 from erdctl.diagnose.jobs import worthwhile
 from erdctl.diagnose.record_effects import Varying
+from erdctl.diagnose.thresholds import MOST_EFFECTS
 from erdctl.effects import candidates
 from erdctl.interface.arguments import ParametersLike, given_parameters
 from erdctl.interface.display import draw, frame_of, html, option, text
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-MOST_EFFECTS = 6
 TABLES = ("findings", "scores", "mismatch", "untestable")
 FINDINGS = (
     "effect", "parameter", "value", "stderr", "unit", "equivalent", "gain_unseen",
@@ -166,7 +166,7 @@ def diagnose(
     record_gains: bool = False,
     record_offsets: bool = False,
     accept: Sequence[str] = (),
-    max_effects: int = 5,
+    max_effects: int = MOST_EFFECTS,
     seed: int = 0,
     jobs: int | None = None,
     date: str | None = None,

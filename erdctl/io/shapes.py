@@ -143,7 +143,7 @@ class Unseen(TypedDict):
 
 
 class DiagnosisFile(TypedDict):
-    """A diagnosis; verdict : adequate, explained or unexplained."""
+    """A diagnosis; verdict : adequate, explained, unexplained or cannot_tell."""
 
     schema: str
     verdict: str

@@ -88,6 +88,16 @@ def draw_campaign(random: Random) -> Campaign:
     return _fill(random, rating, rate, low, high, samples / count, count)
 
 
+def draw_short(random: Random, samples: int = 8000, count: int = 6) -> Campaign:
+    """A campaign of few samples, as short as a look at noise may be, at 100 to 250 Hz."""
+    rate = float(random.choice([100.0, 200.0, 250.0]))
+    low = float(np.exp(random.uniform(np.log(0.3), np.log(0.6))))
+    high = min(rate / random.uniform(30, 60), float(random.uniform(3.0, 6.0)))
+    stroke = float(np.exp(random.uniform(np.log(0.008), np.log(0.06))))
+    rating = Rating(stroke, 2 * np.pi * float(np.sqrt(low * high)) * stroke)
+    return _fill(random, rating, rate, low, high, samples / count, count)
+
+
 def draw_other(random: Random, campaign: Campaign, *, count: int = 6) -> Campaign:
     """Records of other motions and duties on the same rig, as long as those of the campaign, or a
     fault that sets in late and slow heat would not show in them."""

@@ -42,7 +42,7 @@ class ForceNoise:
         """(n,) noise [N] over records of the given lengths, of exactly this rms."""
         parts = []
         for n in lengths:
-            part = _coloured(random, n, self.colour, self.rho)
+            part = coloured(random, n, self.colour, self.rho)
             if self.mains > 0.0:
                 angle = 2 * np.pi * self.line * np.arange(n) / rate + random.uniform(0, 2 * np.pi)
                 part = np.sqrt(1 - self.mains) * part + np.sqrt(2 * self.mains) * np.sin(angle)
@@ -65,7 +65,8 @@ def draw_force_noise(random: Random, colour: str | None = None) -> ForceNoise:
     return ForceNoise(colour or drawn, rho, fraction, mains, line)
 
 
-def _coloured(random: Random, n: int, colour: str, rho: float) -> Array:
+def coloured(random: Random, n: int, colour: str, rho: float) -> Array:
+    """(n,) noise of one record: "white", "ar1" of some rho, or "pink"; its rms is about 1."""
     white = random.standard_normal(n)
     if colour == "ar1":
         start = rho * random.standard_normal(1)  # as if it had run for long

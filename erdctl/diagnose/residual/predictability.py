@@ -10,7 +10,8 @@ a ripple of the yield force (a spectral line), and impulses.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem, t_statistic
 from erdctl.diagnose.residual.impulses import impulse_share
 from erdctl.diagnose.residual.regression import cross_predicted, features
-from erdctl.diagnose.residual.spectral_line import SpectralLine, spectral_line
+from erdctl.diagnose.residual.spectral_line import SpectralLine, spectral_lines
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +33,8 @@ class LackOfFit:
     significant : whether there is a rest;  hint : whether a further search is worth while
     spectral_line : that turns over with the motion, if the rest holds one
     impulses : the share of the rest's square that they hold, if there are any
+    hum : a line of the force channel's own, which is noise
+    measures : the statistics on which this rests, by the names of their thresholds
     """
 
     predicted: Array
@@ -42,6 +45,8 @@ class LackOfFit:
     hint: bool
     spectral_line: SpectralLine | None
     impulses: float
+    hum: SpectralLine | None = None
+    measures: Mapping[str, float] = field(default_factory=dict)
 
 
 def lack_of_fit_test(problem: Problem, residual: Array, seed: int = 0) -> LackOfFit:
@@ -57,17 +62,23 @@ def lack_of_fit_test(problem: Problem, residual: Array, seed: int = 0) -> LackOf
         (inputs, problem.stretch),
     )
     predicted = np.zeros_like(residual)
+    measures: dict[str, float] = {}
     best, hint = 0.0, _heavy_tailed(residual[weight > 0])
     for columns, group in splits:
         found = _predicted(problem, columns, group, residual, rng)
         hint = hint or found.hint
+        if found.t_stretches > measures.get("T_PREDICTED", 0.0):
+            measures |= {
+                "T_PREDICTED": found.t_stretches, "T_PREDICTED_GROUPS": found.t_groups,
+                "SHARE_PREDICTED": found.share,
+            }  # fmt: skip
         if found.significant and found.share > best:
             predicted, best = found.values, found.share
     rest = residual - predicted
     total = float(problem.weight_of.sum())
     square = float(np.dot(weight, residual**2)) / total
-    expected, noise = _variance(problem, splits[0][0], rest, rng)
-    line = spectral_line(problem, rest)
+    expected, noise = _variance(problem, splits[0][0], rest, rng, measures)
+    line, hum = spectral_lines(problem, rest)
     left = float(np.dot(weight, rest**2)) / total
     excess = predicted**2 + np.maximum(expected - noise, 0.0)
     if line is not None:
@@ -87,6 +98,8 @@ def lack_of_fit_test(problem: Problem, residual: Array, seed: int = 0) -> LackOf
         hint=hint or misfit > 0.0,
         spectral_line=line,
         impulses=impulses,
+        hum=hum,
+        measures=measures,
     )
 
 
@@ -137,12 +150,17 @@ def _predicted(
 
 
 def _variance(
-    problem: Problem, inputs: Array, rest: Array, rng: np.random.Generator
+    problem: Problem,
+    inputs: Array,
+    rest: Array,
+    rng: np.random.Generator,
+    measures: dict[str, float],
 ) -> tuple[Array, float]:
     """The mean square to be expected at each sample (n,), and that of the noise alone.
 
     A regression of the logarithm of the square tells where it is large; how large, is the mean over
     samples of which about the same is expected, that the regression has not seen.
+    measures : receives the statistics
     """
     weight, square = problem.block.weight, rest**2
     mean = float(np.dot(weight, square) / weight.sum())
@@ -165,10 +183,12 @@ def _variance(
         if min(np.count_nonzero(lower), np.count_nonzero(upper)) > thresholds.STATE_SAMPLES:
             ratios.append(float(np.log(square[upper].mean() / max(square[lower].mean(), 1e-300))))
     ratio = np.array(ratios)
-    if (
-        len(ratio) < thresholds.STATE_GROUPS
-        or t_statistic(ratio) <= thresholds.T_VARIANCE
-        or ratio.mean() < 2.0 * np.log(thresholds.VARIANCE_RATIO)
+    if len(ratio) < thresholds.STATE_GROUPS:
+        return even, mean
+    measures["T_VARIANCE"] = t_statistic(ratio)
+    measures["VARIANCE_RATIO"] = float(np.exp(ratio.mean() / 2.0))
+    if measures["T_VARIANCE"] <= thresholds.T_VARIANCE or ratio.mean() < 2.0 * np.log(
+        thresholds.VARIANCE_RATIO
     ):
         return even, mean
     return level[cell], float(level[0])

@@ -1,9 +1,10 @@
-"""A ripple of the yield force in a residual: a line in the spectrum of residual x direction.
+"""Lines in the spectrum of a residual: a ripple of the yield force, and a hum of the force channel.
 
 A yield force that swings at a frequency of its own (a supply that ripples, say) is predicted by no
 motion, and where the duty never changes it is as loud everywhere. But it turns over with the
 motion: taken with the sign of the velocity it is one line, which noise is not, and which a hum of
-the force channel is without that sign.
+the force channel is without that sign. A hum is noise and no physics, but one that the bench can
+be rid of, so it is named: a line at a frequency that the motion does not reach.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import numpy as np
 
 from erdctl.core.recording import Array
 from erdctl.diagnose import thresholds
-from erdctl.diagnose.problem import Problem
+from erdctl.diagnose.problem import Problem, motion_edge
 
 
 @dataclass(frozen=True)
@@ -26,14 +27,36 @@ class SpectralLine:
     share: float
 
 
-def spectral_line(problem: Problem, residual: Array) -> SpectralLine | None:
-    """The line that turns over with the motion in a residual (n,) [N], if there is one."""
+def spectral_lines(
+    problem: Problem, residual: Array
+) -> tuple[SpectralLine | None, SpectralLine | None]:
+    """The line that turns over with the motion in a residual (n,) [N], and that which does not.
+
+    A hum must lie beyond the frequencies of the motion in most of the records: below, a line may be
+    a harmonic of what the model misses.
+    """
     s = problem.block.signals
     turned, height = _line(problem, residual * s.sign)
-    plain, _ = _line(problem, residual)
-    if turned.share < thresholds.LINE_SHARE or height < thresholds.LINE_HEIGHT:
-        return None
-    return turned if turned.share >= thresholds.LINE_OVER_PLAIN * plain.share else None
+    plain, plain_height = _line(problem, residual)
+    if _stands_out(turned, height, plain):
+        return turned, None
+    if not _stands_out(plain, plain_height, turned):
+        return None, None
+    ends = [_end_of_motion(s.xdot[a:b]) for a, b in pairwise(s.starts.tolist())]
+    beyond = [plain.frequency * s.typical_step > end for end in ends]
+    return None, plain if sum(beyond) > len(beyond) / 2 else None
+
+
+def _stands_out(line: SpectralLine, height: float, other: SpectralLine) -> bool:
+    """Whether a line is one, with (or without) the sign of the motion rather than the other way."""
+    strong = line.share >= thresholds.LINE_SHARE and height >= thresholds.LINE_HEIGHT
+    return strong and line.share >= thresholds.LINE_OVER_PLAIN * other.share
+
+
+def _end_of_motion(xdot: Array) -> float:
+    """The frequency of one record beyond which there is no motion, in cycles per sample."""
+    edge = motion_edge(np.abs(np.fft.rfft((xdot - xdot.mean()) * np.hanning(len(xdot)))) ** 2)
+    return edge / len(xdot)
 
 
 def _line(problem: Problem, values: Array) -> tuple[SpectralLine, float]:

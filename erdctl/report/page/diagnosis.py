@@ -34,7 +34,7 @@ from erdctl.report.page.words import (
 )
 from erdctl.report.readable import headline, percent_of, with_unit
 
-MOOD = {"adequate": "good", "explained": "mid", "unexplained": "bad"}
+MOOD = {"adequate": "good", "explained": "mid", "unexplained": "bad", "cannot_tell": "mid"}
 
 
 def diagnosis_page(
@@ -133,6 +133,8 @@ def _answers(doc: Json, name: str, peak: float) -> Json:
             head = f"{start} holds: the residual is measurement noise."
         case "explained":
             head = f"{start} does not hold; {joined(named)} {many} what it misses."
+        case "cannot_tell":
+            head = f"{start} does not hold, but one duty and one speed cannot tell what it misses."
         case _ if named:
             head = (
                 f"{start} does not hold; {joined(named)} {many} part of what it misses,"

@@ -1,0 +1,91 @@
+"""What is named, and what is not: few places, a hum, one duty and one speed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trajectories
+from rig import campaign, noisy, recording
+
+from erdctl.core.recording import Recording, concatenate
+from erdctl.diagnose.diagnosis import Verdict, diagnose, one_condition
+from erdctl.diagnose.wording import remaining_text
+from erdctl.effects import get
+from erdctl.io.diagnosis import to_json
+from erdctl.model.effect import Effect
+
+NOISE = 0.3
+STEPS = (0.0, 0.1, 0.2, 0.3, 0.45)
+
+
+def few(*names: str) -> list[Effect]:
+    return [get(name) for name in names]
+
+
+def plus(r: Recording, force: np.ndarray) -> Recording:
+    assert r.force is not None
+    return replace(r, force=r.force + force)
+
+
+def sine(frequency: float, amplitude: float, duty: float | None, name: str) -> Recording:
+    t = np.arange(1200) / 200.0
+    motion = trajectories.sine(frequency, amplitude, 0.4)
+    held = np.full(len(t), duty or 0.0)
+    if duty is None:
+        held = trajectories.random_hold(np.random.default_rng(len(name)), t, STEPS)
+    return recording(t, motion.x(t), motion.velocity(t), held, name, motion.velocity_at)
+
+
+def test_a_stop_that_one_record_of_seven_reaches() -> None:
+    """1.5 times the noise in that record, 0.6 times in all: too few places for log ratios."""
+    motions = ((0.7, 12.0, 0.0), (1.9, 8.0, 0.2), (3.1, 5.0, 0.3), (0.7, 20.0, 0.0),
+               (1.3, 10.0, None), (2.5, 6.0, 0.3), (0.9, 12.0, None))  # fmt: skip
+    r = concatenate([sine(f, 1e-3 * a, d, f"r{i}") for i, (f, a, d) in enumerate(motions)])
+    touched = np.maximum(r.x - 0.017, 0.0)
+    own = touched[r.slices[3]]
+    stiffness = 1.5 * NOISE / np.sqrt(np.mean(own**2))
+    log = noisy(plus(r, stiffness * touched), seed=1, rms=NOISE)
+    names = ("end_stop", "coulomb_friction", "quadratic_damping", "gas_preload", "gas_polytropic")
+    found = diagnose(log, few(*names))
+    assert found.verdict is Verdict.EXPLAINED
+    assert [f.effect.name for f in found.findings] == ["end_stop"]
+    assert found.selection.best.values["end_stop.k_c"] == pytest.approx(stiffness, rel=0.2)
+    assert found.findings[0].gain.t_stretches < 3.5
+
+
+@pytest.mark.parametrize("line", [50.0, 60.0])
+def test_hum_is_a_line_of_the_force_channel(line: float) -> None:
+    r = noisy(campaign(), seed=3, rms=NOISE)
+    hum = 2.6 * NOISE * np.sqrt(2.0) * np.sin(2 * np.pi * line * r.t + 1.0)
+    found = diagnose(plus(r, hum), few("coulomb_friction", "preyield_viscosity"))
+    assert found.findings == ()
+    assert found.verdict is Verdict.ADEQUATE
+    assert f"a line of {line:.0f} Hz in the force channel" in remaining_text(found)
+    assert found.lack_of_fit.hum is not None
+    assert found.lack_of_fit.hum.share == pytest.approx(2.6**2 / (1 + 2.6**2), abs=0.05)
+
+
+def test_no_hum_no_word() -> None:
+    found = diagnose(noisy(campaign(), seed=8, correlation=0.9), few("coulomb_friction"))
+    assert "line of" not in remaining_text(found)
+    assert found.lack_of_fit.hum is None
+
+
+def test_one_duty_and_one_speed_cannot_tell() -> None:
+    r = concatenate([sine(0.8, 0.015, 0.0, f"r{i}") for i in range(2)])
+    log = noisy(plus(r, 1.5 * np.sign(r.xdot)), seed=2, rms=NOISE)
+    found = diagnose(log, few("coulomb_friction", "gas_preload", "preyield_viscosity"))
+    assert one_condition(log)
+    assert found.verdict is Verdict.CANNOT_TELL
+    assert to_json(found)["verdict"] == "cannot_tell"
+    assert "--drive sweep:" in remaining_text(found)
+
+
+def test_what_is_more_than_one_condition() -> None:
+    slow, fast, field = (sine(f, 0.015, d, "r") for f, d in ((0.8, 0.0), (1.6, 0.0), (0.8, 0.3)))
+    assert one_condition(concatenate([slow, slow]))
+    assert not one_condition(concatenate([slow, fast]))
+    assert not one_condition(concatenate([slow, field]))
+    assert not one_condition(sine(0.8, 0.015, None, "steps"))

@@ -1,0 +1,68 @@
+"""What does not help on data that the fit has not seen is dropped, whatever else is good."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from rig import campaign, noisy
+
+from erdctl.diagnose.backward_step import carried_over, eliminate
+from erdctl.diagnose.comparison import compare
+from erdctl.diagnose.executor import executor
+from erdctl.diagnose.forward_step import Exploration, Explored
+from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis, over_records
+from erdctl.diagnose.look_alikes import is_preferred
+from erdctl.diagnose.problem import Problem, prepare
+from erdctl.effects import get
+from erdctl.estimate.starts import fresh_start
+
+START = fresh_start(0.05, 0.4)
+
+
+@pytest.fixture(scope="module")
+def problem() -> Problem:
+    """Friction, and nothing else."""
+    r = noisy(campaign(100.0), seed=11)
+    assert r.force is not None
+    return prepare(replace(r, force=r.force + 2.0 * np.sign(r.xdot)))
+
+
+def fit(problem: Problem, *names: str) -> Hypothesis:
+    return fit_hypothesis(problem, [get(n) for n in names], [START])
+
+
+def exploration(problem: Problem, *hypotheses: Hypothesis) -> Exploration:
+    with executor((problem,), 1, lambda stage, what: None) as here:
+        return Exploration(problem, hypotheses[0], Explored(hypotheses), here)
+
+
+def test_a_useless_effect_goes_and_a_useful_one_stays(problem: Problem) -> None:
+    base, best = fit(problem), fit(problem, "coulomb_friction", "quadratic_damping")
+    left = eliminate(exploration(problem, base, best), best)
+    assert [e.name for e in left.effects] == ["coulomb_friction"]
+
+
+def test_a_harmful_effect_goes_though_another_hypothesis_is_better(problem: Problem) -> None:
+    """That other one used to keep it: without it, the rest misses that one as well."""
+    base, friction = fit(problem), fit(problem, "coulomb_friction")
+    worse = fit(problem, "gas_preload")
+    noise = np.random.default_rng(1).standard_normal(len(base.residual))
+    worse = replace(worse, cross_validated=base.cross_validated + 0.2 * noise)
+    x = exploration(problem, base, friction, worse)
+    assert compare(problem, base, worse).gain < 0.0
+    assert eliminate(x, worse).effects == ()
+
+
+def test_what_carries_over_to_other_records_stays(problem: Problem) -> None:
+    base, friction = fit(problem), fit(problem, "coulomb_friction")
+    x = exploration(problem, base, friction)
+    assert carried_over(x, friction) is friction
+    assert len(np.unique(over_records(friction).problem.group)) == len(problem.recording.names)
+
+
+def test_a_richer_form_must_earn_its_name(problem: Problem) -> None:
+    simple, rich = fit(problem, "coulomb_friction"), fit(problem, "stribeck_friction")
+    assert is_preferred(problem, simple, rich)
+    assert not is_preferred(problem, rich, simple)
