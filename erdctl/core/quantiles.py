@@ -16,7 +16,7 @@ from erdctl.core.recording import Array
 def medians(values: Array) -> Array:
     """(...,) median over the last axis of (..., n) finite values.
 
-    Check: the medians of 3, 1, 2, 9 and of 0, 0, 4, 8.
+    Check: the medians of 3, 1, 2, 9 and of 0, 0, 4, 8 are 2.5 and 2.
     >>> medians(np.array([[3.0, 1.0, 2.0, 9.0], [0.0, 0.0, 4.0, 8.0]])).tolist()
     [2.5, 2.0]
     """
