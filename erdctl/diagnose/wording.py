@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import isfinite
 from typing import Any
 
+from erdctl.diagnose import thresholds
+from erdctl.diagnose.detectable import Detectable
 from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict
 
 
@@ -37,10 +40,9 @@ def remaining_text(found: Diagnosis) -> str:
             f" {'; '.join(f.text for f in found.rig.blocking)}"
         )
     if found.verdict is not Verdict.UNEXPLAINED:
-        return (
-            f"what remains, {found.carried.overall.rms:.3g} N rms, holds nothing that motion,"
-            " duty, time or energy would predict: measurement noise"
-        )
+        rms = f"{found.carried.overall.rms:.3g} N rms"
+        rest = f"what remains, {rms}, is noise as far as these data tell"
+        return "; ".join([rest, *undetected_text(found.undetected)])
     words = (
         f"{left.misfit_rms:.3g} N rms beyond a noise of {left.noise_rms:.3g} N can be predicted"
         " from motion and duty, but by no effect in the catalogue"
@@ -60,6 +62,29 @@ def remaining_text(found: Diagnosis) -> str:
     if resembles is not None:
         words += f"; it is most like {resembles.form} (correlation {resembles.correlation:+.2f})"
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
+
+
+def undetected_text(undetected: Sequence[Detectable]) -> list[str]:
+    """What could have been missed: the largest forces that may hide, and what would not show."""
+    could = sorted((d for d in undetected if d.size is not None), key=lambda d: -(d.force or 0.0))
+    first, out = could[: thresholds.UNDETECTED_SAID], []
+    if first:
+        sizes = ", ".join(
+            f"{d.effect.name} from {d.quantity.symbol} = {_sized(d)} ({d.force:.2g} N rms)"
+            for d in first
+        )
+        many = len(could) - len(first)
+        more = f", and {many} others from less force" if many else ""
+        out.append(f"these data would have shown {sizes}{more}")
+    never = [d.effect.name for d in undetected if d.size is None]
+    if never:
+        out.append(f"of no size would they have shown {', '.join(never)}")
+    return out
+
+
+def _sized(d: Detectable) -> str:
+    unit = "" if d.quantity.unit == "1" else f" {d.quantity.unit}"
+    return f"{d.size:.2g}{unit}"
 
 
 def record_values(found: Diagnosis) -> list[dict[str, Any]]:

@@ -21,6 +21,7 @@ from erdctl.report.page.diagnosis_tables import (
     notes_of,
     paper_table,
     record_table,
+    undetected_table,
 )
 from erdctl.report.page.render import Run, digits, render
 from erdctl.report.page.words import (
@@ -82,6 +83,7 @@ def diagnosis_page(
         records=record_table(doc.get("records")),
         heldout=heldout_table(doc, peak_of(recording.force)),
         untestable=[[k, v] for k, v in doc["not_testable"].items()],
+        undetected=undetected_table(doc.get("undetected", [])),
     )
 
 
@@ -143,7 +145,10 @@ def _answers(doc: Json, name: str, peak: float) -> Json:
     if verdict == "adequate":
         holds = f"Yes. Its error is {digits(rms, 3)} N rms, the noise {digits(noise, 3)} N rms."
         where = "Nowhere: no misfit beyond the noise."
-        why = "Nothing is missing: no effect in the catalogue improves data that no fit has seen."
+        why = (
+            "Nothing that these data show: no effect in the catalogue improves data that no fit has"
+            " seen. From which size each would have shown is under What stays open."
+        )
     else:
         holds = f"No. It misses {digits(missed, 3)} N rms beyond {digits(noise, 3)} N rms of noise."
         first = doc["mismatch"][:1]

@@ -1,0 +1,292 @@
+"""What could have been missed: the size from which these data would have shown an effect.
+
+An effect of a size s changes the force by D(s), simulated with the model that the search ended
+with. What the model's own parameters absorb of it is projected out, D' = D - J (J'WJ)^-1 J'W D, and
+the rest is added to the residual as it was recorded, with its noise and whatever else is in it:
+
+    without : e + D'    with : e, beyond one parameter more    each as a fit without its group
+
+The size is the smallest for which the search's own decision takes the second for better, whichever
+sign the noise has: it is as likely to hide an effect as to show it. Exact where the force is linear
+in the size; for others the first Gauss-Newton step, like the cross-validation itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import exp, inf, isfinite, log
+
+import numpy as np
+
+from erdctl.core.errors import IncompatibleEffects
+from erdctl.core.progress import Progress, part_of
+from erdctl.core.quantity import Quantity
+from erdctl.core.recording import Array
+from erdctl.diagnose import thresholds
+from erdctl.diagnose.comparison import compare
+from erdctl.diagnose.hypothesis import Hypothesis, left_out, slopes
+from erdctl.diagnose.problem import Problem, mask_doubtful
+from erdctl.diagnose.screening import starts
+from erdctl.model.composed import Model
+from erdctl.model.effect import Effect
+
+ABSORBED = "the other parameters of the model take its place on these data"
+TAKEN = "it cannot act together with what the model already has"
+
+
+@dataclass(frozen=True)
+class Detectable:
+    """An effect that was not named, and the size from which these data would have shown it.
+
+    values : every parameter by symbol at that size, SI; None if these data could not show it
+    force : rms of the force that it would make [N];  beyond : of what no other parameter absorbs
+    reason : why these data could not show it
+    """
+
+    effect: Effect
+    values: Mapping[str, float] | None = None
+    force: float | None = None
+    beyond: float | None = None
+    reason: str | None = None
+
+    @property
+    def quantity(self) -> Quantity:
+        """The parameter that says how much of the effect there is."""
+        return amount_of(self.effect)
+
+    @property
+    def size(self) -> float | None:
+        """Its value."""
+        return None if self.values is None else self.values[self.quantity.symbol]
+
+
+def amount_of(effect: Effect) -> Quantity:
+    """The parameter that says how much of an effect there is: the first that its start turns on.
+
+    >>> from erdctl.effects import get
+    >>> amount_of(get("end_stop")).symbol, amount_of(get("cavitation")).symbol
+    ('k_c', 'x_v')
+    """
+    on = [q for q in effect.quantities if q.start != q.off]
+    return next((q for q in on if not q.linear), (on or list(effect.quantities))[0])
+
+
+def detectable(
+    problem: Problem,
+    best: Hypothesis,
+    candidates: Sequence[Effect],
+    untestable: Mapping[str, str],
+    progress: Progress = lambda stage, what: None,
+) -> tuple[Detectable, ...]:
+    """For every effect that a hypothesis lacks, the size from which the data would have shown it.
+
+    problem, best : among which was searched, and what the search ended with
+    untestable : effects that the log cannot show, each with what is missing
+    """
+    chosen = {e.name for e in best.effects}
+    left = [e for e in candidates if e.name not in chosen and e.name not in untestable]
+    injection = Injection(problem, best)
+    out = [Detectable(e, reason=untestable[e.name]) for e in candidates if e.name in untestable]
+    for number, effect in enumerate(left, start=1):
+        progress("what could have been missed", part_of(effect.name, number, len(left)))
+        out.append(injection.least(effect))
+    return tuple(sorted(out, key=lambda d: d.effect.name))
+
+
+class Injection:
+    """Adds effects to the residual of one hypothesis; what they share is computed once."""
+
+    def __init__(self, problem: Problem, best: Hypothesis) -> None:
+        self.problem, self.best = problem, best
+        signals = problem.block.signals
+        self.force = best.model.force(signals, best.values)
+        self.slopes = slopes(best)
+        self.lever = (
+            1.0 if best.record_effects is None else best.record_effects.along(signals.starts)[0]
+        )
+
+    def least(self, effect: Effect) -> Detectable:
+        """The smallest size that would have been seen: in the middle one of some shapes."""
+        try:
+            found = [self._along(effect, way) for way in _ways(effect, self.problem, self.best)]
+        except IncompatibleEffects:
+            return Detectable(effect, reason=TAKEN)
+        seen = sorted((f for f in found if f.force is not None), key=lambda f: f.force or 0.0)
+        if 2 * len(seen) < len(found):
+            return Detectable(effect, reason=ABSORBED)
+        return seen[(len(seen) - 1) // 2]
+
+    def _along(self, effect: Effect, way: Mapping[str, float]) -> Detectable:
+        """The least size along a straight way from off to some values by symbol, and beyond."""
+        low, high = _range(effect, way)
+        if _is_linear(effect):
+            at = self._at(effect, _point(effect, way, 1.0))
+            s = inf if at is None else min(at.times, high)
+        else:
+            s, at = self._sought(effect, way, low, high)
+        if at is None or not isfinite(s) or (s >= high and at.times > 1.0):
+            return Detectable(effect, reason=ABSORBED)
+        grown = s if _is_linear(effect) else at.times
+        return Detectable(effect, _point(effect, way, s), grown * at.force, grown * at.beyond)
+
+    def _sought(
+        self, effect: Effect, way: Mapping[str, float], low: float, high: float
+    ) -> tuple[float, _Added | None]:
+        """s at which the effect is just seen, by secants of the logarithms, and what it adds."""
+        s, known = min(max(1.0, low), high), list[tuple[float, float]]()
+        at: _Added | None = None
+        for _ in range(thresholds.SIZES_TRIED):
+            at = self._at(effect, _point(effect, way, s))
+            missing = log(thresholds.SIZE_STEP) if at is None else log(at.times)
+            if abs(missing) < thresholds.SIZE_CLOSE or (s <= low and missing < 0.0):
+                break
+            if s >= high and missing > 0.0:
+                break
+            known.append((log(s), missing))
+            s = min(max(exp(_following(known)), low), high)
+        return s, at
+
+    def _at(self, effect: Effect, values: Mapping[str, float]) -> _Added | None:
+        """An effect with given values; None if it changes nothing that the model does not absorb.
+
+        Raises IncompatibleEffects if the model cannot hold it.
+        """
+        best, signals = self.best, self.problem.block.signals
+        model = Model((*best.effects, effect))
+        full = {**best.values, **{effect.key(s): v for s, v in values.items()}}
+        added = (model.force(signals, full) - self.force) * self.lever
+        if not np.isfinite(added).all():
+            return None
+        part = mask_doubtful(best.problem, model, full)
+        weight = part.block.weight
+        beyond = _project(added[None], self.slopes, weight)[0]
+        size = _rms(beyond, weight)
+        if size <= thresholds.CV_SINGULAR * _rms(added, weight) or not weight.any():
+            return None
+        rest = _project(best.residual[None], beyond[None], weight)[0]
+        columns = np.vstack([self.slopes, beyond])
+        more = replace(
+            best,
+            problem=part,
+            fitted=replace(best.fitted, model=model, values=full),
+            cross_validated=left_out(part, columns, rest),
+        )
+        alone = left_out(part, self.slopes, beyond)
+
+        def seen(times: float) -> bool:
+            return all(
+                self.seen(best.cross_validated + sign * times * alone, more) for sign in (1.0, -1.0)
+            )
+
+        guess = _rms(best.cross_validated, weight) / max(_rms(alone, weight), 1e-300)
+        return _Added(_least(seen, guess), _rms(added, weight), size)
+
+    def seen(self, without: Array, more: Hypothesis) -> bool:
+        """Whether the search would take a hypothesis for better than one with such a residual."""
+        fewer = replace(self.best, cross_validated=without)
+        return compare(self.problem, fewer, more).significant
+
+
+@dataclass(frozen=True)
+class _Added:
+    """What an effect of some size adds.
+
+    times : by which its force must grow to be seen
+    force, beyond : rms [N], of all of it and of what the other parameters do not absorb
+    """
+
+    times: float
+    force: float
+    beyond: float
+
+
+def _least(seen: Callable[[float], bool], guess: float) -> float:
+    """The smallest factor that is seen, from a guess on; infinite if none is."""
+    step = log(thresholds.SIZE_STEP)
+    low = high = log(guess) - step
+    while not seen(exp(high)):
+        low, high = high, high + step
+        if high > log(guess) + thresholds.SIZE_STEPS * step:
+            return inf
+    while low == high or seen(exp(low)):
+        low, high = low - step, low
+        if low < log(guess) - thresholds.SIZE_STEPS * step:
+            return 0.0
+    while high - low > thresholds.SIZE_CLOSE / 2:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if seen(exp(middle)) else (middle, high)
+    return exp(high)
+
+
+def _following(known: Sequence[tuple[float, float]]) -> float:
+    """log s at which log times should be 0, by a straight line through the last two."""
+    at, off = known[-1]
+    slope = -1.0
+    if len(known) > 1 and known[-2][0] != at:
+        slope = min(max((off - known[-2][1]) / (at - known[-2][0]), -3.0), -0.3)
+    return at - off / slope
+
+
+def _ways(effect: Effect, problem: Problem, best: Hypothesis) -> list[dict[str, float]]:
+    """Values that an effect may have, one for each shape, spread over its starts."""
+    ways = dict[tuple[float, ...], list[dict[str, float]]]()
+    on = amount_of(effect)
+    for start in starts(effect, problem, best.residual):
+        values = {q.symbol: start.get(q.symbol, q.start) for q in effect.quantities}
+        span = values[on.symbol] - on.off
+        if span == 0.0:
+            continue
+        shape = [
+            (values[q.symbol] - q.off) / (span if q.start != q.off else 1.0)
+            for q in effect.quantities if not q.linear
+        ]  # fmt: skip
+        ways.setdefault(tuple(float(f"{v:.6g}") for v in shape), []).append(values)
+    # Of a way that several starts go along the middle one is nearest to what will be seen.
+    apart = [same[len(same) // 2] for same in ways.values()]
+    count = thresholds.SIZE_SHAPES
+    if len(apart) <= count:
+        return apart
+    return [apart[(2 * i + 1) * len(apart) // (2 * count)] for i in range(count)]
+
+
+def _point(effect: Effect, way: Mapping[str, float], s: float) -> dict[str, float]:
+    """Values by symbol a part s of the way from off, or beyond; those that are a shape stay."""
+    return {
+        q.symbol: q.off + s * (way[q.symbol] - q.off) if q.start != q.off else way[q.symbol]
+        for q in effect.quantities
+    }
+
+
+def _range(effect: Effect, way: Mapping[str, float]) -> tuple[float, float]:
+    """Least and largest s that keep all parameters within their bounds."""
+    low, high = 0.0, inf
+    for q in effect.quantities:
+        step = way[q.symbol] - q.off
+        if q.start == q.off or step == 0.0:
+            continue
+        ends = sorted(((q.low - q.off) / step, (q.high - q.off) / step))
+        low, high = max(low, ends[0]), min(high, ends[1])
+    return max(low, 1e-300), high
+
+
+def _is_linear(effect: Effect) -> bool:
+    """Whether the force grows in proportion to the effect."""
+    return all(q.linear for q in effect.quantities if q.start != q.off)
+
+
+def _project(rows: Array, basis: Array, weight: Array) -> Array:
+    """(k, n) rows without what a basis (p, n) takes of them, in weighted least squares."""
+    root = np.sqrt(weight)
+    scale = np.sqrt(np.einsum("ij,ij,j->i", basis, basis, weight))
+    use = scale > 0.0
+    if not use.any():
+        return rows
+    scaled = basis[use] / scale[use, None]
+    taken = np.linalg.lstsq((scaled * root).T, (rows * root).T, rcond=thresholds.BASIS)[0]
+    return np.asarray(rows - taken.T @ scaled)
+
+
+def _rms(values: Array, weight: Array) -> float:
+    total = float(weight.sum())
+    return float(np.sqrt(np.dot(weight, values**2) / total)) if total > 0.0 else 0.0
