@@ -117,6 +117,11 @@ class Injection:
             return Detectable(effect, reason=ABSORBED)
         return seen[(len(seen) - 1) // 2]
 
+    def beyond(self, added: Array) -> Array:
+        """(n,) what the model's own parameters do not absorb of an added force (n,) [N]."""
+        weight = self.best.problem.block.weight
+        return np.asarray(_project((added * self.lever)[None], self.slopes, weight)[0])
+
     def _along(self, effect: Effect, way: Mapping[str, float]) -> Detectable:
         """The least size along a straight way from off to some values by symbol, and beyond."""
         low, high = _range(effect, way)
