@@ -125,42 +125,66 @@ class Injection:
     def _along(self, effect: Effect, way: Mapping[str, float]) -> Detectable:
         """The least size along a straight way from off to some values by symbol, and beyond."""
         low, high = _range(effect, way)
+        # What is simulated another way as soon as it is on at all must not be seen by that alone.
+        none = self.force if low == 0.0 else self._simulated(effect, _point(effect, way, low))[1]
         if _is_linear(effect):
-            at = self._at(effect, _point(effect, way, 1.0))
+            at = self._at(effect, _point(effect, way, 1.0), none)
             s = inf if at is None else min(at.times, high)
         else:
-            s, at = self._sought(effect, way, low, high)
+            s, at = self._sought(effect, way, low, high, none)
         if at is None or not isfinite(s) or (s >= high and at.times > 1.0):
             return Detectable(effect, reason=ABSORBED)
         grown = s if _is_linear(effect) else at.times
         return Detectable(effect, _point(effect, way, s), grown * at.force, grown * at.beyond)
 
     def _sought(
-        self, effect: Effect, way: Mapping[str, float], low: float, high: float
+        self, effect: Effect, way: Mapping[str, float], low: float, high: float, none: Array
     ) -> tuple[float, _Added | None]:
         """s at which the effect is just seen, by secants of the logarithms, and what it adds."""
-        s, known = min(max(1.0, low), high), list[tuple[float, float]]()
-        at: _Added | None = None
+        s, step = min(max(1.0, low), high), log(thresholds.SIZE_STEP)
+        low *= thresholds.SIZE_STEP  # at its least value it changes nothing, by definition
+        hidden, shown = log(max(low, 1e-300)), log(high)  # sizes in between which it is just seen
+        nearest: tuple[float, float, _Added | None] = (inf, s, None)
+        last: tuple[float, float] | None = None
         for _ in range(thresholds.SIZES_TRIED):
-            at = self._at(effect, _point(effect, way, s))
-            missing = log(thresholds.SIZE_STEP) if at is None else log(at.times)
-            if abs(missing) < thresholds.SIZE_CLOSE or (s <= low and missing < 0.0):
+            at = self._at(effect, _point(effect, way, s), none)
+            missing = step
+            if at is not None and 0.0 < at.times < inf:
+                missing = log(at.times)
+                nearest = min(nearest, (abs(missing), s, at), key=lambda n: n[0])
+            elif at is not None and at.times == 0.0:
+                missing = -step
+            ends = (s <= low and missing < 0.0) or (s >= high and missing > 0.0)
+            if ends or nearest[0] < thresholds.SIZE_CLOSE:
                 break
-            if s >= high and missing > 0.0:
-                break
-            known.append((log(s), missing))
-            s = min(max(exp(_following(known)), low), high)
-        return s, at
+            here = (log(s), missing)
+            hidden, shown = (here[0], shown) if missing > 0.0 else (hidden, here[0])
+            following = _following(here, last)
+            if not hidden < following < shown:
+                apart = isfinite(hidden) and isfinite(shown)
+                following = 0.5 * (hidden + shown) if apart else min(max(following, hidden), shown)
+            s, last = exp(following), here
+        return nearest[1:]
 
-    def _at(self, effect: Effect, values: Mapping[str, float]) -> _Added | None:
-        """An effect with given values; None if it changes nothing that the model does not absorb.
+    def _simulated(
+        self, effect: Effect, values: Mapping[str, float]
+    ) -> tuple[Model, Array, dict[str, float]]:
+        """The model with an effect, its (n,) force [N] and its values.
 
         Raises IncompatibleEffects if the model cannot hold it.
         """
-        best, signals = self.best, self.problem.block.signals
-        model = Model((*best.effects, effect))
-        full = {**best.values, **{effect.key(s): v for s, v in values.items()}}
-        added = (model.force(signals, full) - self.force) * self.lever
+        model = Model((*self.best.effects, effect))
+        full = {**self.best.values, **{effect.key(s): v for s, v in values.items()}}
+        return model, model.force(self.problem.block.signals, full), full
+
+    def _at(self, effect: Effect, values: Mapping[str, float], none: Array) -> _Added | None:
+        """An effect with given values; None if it changes nothing that the model does not absorb.
+
+        none : (n,) force with nothing of it [N]
+        """
+        best = self.best
+        model, force, full = self._simulated(effect, values)
+        added = (force - none) * self.lever
         if not np.isfinite(added).all():
             return None
         part = mask_doubtful(best.problem, model, full)
@@ -224,13 +248,12 @@ def _least(seen: Callable[[float], bool], guess: float) -> float:
     return exp(high)
 
 
-def _following(known: Sequence[tuple[float, float]]) -> float:
+def _following(here: tuple[float, float], last: tuple[float, float] | None) -> float:
     """log s at which log times should be 0, by a straight line through the last two."""
-    at, off = known[-1]
     slope = -1.0
-    if len(known) > 1 and known[-2][0] != at:
-        slope = min(max((off - known[-2][1]) / (at - known[-2][0]), -3.0), -0.3)
-    return at - off / slope
+    if last is not None and last[0] != here[0]:
+        slope = min(max((here[1] - last[1]) / (here[0] - last[0]), -3.0), -0.3)
+    return here[0] - here[1] / slope
 
 
 def _ways(effect: Effect, problem: Problem, best: Hypothesis) -> list[dict[str, float]]:
@@ -247,8 +270,9 @@ def _ways(effect: Effect, problem: Problem, best: Hypothesis) -> list[dict[str, 
             for q in effect.quantities if not q.linear
         ]  # fmt: skip
         ways.setdefault(tuple(float(f"{v:.6g}") for v in shape), []).append(values)
-    # Of a way that several starts go along the middle one is nearest to what will be seen.
-    apart = [same[len(same) // 2] for same in ways.values()]
+    # Of a way that several starts go along the first has least of it: in the end forces stop
+    # growing with what makes them.
+    apart = [min(same, key=lambda v: abs(v[on.symbol] - on.off)) for same in ways.values()]
     count = thresholds.SIZE_SHAPES
     if len(apart) <= count:
         return apart
@@ -256,11 +280,18 @@ def _ways(effect: Effect, problem: Problem, best: Hypothesis) -> list[dict[str, 
 
 
 def _point(effect: Effect, way: Mapping[str, float], s: float) -> dict[str, float]:
-    """Values by symbol a part s of the way from off, or beyond; those that are a shape stay."""
-    return {
-        q.symbol: q.off + s * (way[q.symbol] - q.off) if q.start != q.off else way[q.symbol]
-        for q in effect.quantities
-    }
+    """Values by symbol a part s of the way from off, or beyond; those that are a shape stay.
+
+    A force that a nonlinear effect adds besides is what a fit solves for, and stays off.
+    """
+    linear = _is_linear(effect)
+
+    def value(q: Quantity) -> float:
+        if q.start == q.off:
+            return way[q.symbol]
+        return q.off if q.linear and not linear else q.off + s * (way[q.symbol] - q.off)
+
+    return {q.symbol: value(q) for q in effect.quantities}
 
 
 def _range(effect: Effect, way: Mapping[str, float]) -> tuple[float, float]:
@@ -272,7 +303,7 @@ def _range(effect: Effect, way: Mapping[str, float]) -> tuple[float, float]:
             continue
         ends = sorted(((q.low - q.off) / step, (q.high - q.off) / step))
         low, high = max(low, ends[0]), min(high, ends[1])
-    return max(low, 1e-300), high
+    return low, high
 
 
 def _is_linear(effect: Effect) -> bool:

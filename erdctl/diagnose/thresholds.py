@@ -273,7 +273,7 @@ DRIVE_FREQUENCIES, DRIVE_STROKES, DRIVE_SETTLES = (0.2, 0.5, 1.0, 2.0, 5.0, 10.0
 # Shapes of an effect of which the middle one is reported, and sizes that are tried along each.
 # Decides: the size from which an effect would have been seen.
 # Origin: budget.
-SIZE_SHAPES, SIZES_TRIED = 3, 6
+SIZE_SHAPES, SIZES_TRIED = 3, 7
 
 # Factor between sizes that are tried first, how many of them either way, and the logarithm to which
 # a size is sought.
@@ -283,3 +283,7 @@ SIZE_STEP, SIZE_STEPS, SIZE_CLOSE = 2.0, 12, 0.1
 # Effects that were not named of which the words say from which size they would have been seen.
 # Origin: what a reader takes in; the rest is in the document.
 UNDETECTED_SAID = 3
+
+# Samples on which it is forecast what a log would show.
+# Origin: budget.
+FORECAST_SAMPLES = 6_000

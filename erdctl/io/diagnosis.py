@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from msgspec import to_builtins
 
 from erdctl.diagnose.corrected import baseline, parameters
-from erdctl.diagnose.detectable import Detectable
 from erdctl.diagnose.diagnosis import Diagnosis, Finding
 from erdctl.diagnose.residual.localisation import Region
 from erdctl.diagnose.wording import finding_text, record_values, remaining_text
 from erdctl.io.parameters import to_document
+from erdctl.io.undetected import undetected
 from erdctl.model.parameters import Parameters
 from erdctl.score.nrmse import Validation
 
@@ -65,28 +65,6 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
         "undetected": undetected(found.undetected),
         "provenance": origin,
     }
-
-
-def undetected(found: Sequence[Detectable]) -> list[dict[str, Any]]:
-    """What was not named, and the size from which the data would have shown it."""
-    return [
-        {
-            "effect": d.effect.name,
-            "parameter": d.quantity.symbol,
-            "size": d.size,
-            "unit": d.quantity.unit,
-            "off": d.quantity.off,
-            "parameters": {
-                q.symbol: {"value": d.values[q.symbol], "unit": q.unit}
-                for q in d.effect.quantities
-            } if d.values else {},
-            "force_rms": d.force,
-            "beyond_rms": d.beyond,
-            "detectable": d.size is not None,
-            "reason": d.reason,
-        }
-        for d in found
-    ]  # fmt: skip
 
 
 def _records(found: Diagnosis) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from erdctl.io.labels import LabelsDocument
 from erdctl.io.manifest import PwmManifest
 from erdctl.io.parameters import ParameterFile
 from erdctl.io.rig import RigFaultDocument
+from erdctl.io.undetected import UndetectedDocument
 
 
 class Measured(TypedDict):
@@ -136,34 +137,6 @@ class Unseen(TypedDict):
     groups: int
     before: Scores
     after: Scores
-
-
-class Sized(TypedDict):
-    """A value without an error."""
-
-    value: float
-    unit: str
-
-
-class UndetectedDocument(TypedDict):
-    """An effect that was not named, and the size from which these data would have shown it.
-
-    parameter, size, unit : how much of it there would be; `off` is none of it
-    parameters : all at that size;  force_rms : of the force that it would make [N];  beyond_rms :
-    of what no other parameter absorbs [N];  detectable : false where no size would have been seen,
-    for the reason given
-    """
-
-    effect: str
-    parameter: str
-    size: float | None
-    unit: str
-    off: float
-    parameters: dict[str, Sized]
-    force_rms: float | None
-    beyond_rms: float | None
-    detectable: bool
-    reason: str | None
 
 
 class DiagnosisFile(TypedDict):

@@ -21,7 +21,6 @@ from erdctl.report.page.diagnosis_tables import (
     notes_of,
     paper_table,
     record_table,
-    undetected_table,
 )
 from erdctl.report.page.render import Run, digits, render
 from erdctl.report.page.words import (
@@ -34,6 +33,7 @@ from erdctl.report.page.words import (
     shown_value,
 )
 from erdctl.report.readable import headline, percent_of, with_unit
+from erdctl.report.undetected import HEADER, undetected_rows
 
 MOOD = {"adequate": "good", "explained": "mid", "unexplained": "bad"}
 
@@ -82,8 +82,9 @@ def diagnosis_page(
         notes=notes_of(doc),
         records=record_table(doc.get("records")),
         heldout=heldout_table(doc, peak_of(recording.force)),
+        undetected_header=HEADER,
         untestable=[[k, v] for k, v in doc["not_testable"].items()],
-        undetected=undetected_table(doc.get("undetected", [])),
+        undetected=undetected_rows(doc.get("undetected", [])),
     )
 
 

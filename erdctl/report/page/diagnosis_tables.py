@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from erdctl.core.recording import DIRECTIONS
-from erdctl.effects import get
 from erdctl.model.paper import QUANTITIES
 from erdctl.report.page import data
 from erdctl.report.page.data import Json
 from erdctl.report.page.render import digits
-from erdctl.report.readable import AT_BOUND, headline, largest, percent_of, scaled, with_unit
-
-FORCES = ("force_rms", "beyond_rms")
+from erdctl.report.readable import AT_BOUND, largest, percent_of, scaled, with_unit
 
 
 def paper_table(doc: Json) -> Json:
@@ -68,18 +65,6 @@ def record_table(records: Sequence[Json] | None) -> Json | None:
             for v in records
         ],
     }
-
-
-def undetected_table(undetected: Sequence[Json]) -> list[list[str]]:
-    """What was not named, the largest force that may hide first: from which size it would show."""
-    could = [d for d in undetected if d["detectable"]]
-    rows = []
-    for d in sorted(could, key=lambda d: -d["force_rms"]):
-        values = {symbol: v["value"] for symbol, v in d["parameters"].items()}
-        size = headline(get(d["effect"]), values)
-        rows.append([d["effect"], size, *(with_unit(d[k], "N", 2) for k in FORCES)])
-    never = [d for d in undetected if not d["detectable"]]
-    return rows + [[d["effect"], f"never: {d['reason']}", "–", "–"] for d in never]
 
 
 def heldout_table(doc: Json, peak: float) -> Json:
