@@ -27,7 +27,7 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import compare
 from erdctl.diagnose.hypothesis import Hypothesis, left_out, slopes
 from erdctl.diagnose.problem import Problem, mask_doubtful
-from erdctl.diagnose.screening import starts
+from erdctl.diagnose.sizes import amount_of, is_linear, point, span, ways
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 
@@ -59,17 +59,6 @@ class Detectable:
     def size(self) -> float | None:
         """Its value."""
         return None if self.values is None else self.values[self.quantity.symbol]
-
-
-def amount_of(effect: Effect) -> Quantity:
-    """The parameter that says how much of an effect there is: the first that its start turns on.
-
-    >>> from erdctl.effects import get
-    >>> amount_of(get("end_stop")).symbol, amount_of(get("cavitation")).symbol
-    ('k_c', 'x_v')
-    """
-    on = [q for q in effect.quantities if q.start != q.off]
-    return next((q for q in on if not q.linear), (on or list(effect.quantities))[0])
 
 
 def detectable(
@@ -109,11 +98,13 @@ class Injection:
     def least(self, effect: Effect) -> Detectable:
         """The smallest size that would have been seen: in the middle one of some shapes."""
         try:
-            found = [self._along(effect, way) for way in _ways(effect, self.problem, self.best)]
+            found = [
+                self._along(effect, way) for way in ways(effect, self.problem, self.best.residual)
+            ]
         except IncompatibleEffects:
             return Detectable(effect, reason=TAKEN)
         seen = sorted((f for f in found if f.force is not None), key=lambda f: f.force or 0.0)
-        if 2 * len(seen) < len(found):
+        if not seen or 2 * len(seen) < len(found):
             return Detectable(effect, reason=ABSORBED)
         return seen[(len(seen) - 1) // 2]
 
@@ -124,18 +115,18 @@ class Injection:
 
     def _along(self, effect: Effect, way: Mapping[str, float]) -> Detectable:
         """The least size along a straight way from off to some values by symbol, and beyond."""
-        low, high = _range(effect, way)
+        low, high = span(effect, way)
         # What is simulated another way as soon as it is on at all must not be seen by that alone.
-        none = self.force if low == 0.0 else self._simulated(effect, _point(effect, way, low))[1]
-        if _is_linear(effect):
-            at = self._at(effect, _point(effect, way, 1.0), none)
+        none = self.force if low == 0.0 else self._simulated(effect, point(effect, way, low))[1]
+        if is_linear(effect):
+            at = self._at(effect, point(effect, way, 1.0), none)
             s = inf if at is None else min(at.times, high)
         else:
             s, at = self._sought(effect, way, low, high, none)
         if at is None or not isfinite(s) or (s >= high and at.times > 1.0):
             return Detectable(effect, reason=ABSORBED)
-        grown = s if _is_linear(effect) else at.times
-        return Detectable(effect, _point(effect, way, s), grown * at.force, grown * at.beyond)
+        grown = s if is_linear(effect) else at.times
+        return Detectable(effect, point(effect, way, s), grown * at.force, grown * at.beyond)
 
     def _sought(
         self, effect: Effect, way: Mapping[str, float], low: float, high: float, none: Array
@@ -147,7 +138,7 @@ class Injection:
         nearest: tuple[float, float, _Added | None] = (inf, s, None)
         last: tuple[float, float] | None = None
         for _ in range(thresholds.SIZES_TRIED):
-            at = self._at(effect, _point(effect, way, s), none)
+            at = self._at(effect, point(effect, way, s), none)
             missing = step
             if at is not None and 0.0 < at.times < inf:
                 missing = log(at.times)
@@ -254,61 +245,6 @@ def _following(here: tuple[float, float], last: tuple[float, float] | None) -> f
     if last is not None and last[0] != here[0]:
         slope = min(max((here[1] - last[1]) / (here[0] - last[0]), -3.0), -0.3)
     return here[0] - here[1] / slope
-
-
-def _ways(effect: Effect, problem: Problem, best: Hypothesis) -> list[dict[str, float]]:
-    """Values that an effect may have, one for each shape, spread over its starts."""
-    ways = dict[tuple[float, ...], list[dict[str, float]]]()
-    on = amount_of(effect)
-    for start in starts(effect, problem, best.residual):
-        values = {q.symbol: start.get(q.symbol, q.start) for q in effect.quantities}
-        span = values[on.symbol] - on.off
-        if span == 0.0:
-            continue
-        shape = [
-            (values[q.symbol] - q.off) / (span if q.start != q.off else 1.0)
-            for q in effect.quantities if not q.linear
-        ]  # fmt: skip
-        ways.setdefault(tuple(float(f"{v:.6g}") for v in shape), []).append(values)
-    # Of a way that several starts go along the first has least of it: in the end forces stop
-    # growing with what makes them.
-    apart = [min(same, key=lambda v: abs(v[on.symbol] - on.off)) for same in ways.values()]
-    count = thresholds.SIZE_SHAPES
-    if len(apart) <= count:
-        return apart
-    return [apart[(2 * i + 1) * len(apart) // (2 * count)] for i in range(count)]
-
-
-def _point(effect: Effect, way: Mapping[str, float], s: float) -> dict[str, float]:
-    """Values by symbol a part s of the way from off, or beyond; those that are a shape stay.
-
-    A force that a nonlinear effect adds besides is what a fit solves for, and stays off.
-    """
-    linear = _is_linear(effect)
-
-    def value(q: Quantity) -> float:
-        if q.start == q.off:
-            return way[q.symbol]
-        return q.off if q.linear and not linear else q.off + s * (way[q.symbol] - q.off)
-
-    return {q.symbol: value(q) for q in effect.quantities}
-
-
-def _range(effect: Effect, way: Mapping[str, float]) -> tuple[float, float]:
-    """Least and largest s that keep all parameters within their bounds."""
-    low, high = 0.0, inf
-    for q in effect.quantities:
-        step = way[q.symbol] - q.off
-        if q.start == q.off or step == 0.0:
-            continue
-        ends = sorted(((q.low - q.off) / step, (q.high - q.off) / step))
-        low, high = max(low, ends[0]), min(high, ends[1])
-    return low, high
-
-
-def _is_linear(effect: Effect) -> bool:
-    """Whether the force grows in proportion to the effect."""
-    return all(q.linear for q in effect.quantities if q.start != q.off)
 
 
 def _project(rows: Array, basis: Array, weight: Array) -> Array:
