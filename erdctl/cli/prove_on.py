@@ -31,7 +31,7 @@ def prove_on(
     from erdctl.core.messages import shown, tell
     from erdctl.core.workers import cores
     from erdctl.io import documents
-    from erdctl.prove.on_log import hideable, subject
+    from erdctl.prove.on_log import hideable, host
     from erdctl.prove.on_log_document import line, tables, to_json
     from erdctl.prove.on_log_run import trials
     from erdctl.report.layout import wrapped
@@ -40,7 +40,7 @@ def prove_on(
     wanted, names = _sizes(sizes), hideable(effects)
     recording = read_logs([log], maps=maps, need_force=True, want_hash=True, report=say).recording
     with progress() as step:
-        found = subject(recording, thin, seed, jobs or cores(), step)
+        found = host(recording, thin, seed, jobs or cores(), step)
         anyway = ", ".join(found.anyway) or "nothing"
         say(f"{found.found.verdict.value}; named: {anyway}", "the log as it is")
         say(

@@ -88,7 +88,7 @@ class Host:
         return (*(f.effect.name for f in self.found.findings), *self.again)
 
 
-def subject(recording: Recording, every: int, seed: int, jobs: int, progress: Progress) -> Host:
+def host(recording: Recording, every: int, seed: int, jobs: int, progress: Progress) -> Host:
     """A recording diagnosed as it is, and once more beyond what that names."""
     if recording.force is None:
         raise UsageProblem("prove --on needs a log with a measured force")
@@ -115,32 +115,32 @@ def hideable(chosen: Sequence[str] | None) -> list[str]:
 
 
 class Hiding:
-    """Hides effects in a subject."""
+    """Hides effects in a host."""
 
-    def __init__(self, subject: Host) -> None:
-        self.subject = subject
-        r, base = subject.recording, subject.found.selection.base
+    def __init__(self, host: Host) -> None:
+        self.host = host
+        r, base = host.recording, host.found.selection.base
         records = [
             Logged(name, r.t[part], r.x[part], r.xdot[part], r.duty[part])
             for name, part in zip(r.names, r.slices, strict=True)
         ]
         sides = [{q: base.values[f"{d}.{q}"] for q in QUANTITIES} for d in DIRECTIONS]
         self.stage: OnLog = stage(records, sides)
-        best = subject.found.selection.best
-        self.injection = Injection(subject.found.problem, best)
+        best = host.found.selection.best
+        self.injection = Injection(host.found.problem, best)
         self.rest = best.residual
 
     def trials(self, name: str, sizes: Sequence[float]) -> list[Trial]:
         """An effect hidden in each of some sizes."""
         twin = every()[name]
         same = {name, *right_names(name, twin.equivalents)}
-        there = sorted(same.intersection(self.subject.anyway))
+        there = sorted(same.intersection(self.host.anyway))
         if there:
             return [Trial(name, s, skipped=f"{there[0]} is in the log already") for s in sizes]
-        lacking = [self.subject.found.untestable.get(n) for n in same]
+        lacking = [self.host.found.untestable.get(n) for n in same]
         if all(lacking):
             return [Trial(name, s, skipped=f"cannot be tested: {lacking[0]}") for s in sizes]
-        shape = twin.drawn(np.random.default_rng([self.subject.seed, crc32(name.encode())]))
+        shape = twin.drawn(np.random.default_rng([self.host.seed, crc32(name.encode())]))
         out, at = [], log(twin.start)
         for size in sizes:
             trial, at, added = self._sought(twin, shape, size, at)
@@ -151,8 +151,8 @@ class Hiding:
 
     def null(self, number: int) -> Trial:
         """The recording with what was left of it turned over at random, group by group."""
-        problem = self.subject.found.problem
-        random = np.random.default_rng([self.subject.seed, number])
+        problem = self.host.found.problem
+        random = np.random.default_rng([self.host.seed, number])
         sign = random.choice([-1.0, 1.0], problem.count)[problem.group]
         r = problem.recording
         assert r.force is not None
@@ -187,11 +187,11 @@ class Hiding:
     ) -> tuple[Trial, Array]:
         """What an effect of a strength is on this log, and the force that it adds."""
         added = self.stage.added(twin, s, shape)
-        r = self.subject.recording
-        here = _thinned(replace(r, force=added), self.subject.every).force
+        r = self.host.recording
+        here = _thinned(replace(r, force=added), self.host.every).force
         assert here is not None
         beyond = self.injection.beyond(here)
-        weight = self.subject.found.problem.block.weight
+        weight = self.host.found.problem.block.weight
         energy = float(np.dot(weight, beyond**2))
         local = float(np.sqrt(np.dot(weight, (beyond * self.rest) ** 2) / max(energy, 1e-300)))
         rms = float(np.sqrt(energy / weight.sum()))
@@ -209,18 +209,18 @@ class Hiding:
         return trial, added
 
     def _recorded(self, added: Array) -> Recording:
-        r = self.subject.recording
+        r = self.host.recording
         assert r.force is not None
-        return _thinned(replace(r, force=r.force + added), self.subject.every)
+        return _thinned(replace(r, force=r.force + added), self.host.every)
 
     def _judged(self, trial: Trial, recording: Recording, twin: Twin | None) -> Trial:
         """A trial with what the diagnosis says beyond what is there anyway."""
-        most = min(1 + len(self.subject.again), MOST)
+        most = min(1 + len(self.host.again), MOST)
         try:
-            found = diagnose(recording, catalogue(), given=self.subject.given, most=most)
+            found = diagnose(recording, catalogue(), given=self.host.given, most=most)
         except ErdctlError as problem:
             return replace(trial, skipped=f"cannot be diagnosed: {problem}")
-        new = [f for f in found.findings if f.effect.name not in self.subject.again]
+        new = [f for f in found.findings if f.effect.name not in self.host.again]
         said = tuple("/".join([f.effect.name, *f.equivalent]) for f in new)
         named = None
         if twin is not None:

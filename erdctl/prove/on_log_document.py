@@ -103,21 +103,21 @@ def json_schema() -> dict[str, Any]:
     return msgspec.json.schema(ProofOnFile)
 
 
-def to_json(subject: Host, trials: Sequence[Trial]) -> ProofOnFile:
+def to_json(host: Host, trials: Sequence[Trial]) -> ProofOnFile:
     """The document; what follows from the trials is in it too."""
     hidden = [t for t in trials if t.effect is not None]
     nulls = [t for t in trials if t.effect is None and t.skipped is None]
     return {
         "schema": SCHEMA,
         "erdctl": __version__,
-        "logs": [{"name": s.name, "sha256": s.sha256} for s in subject.recording.sources],
-        "thin": subject.every,
-        "seed": subject.seed,
-        "verdict": subject.found.verdict.value,
-        "noise_rms": subject.found.noise_rms,
-        "rest_rms": subject.found.carried.overall.rms,
-        "named": [f.effect.name for f in subject.found.findings],
-        "again": list(subject.again),
+        "logs": [{"name": s.name, "sha256": s.sha256} for s in host.recording.sources],
+        "thin": host.every,
+        "seed": host.seed,
+        "verdict": host.found.verdict.value,
+        "noise_rms": host.found.noise_rms,
+        "rest_rms": host.found.carried.overall.rms,
+        "named": [f.effect.name for f in host.found.findings],
+        "again": list(host.again),
         "trials": [_trial(t) for t in hidden],
         "nulls": [{"said": list(t.said), "verdict": t.verdict} for t in nulls],
         "summary": {

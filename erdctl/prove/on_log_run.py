@@ -17,7 +17,7 @@ from erdctl.prove.on_log import Hiding, Host, Trial
 
 
 def trials(
-    subject: Host,
+    host: Host,
     names: Sequence[str],
     sizes: Sequence[float],
     nulls: int,
@@ -31,7 +31,7 @@ def trials(
     folder : where outcomes are kept; those of the same recording and wishes are not done again
     on_trials : called with the outcomes of each effect as they come
     """
-    mark = _mark(subject, sizes)
+    mark = _mark(host, sizes)
     keys = [*names, *(f"null-{i}" for i in range(nulls))]
     places = {key: folder / f"{key}-{mark}.json" for key in keys}
     done = {k: _read(p) for k, p in places.items() if p.exists()}
@@ -39,7 +39,7 @@ def trials(
         on_trials(kept)
     waiting = [key for key in keys if key not in done]
     if waiting:
-        workers = pool(min(jobs, len(waiting)), _begin, subject)
+        workers = pool(min(jobs, len(waiting)), _begin, host)
         try:
             futures: dict[Future[list[Trial]], str] = {
                 workers.submit(_trials, key, tuple(sizes)): key for key in waiting
@@ -58,11 +58,11 @@ def trials(
     return [trial for key in keys for trial in done[key]]
 
 
-def _mark(subject: Host, sizes: Sequence[float]) -> str:
+def _mark(host: Host, sizes: Sequence[float]) -> str:
     """What an outcome depends on, in a few characters."""
     of = [
-        __version__, *(s.sha256 for s in subject.recording.sources), subject.every, subject.seed,
-        *sizes, *subject.anyway,
+        __version__, *(s.sha256 for s in host.recording.sources), host.every, host.seed,
+        *sizes, *host.anyway,
     ]  # fmt: skip
     return hashlib.sha256(repr(of).encode()).hexdigest()[:12]
 
@@ -74,11 +74,11 @@ def _read(path: Path) -> list[Trial]:
 _hiding: Hiding | None = None  # of this process, a worker
 
 
-def _begin(subject: Host) -> None:
+def _begin(host: Host) -> None:
     global _hiding
     import erdctl.model.recurrences  # noqa: F401  # see `diagnose.executor`
 
-    _hiding = Hiding(subject)
+    _hiding = Hiding(host)
 
 
 def _trials(key: str, sizes: Sequence[float]) -> list[Trial]:

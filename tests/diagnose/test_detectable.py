@@ -24,7 +24,7 @@ FEW = ("coulomb_friction", "backlash", "input_delay", "mount_compliance")
 
 @pytest.fixture(scope="module")
 def healthy() -> Diagnosis:
-    return diagnose(noisy(campaign(), seed=31), [get(n) for n in FEW], jobs=1)
+    return diagnose(noisy(campaign(100.0, 8.0), seed=31), [get(n) for n in FEW], jobs=1)
 
 
 def of(found: Diagnosis, name: str) -> Detectable:
@@ -69,7 +69,7 @@ def test_every_effect_that_was_not_named_is_told(healthy: Diagnosis) -> None:
 
 def test_more_noise_hides_more() -> None:
     quiet, loud = (
-        diagnose(noisy(campaign(), seed=5, rms=rms), [get("coulomb_friction")])
+        diagnose(noisy(campaign(100.0, 8.0), seed=5, rms=rms), [get("coulomb_friction")])
         for rms in (0.1, 1.0)
     )
     sizes = [of(d, "coulomb_friction").size for d in (quiet, loud)]
@@ -80,7 +80,7 @@ def test_more_noise_hides_more() -> None:
 
 def test_what_the_model_takes_up_is_never_shown() -> None:
     """At one duty level and no steps the yield force takes up all friction."""
-    r = campaign().select([1])
+    r = campaign(100.0, 8.0).select([1])
     found = diagnose(noisy(r, seed=8), [get("coulomb_friction"), get("input_delay")])
     friction, delay = of(found, "coulomb_friction"), of(found, "input_delay")
     assert friction.size is None
@@ -93,11 +93,13 @@ def test_what_the_model_takes_up_is_never_shown() -> None:
 
 
 def test_two_springs_cannot_act_together() -> None:
-    r = noisy(campaign(), seed=3)
+    r = noisy(campaign(100.0, 8.0), seed=3)
     block = prepare(r).block
     stiff = get("mount_compliance")
     soft = Model((stiff,)).force(block.signals, {**TRUTH, stiff.key("s_m"): 2e-4})
-    found = diagnose(replace(r, force=soft + (r.force - campaign().force)), [stiff], most=1)
+    found = diagnose(
+        replace(r, force=soft + (r.force - campaign(100.0, 8.0).force)), [stiff], most=1
+    )
     assert [f.effect.name for f in found.findings] == [stiff.name]
     injection = Injection(found.problem, found.selection.best)
     assert injection.least(get("fluid_compressibility")).reason == TAKEN
@@ -110,7 +112,7 @@ def test_an_effect_at_its_least_is_not_seen_by_the_way_it_is_simulated(healthy: 
 
 
 def test_forecast_of_a_drive_without_force() -> None:
-    drive = replace(campaign(), force=None)
+    drive = replace(campaign(100.0, 8.0), force=None)
     with pytest.raises(UsageProblem, match="--params FILE and --noise N"):
         forecast(drive, catalogue())
     damper = Parameters(
@@ -119,7 +121,7 @@ def test_forecast_of_a_drive_without_force() -> None:
     )
     few = [get(n) for n in FEW]
     ahead = forecast(drive, few, parameters=damper, noise=0.3)
-    after = diagnose(noisy(campaign(), seed=31), few)
+    after = diagnose(noisy(campaign(100.0, 8.0), seed=31), few)
     for d in ahead.effects:
         measured = of(after, d.effect.name).size
         assert d.size is not None
