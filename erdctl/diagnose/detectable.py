@@ -6,9 +6,11 @@ the rest is added to the residual as it was recorded, with its noise and whateve
 
     without : e + D'    with : e, beyond one parameter more    each as a fit without its group
 
-The size is the smallest for which the search's own decision takes the second for better, whichever
-sign the noise has: it is as likely to hide an effect as to show it. Exact where the force is linear
-in the size; for others the first Gauss-Newton step, like the cross-validation itself.
+The search's own decision takes the second for better from some size on, whichever sign the noise
+has: it is as likely to hide an effect as to show it. What is told is half as much again, so that
+other noise of the same kind would not hide it. Exact where the force is linear in the size; for
+others the first Gauss-Newton step, like the cross-validation itself. Of what acts within one
+sample, as at reversals, no more can be promised than the model's own steps resolve.
 """
 
 from __future__ import annotations
@@ -200,7 +202,8 @@ class Injection:
             )
 
         guess = _rms(best.cross_validated, weight) / max(_rms(alone, weight), 1e-300)
-        return _Added(_least(seen, guess), _rms(added, weight), size)
+        times = thresholds.SIZE_SURE * _least(seen, guess)
+        return _Added(times, _rms(added, weight), size)
 
     def seen(self, without: Array, more: Hypothesis) -> bool:
         """Whether the search would take a hypothesis for better than one with such a residual."""
@@ -212,7 +215,7 @@ class Injection:
 class _Added:
     """What an effect of some size adds.
 
-    times : by which its force must grow to be seen
+    times : by which its force must grow to be seen for sure
     force, beyond : rms [N], of all of it and of what the other parameters do not absorb
     """
 

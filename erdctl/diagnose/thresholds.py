@@ -280,6 +280,12 @@ SIZE_SHAPES, SIZES_TRIED = 3, 7
 # Origin: budget; sizes are sought to a tenth, less than the scatter of what noise hides.
 SIZE_STEP, SIZE_STEPS, SIZE_CLOSE = 2.0, 12, 0.1
 
+# Factor on the size that is just seen.
+# Decides: the size that is told.
+# Origin: (3.5 + 1.645) / 3.5: a normal t statistic that is expected so much above 3.5 is below it
+# once in twenty.
+SIZE_SURE = 1.5
+
 # Effects that were not named of which the words say from which size they would have been seen.
 # Origin: what a reader takes in; the rest is in the document.
 UNDETECTED_SAID = 3
