@@ -46,10 +46,10 @@ def with_effect(found: Diagnosis, name: str, times: float) -> Recording:
 
 
 @pytest.mark.parametrize("name", FEW)
-def test_that_size_is_named_and_a_quarter_is_not(healthy: Diagnosis, name: str) -> None:
+def test_that_size_is_named_and_a_tenth_is_not(healthy: Diagnosis, name: str) -> None:
     named = diagnose(with_effect(healthy, name, 1.0), [get(name)], most=1)
     assert [f.effect.name for f in named.findings] == [name]
-    assert diagnose(with_effect(healthy, name, 0.25), [get(name)], most=1).findings == ()
+    assert diagnose(with_effect(healthy, name, 0.1), [get(name)], most=1).findings == ()
 
 
 def test_every_effect_that_was_not_named_is_told(healthy: Diagnosis) -> None:
