@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 
     from erdctl.bench.identifiability import Cover
     from erdctl.bench.inspection import Inspection
+    from erdctl.core.progress import Progress
+    from erdctl.core.recording import Recording
+    from erdctl.diagnose.forecast import Forecast
     from erdctl.io.inspection import InspectionFile
 
 LISTED = 40  # records in a table; the JSON has all
@@ -26,6 +29,26 @@ def command(
     text: Text = [],
     where: Where = [],
     strict: Strict = False,
+    forecast: Annotated[
+        bool,
+        typer.Option(
+            "--forecast",
+            help="Say from which size each effect would show in a diagnosis; takes seconds.",
+        ),
+    ] = False,
+    params: Annotated[
+        str | None,
+        typer.Option(
+            metavar="PARAMS",
+            help="With --forecast: the damper, in place of a fit; needed without a force.",
+        ),
+    ] = None,
+    noise: Annotated[
+        float | None,
+        typer.Option(
+            metavar="N", min=0.0, help="With --forecast: force noise [N rms], in place of a guess."
+        ),
+    ] = None,
     date: Date = None,
     damper: Damper = None,
     operator: Operator = None,
@@ -41,6 +64,10 @@ def command(
     clipped or frozen channels, spikes, bursts of noise, lost samples, records unlike the others in
     gain, zero, lag or noise, and a velocity channel that does not follow x.
 
+    --forecast says of every effect from which size this motion and control would show it, for the
+    paper's model and the noise of the force: also of a drive that is only planned, which has no
+    force, with --params and --noise.
+
     A LOG has the columns t [s], x [m], xdot [m/s], duty (0 to 1) and force [N], x and xdot positive
     in compression; record and temperature [degC] are optional. --map takes other names and units.
 
@@ -48,12 +75,14 @@ def command(
     Examples:
       erdctl inspect bench.csv
       erdctl inspect bench.parquet --json
+      erdctl inspect bench.parquet --forecast
       erdctl inspect lab.csv --map "t=Time[ms]" --map "x=Defl FL[mm]" --map "force=F_fl[N]" \\
         --map "duty=PWM[%]"
     """
     from erdctl.bench.inspection import inspect
     from erdctl.cli.reading import labelled, read_logs
     from erdctl.cli.rig import fail, show
+    from erdctl.core.errors import UsageProblem
     from erdctl.core.labels import labels_of
     from erdctl.core.progress import part_of
     from erdctl.effects import catalogue
@@ -61,6 +90,8 @@ def command(
     from erdctl.io.inspection import to_json
     from erdctl.report.text import progress, say
 
+    if not forecast and (params is not None or noise is not None):
+        raise UsageProblem("--params and --noise go with --forecast")
     labels = labels_of(date, damper, operator)
     log = read_logs(
         logs,
@@ -76,14 +107,37 @@ def command(
     with progress() as step:
         step("inspecting", part_of(f"{len(log.recording)} samples", 1, 1))
         found = inspect(log.recording, catalogue())
-    document = to_json(found, log)
+        ahead = _forecast(log.recording, params, noise, step) if forecast else None
+    document = to_json(found, log, ahead)
     show(found.rig)
     if as_json:
         documents.write(document, "-")
     else:
         _show(found, document)
+        _show_forecast(document)
     if strict:
         fail(found.rig)
+
+
+def _forecast(
+    recording: Recording, params: str | None, noise: float | None, step: Progress
+) -> Forecast:
+    from erdctl.diagnose.forecast import forecast
+    from erdctl.effects import catalogue
+    from erdctl.io.parameters import read_parameters
+
+    given = None if params is None else read_parameters(params)
+    return forecast(recording, catalogue(), parameters=given, noise=noise, progress=step)
+
+
+def _show_forecast(document: InspectionFile) -> None:
+    from erdctl.report.text import table
+    from erdctl.report.undetected import HEADER, undetected_rows
+
+    if "forecast" in document:
+        ahead = document["forecast"]
+        title = f"What a diagnosis would show, at a white noise of {ahead['noise_rms']:.2g} N rms"
+        table(title, HEADER, undetected_rows(ahead["effects"]))
 
 
 def _show(found: Inspection, document: InspectionFile) -> None:

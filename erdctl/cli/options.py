@@ -20,7 +20,7 @@ def schema_names(incomplete: str) -> list[str]:
     """Completes names of documents."""
     from erdctl.io.shapes import SCHEMAS
 
-    return [name for name in (*SCHEMAS, "proof") if name.startswith(incomplete)]
+    return [name for name in (*SCHEMAS, "proof", "proof-on") if name.startswith(incomplete)]
 
 
 def picture_kinds(incomplete: str) -> list[str]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from erdctl.cli.options import effect_names
+from erdctl.cli.options import Maps, effect_names
 from erdctl.cli.pages import Report, check_report
 
 if TYPE_CHECKING:
@@ -58,9 +58,10 @@ def command(
     nulls: Annotated[
         int | None,
         typer.Option(
-            min=1,
+            min=0,
             metavar="N",
-            help="Instead: N short logs with nothing hidden, of many kinds of noise.",
+            help="Instead: N short logs with nothing hidden, of many kinds of noise; with --on: so"
+            " many diagnoses of LOG with nothing hidden, 10 if not given.",
         ),
     ] = None,
     keep: Annotated[
@@ -76,6 +77,18 @@ def command(
         typer.Option("--output", "-o", metavar="FILE", help="Results as JSON to a file."),
     ] = None,
     report: Report = None,
+    on: Annotated[
+        str | None,
+        typer.Option(metavar="LOG", help="Hide effects in this recording of your own instead."),
+    ] = None,
+    sizes: Annotated[
+        str,
+        typer.Option(metavar="X,...", help="With --on: sizes over the noise where it acts."),
+    ] = "1,2,4",
+    thin: Annotated[
+        int, typer.Option(min=1, metavar="N", help="With --on: diagnose every Nth sample only.")
+    ] = 1,
+    maps: Maps = [],
 ) -> None:
     """Hide effects in an independent plant, diagnose its log, then open the key and score.
 
@@ -90,6 +103,13 @@ def command(
     --nulls counts false alarms by the kind of noise, and prints how far noise alone moves each
     statistic that decides, beside its threshold.
 
+    --on LOG hides effects in your own recording, under its own noise and misfit: to the measured
+    force is added what the simulator says an effect would add on the motion and duty of the log.
+    A size is the rms of what the model of the log's own diagnosis cannot absorb of that, over what
+    that diagnosis left where the effect acts. The table says from which size each effect is named
+    beyond what is named anyway, and what is named when nothing was hidden. With --keep DIR a run
+    that was ended is taken up where it stood.
+
     \b
     Examples:
       erdctl prove
@@ -98,19 +118,34 @@ def command(
       erdctl prove --kind null --colour pink --cases 40
       erdctl prove --seed 5017 --cases 1 --keep case
       erdctl prove --nulls 90 --seed 9000
+      erdctl prove --on bench.parquet --thin 4 -o hidden.json
+      erdctl prove --on bench.parquet --effects backlash,coulomb_friction --sizes 1,2 --nulls 0
     """
     from erdctl.core.errors import PartlyDone, UsageProblem
     from erdctl.io import documents
     from erdctl.prove.case import Wish, check
     from erdctl.prove.document import to_json
 
-    if nulls is not None:
+    if nulls is not None and on is None:
         asked = (only, level, kind, concealment, motion, colour, keep, output, report)
-        if any(asked) or as_json:
-            raise UsageProblem("--nulls takes --seed and --jobs alone: it prints two tables")
+        if any(asked) or as_json or not nulls:
+            raise UsageProblem("--nulls N takes --seed and --jobs alone: it prints two tables")
         _nulls(range(seed, seed + nulls), jobs)
         return
     names = tuple(n.strip() for option in only for n in option.split(",") if n.strip())
+    if on is not None:
+        from erdctl.cli.prove_on import prove_on, refuse
+
+        refuse(level=level, kind=kind, concealment=concealment, motion=motion, colour=colour,
+               report=report)  # fmt: skip
+        if output is not None:
+            _must_exist(output)
+        with _folder(keep, again=True) as folder:
+            prove_on(
+                on, maps, effects=names or None, sizes=sizes, nulls=10 if nulls is None else nulls,
+                thin=thin, seed=seed, jobs=jobs, folder=folder, as_json=as_json, output=output,
+            )  # fmt: skip
+        return
     wish = Wish(
         effects=names or None, level=level, kind=kind, concealment=concealment, motion=motion,
         colour=colour,
@@ -200,8 +235,11 @@ def _show(proof: Proof) -> None:
         table(title, header, rows)
 
 
-def _folder(keep: str | None) -> AbstractContextManager[Path]:
-    """Where the cases lie: a directory of the user's, or one that goes when the block ends."""
+def _folder(keep: str | None, *, again: bool = False) -> AbstractContextManager[Path]:
+    """Where the cases lie: a directory of the user's, or one that goes when the block ends.
+
+    again : whether what is there already may be taken up
+    """
     from contextlib import contextmanager
     from pathlib import Path
     from tempfile import TemporaryDirectory
@@ -223,7 +261,7 @@ def _folder(keep: str | None) -> AbstractContextManager[Path]:
             full = any(path.iterdir())
         except OSError as error:
             raise UsageProblem(f"--keep {keep}: {error.strerror or error}") from None
-        if full:
+        if full and not again:
             raise UsageProblem(f"--keep {keep}: the directory is not empty; name a new one")
         yield path
 

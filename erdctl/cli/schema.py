@@ -15,14 +15,15 @@ def command(
         typer.Argument(
             metavar="NAME",
             autocompletion=schema_names,
-            help="parameters, geometry, inspection, validation, diagnosis, pwm or proof.",
+            help="parameters, geometry, inspection, validation, diagnosis, pwm, proof or proof-on.",
         ),
     ],
 ) -> None:
     """Print the JSON Schema of a document that erdctl reads or writes.
 
     parameters and geometry files; inspection (inspect --json), validation (validate --json),
-    diagnosis (diagnose), pwm (the manifest that mimic writes) and proof (prove).
+    diagnosis (diagnose), pwm (the manifest that mimic writes), proof (prove) and proof-on
+    (prove --on).
 
     \b
     Examples:
@@ -32,9 +33,11 @@ def command(
     from erdctl.core.errors import UsageProblem
     from erdctl.io import documents
     from erdctl.io.shapes import SCHEMAS
-    from erdctl.prove import document
+    from erdctl.prove import document, on_log_document
 
-    schemas = {**SCHEMAS, "proof": document.json_schema}
+    schemas = {
+        **SCHEMAS, "proof": document.json_schema, "proof-on": on_log_document.json_schema,
+    }  # fmt: skip
     if name not in schemas:
         raise UsageProblem(f"there are schemas of {', '.join(schemas)}, not of '{name}'")
     documents.write(schemas[name](), "-")

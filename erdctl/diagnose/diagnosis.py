@@ -17,9 +17,11 @@ from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Array, Recording
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import Comparison, compare
+from erdctl.diagnose.detectable import Detectable, detectable
 from erdctl.diagnose.discriminating_drive import DiscriminatingDrive, discriminating_drive
 from erdctl.diagnose.executor import executor
-from erdctl.diagnose.hypothesis import Hypothesis
+from erdctl.diagnose.forward_step import key_of
+from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem, prepare, with_given
 from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying, errors
 from erdctl.diagnose.residual.localisation import Region, locate, record_region, since_onset
@@ -77,6 +79,7 @@ class Diagnosis:
         are the same where none is carried
     cross_validated : scores of the model to answer for and of the best, each sample by a fit
         without its group, beyond the record effects
+    undetected : what was not named, and the size from which these data would have shown it
     rig : what is wrong with the recording; if all of it is, nothing was searched
     """
 
@@ -97,6 +100,7 @@ class Diagnosis:
     lack_of_fit: LackOfFit
     resemblance: Resemblance | None
     untestable: dict[str, str]
+    undetected: tuple[Detectable, ...]
     rig: Rig
 
 
@@ -136,8 +140,8 @@ def diagnose(
     testable = [e for e in candidates if e.name not in missing]
     thin = thinned(problem, thresholds.SEARCH_SAMPLES)
     with executor((thin, problem), jobs, progress) as workers:
-        selection = search(thin, testable, most, workers, seed, given)
-        selection = refit(problem, selection, workers)
+        searched = search(thin, testable, most, workers, seed, given)
+        selection = refit(problem, searched, workers)
     best = selection.best
     progress("lack of fit", part_of("regression of the residual", 1, 1))
     lack_of_fit = lack_of_fit_test(best.problem, best.residual, seed)
@@ -162,6 +166,7 @@ def diagnose(
         mismatch += [alone] if alone else []
     refitted = _validate(problem, selection.base)
     fit, record_effects = _errors(problem, best)
+    undetected = _undetected(thin, searched.best, selection.best, candidates, missing, progress)
     return Diagnosis(
         verdict=verdict,
         noise_rms=noise,
@@ -183,6 +188,7 @@ def diagnose(
         lack_of_fit=lack_of_fit,
         resemblance=resemblance(best.problem, lack_of_fit.predicted) if left else None,
         untestable=missing,
+        undetected=undetected,
         rig=rig,
     )
 
@@ -209,6 +215,21 @@ def _matters(problem: Problem, selection: Selection, lack_of_fit: LackOfFit) -> 
     rounding = thresholds.ROUNDING * float(np.ptp(problem.block.force))
     least = max(thresholds.MISFIT_OVER_NOISE * noise, rounding)
     return misfit > least and (misfit > noise or misfit**2 > thresholds.MISFIT_PART * missed)
+
+
+def _undetected(
+    thin: Problem,
+    searched: Hypothesis,
+    best: Hypothesis,
+    candidates: Sequence[Effect],
+    untestable: dict[str, str],
+    progress: Progress,
+) -> tuple[Detectable, ...]:
+    """What could have been missed, on the samples among whose hypotheses was searched."""
+    if key_of(searched.effects) != key_of(best.effects):
+        steps, effects = thresholds.STEPS_AGAIN, best.record_effects
+        searched = fit_hypothesis(thin, best.effects, [best.values], steps, effects)
+    return detectable(thin, searched, candidates, untestable, progress)
 
 
 def _enough(problem: Problem) -> None:

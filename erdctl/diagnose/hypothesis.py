@@ -177,17 +177,27 @@ def over_records(hypothesis: Hypothesis) -> Hypothesis:
 
 
 def _cross_validated(fitted: Hypothesis) -> Array:
-    """(n,) error on each group by a fit without it [N].
+    """(n,) error on each group by a fit without it [N]."""
+    return left_out(fitted.problem, slopes(fitted), fitted.residual)
+
+
+def slopes(fitted: Hypothesis) -> Array:
+    """(p, n) derivative of the force by each parameter that the data determine."""
+    J = jacobian(fitted.model, fitted.problem.block.signals, fitted.values, fitted.free)
+    if fitted.record_effects is not None:
+        J = J * fitted.record_effects.along(fitted.problem.block.signals.starts)[0]
+    return J
+
+
+def left_out(problem: Problem, J: Array, residual: Array) -> Array:
+    """(..., n) what residuals (..., n) of fits become on each group by a fit without it [N].
 
         d = (N - N_g)^-1 J_g' W r_g,   theta without g = theta - d,   r_g without = r_g + J_g d
 
     N = J' W J: exact for a linear model, the first Gauss-Newton step for others, so that leaving
     every group out costs one Jacobian. A parameter at a bound is kept there.
+    J : (p, n) see `slopes`;  residual : of the best fit, J' W r = 0
     """
-    problem, residual = fitted.problem, fitted.residual
-    J = jacobian(fitted.model, problem.block.signals, fitted.values, fitted.free)
-    if fitted.record_effects is not None:
-        J = J * fitted.record_effects.along(problem.block.signals.starts)[0]
     scale = np.sqrt(np.einsum("ij,ij,j->i", J, J, problem.block.weight))
     scale[scale == 0.0] = 1.0
     J = J / scale[:, None]
@@ -198,9 +208,9 @@ def _cross_validated(fitted: Hypothesis) -> Array:
     bounds = np.searchsorted(problem.group[order], np.arange(problem.count + 1))
     for g in range(problem.count):
         rows = order[bounds[g] : bounds[g + 1]]
-        part, r = J[:, rows], residual[rows]
-        weight = problem.block.weight[rows]
-        own = (part * weight) @ part.T
-        step = np.linalg.lstsq(whole - own, (part * weight) @ r, rcond=thresholds.CV_SINGULAR)[0]
-        out[rows] = r + step @ part
+        part, r = J[:, rows], residual[..., rows]
+        own = weighted[:, rows] @ part.T
+        pull = weighted[:, rows] @ r.T
+        step = np.linalg.lstsq(whole - own, pull, rcond=thresholds.CV_SINGULAR)[0]
+        out[..., rows] = r + step.T @ part
     return out

@@ -322,3 +322,29 @@ RESEMBLANCE, RESEMBLANCE_FADING = 0.5, 0.05
 # Origin: what benches run.
 DRIVE_SECONDS, DRIVE_RATE = 4.0, 500.0
 DRIVE_FREQUENCIES, DRIVE_STROKES, DRIVE_SETTLES = (0.2, 0.5, 1.0, 2.0, 5.0, 10.0), (1.0, 0.2), 0.25
+
+# --- what could have been missed ------------------------------------------------------------------
+
+# Shapes of an effect of which the middle one is reported, and sizes that are tried along each.
+# Decides: the size from which an effect would have been seen.
+# Origin: budget.
+SIZE_SHAPES, SIZES_TRIED = 3, 7
+
+# Factor between sizes that are tried first, how many of them either way, and the logarithm to which
+# a size is sought.
+# Origin: budget; sizes are sought to a tenth, less than the scatter of what noise hides.
+SIZE_STEP, SIZE_STEPS, SIZE_CLOSE = 2.0, 12, 0.1
+
+# Factor on the size that is just seen.
+# Decides: the size that is told.
+# Origin: (3.5 + 1.645) / 3.5: a normal t statistic that is expected so much above 3.5 is below it
+# once in twenty.
+SIZE_SURE = 1.5
+
+# Effects that were not named of which the words say from which size they would have been seen.
+# Origin: what a reader takes in; the rest is in the document.
+UNDETECTED_SAID = 3
+
+# Samples on which it is forecast what a log would show.
+# Origin: budget.
+FORECAST_SAMPLES = 6_000

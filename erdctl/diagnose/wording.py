@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import isfinite
 from typing import Any
 
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import Bench
+from erdctl.diagnose import thresholds
+from erdctl.diagnose.detectable import Detectable
 from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict, one_condition
 from erdctl.diagnose.residual.predictability import LackOfFit
 
@@ -48,12 +51,12 @@ def remaining_text(found: Diagnosis) -> str:
             f" {bench.steps}{_hum(left)}"
         )
     if found.verdict is not Verdict.UNEXPLAINED:
-        return (
-            f"what remains, {found.carried.overall.rms:.3g} N rms, holds nothing that motion,"
-            f" duty, time or energy would predict: measurement noise{_hum(left)}"
-            + "; the log has one duty and one speed, and says nothing of others"
-            * one_condition(found.problem.recording)
+        rms = f"{found.carried.overall.rms:.3g} N rms"
+        rest = f"what remains, {rms}, is noise as far as these data tell{_hum(left)}"
+        rest += "; the log has one duty and one speed, and says nothing of others" * one_condition(
+            found.problem.recording
         )
+        return "; ".join([rest, *undetected_text(found.undetected)])
     words = (
         f"{left.misfit_rms:.3g} N rms beyond a noise of {left.noise_rms:.3g} N can be predicted"
         " from motion and duty, but by no effect in the catalogue"
@@ -84,6 +87,29 @@ def _hum(left: LackOfFit) -> str:
         f"; {100 * left.hum.share:.0f} % of its square is a line of {left.hum.frequency:.3g} Hz in"
         " the force channel (hum, or its alias), which no motion makes: look at shields and earths"
     )
+
+
+def undetected_text(undetected: Sequence[Detectable]) -> list[str]:
+    """What could have been missed: the largest forces that may hide, and what would not show."""
+    could = sorted((d for d in undetected if d.size is not None), key=lambda d: -(d.force or 0.0))
+    first, out = could[: thresholds.UNDETECTED_SAID], []
+    if first:
+        sizes = ", ".join(
+            f"{d.effect.name} from {d.quantity.symbol} = {_sized(d)} ({d.force:.2g} N rms)"
+            for d in first
+        )
+        many = len(could) - len(first)
+        more = f", and {many} others from less force" if many else ""
+        out.append(f"these data would have shown {sizes}{more}")
+    never = [d.effect.name for d in undetected if d.size is None]
+    if never:
+        out.append(f"of no size would they have shown {', '.join(never)}")
+    return out
+
+
+def _sized(d: Detectable) -> str:
+    unit = "" if d.quantity.unit == "1" else f" {d.quantity.unit}"
+    return f"{d.size:.2g}{unit}"
 
 
 def record_values(found: Diagnosis) -> list[dict[str, Any]]:

@@ -29,7 +29,8 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-TABLES = ("findings", "scores", "mismatch", "untestable")
+TABLES = ("findings", "scores", "mismatch", "untestable", "undetected")
+UNDETECTED = ("effect", "parameter", "size", "unit", "force_rms", "beyond_rms", "reason")
 FINDINGS = (
     "effect", "parameter", "value", "stderr", "unit", "equivalent", "gain_unseen",
     "nrmse_before", "nrmse_after",
@@ -79,14 +80,16 @@ class Diagnosed:
         return found
 
     def table(
-        self, of: Literal["findings", "scores", "mismatch", "untestable"] = "findings"
+        self,
+        of: Literal["findings", "scores", "mismatch", "untestable", "undetected"] = "findings",
     ) -> pd.DataFrame:
         """What was found.
 
         of : "findings" has a row for each parameter of each effect found: value, standard error, SI
             unit, look-alikes, NRMSE [1] on data that the fit had not seen without and with it;
             "scores" NRMSE [1] per duty [1], before and after; "mismatch" where the misfit lives, in
-            SI; "untestable" effects that the log cannot show, and why
+            SI; "untestable" effects that the log cannot show, and why; "undetected" effects that
+            were not named: from which size the log would have shown each, and the force it makes
         """
         option(of, TABLES, "of")
         d = self.document
@@ -102,6 +105,9 @@ class Diagnosed:
         if of == "untestable":
             lacking = [{"effect": k, "reason": v} for k, v in d["not_testable"].items()]
             return frame_of(lacking, ("effect", "reason"))
+        if of == "undetected":
+            rows = [{k: u[k] for k in UNDETECTED} for u in d["undetected"]]
+            return frame_of(rows, UNDETECTED)
         findings = [
             {
                 "effect": f["effect"], "parameter": symbol, "value": v["value"],

@@ -12,6 +12,7 @@ from erdctl.diagnose.diagnosis import Diagnosis, Finding
 from erdctl.diagnose.residual.localisation import Region
 from erdctl.diagnose.wording import finding_text, record_values, remaining_text
 from erdctl.io.parameters import to_document
+from erdctl.io.undetected import undetected
 from erdctl.model.parameters import Parameters
 from erdctl.score.nrmse import Validation
 
@@ -61,6 +62,7 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
         **_records(found),
         "rig": found.rig.to_json(),
         "not_testable": found.untestable,
+        "undetected": undetected(found.undetected),
         "provenance": origin,
     }
 

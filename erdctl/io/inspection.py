@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NotRequired, TypedDict, cast
+from typing import TYPE_CHECKING, Any, NotRequired, TypedDict, cast
 
 import msgspec
 
@@ -11,7 +11,11 @@ from erdctl.bench.identifiability import Cover
 from erdctl.bench.inspection import Inspection, NoiseFloor, RecordSummary, Span
 from erdctl.io.logs import Log
 from erdctl.io.rig import RigFaultDocument
+from erdctl.io.undetected import UndetectedDocument, undetected
 from erdctl.io.units import UNITS
+
+if TYPE_CHECKING:
+    from erdctl.diagnose.forecast import Forecast
 
 SCHEMA = "erdctl.inspection/1"
 
@@ -88,6 +92,13 @@ class CoverEntry(TypedDict):
     drives: list[str]
 
 
+class ForecastEntry(TypedDict):
+    """From which size each effect would show, under white noise of so much force, rms [N]."""
+
+    noise_rms: float
+    effects: list[UndetectedDocument]
+
+
 class InspectionFile(TypedDict):
     """What a log holds and what it can show."""
 
@@ -105,11 +116,12 @@ class InspectionFile(TypedDict):
     parameters: list[CoverEntry]
     effects: list[CoverEntry]
     rig: list[RigFaultDocument]
+    forecast: NotRequired[ForecastEntry]
     provenance: NotRequired[dict[str, str]]
 
 
-def to_json(found: Inspection, log: Log) -> InspectionFile:
-    """The document of an inspection."""
+def to_json(found: Inspection, log: Log, ahead: Forecast | None = None) -> InspectionFile:
+    """The document of an inspection, with a forecast if one was asked for."""
     document: InspectionFile = {
         "schema": SCHEMA,
         "logs": [
@@ -138,6 +150,10 @@ def to_json(found: Inspection, log: Log) -> InspectionFile:
         "effects": covers(found.effects),
         "rig": cast(list[RigFaultDocument], found.rig.to_json()),
     }
+    if ahead is not None:
+        document["forecast"] = {
+            "noise_rms": ahead.noise, "effects": undetected(ahead.effects),
+        }  # fmt: skip
     if log.recording.labels:
         document["provenance"] = dict(log.recording.labels)
     return document

@@ -16,6 +16,7 @@ from erdctl.io.labels import LabelsDocument
 from erdctl.io.manifest import PwmManifest
 from erdctl.io.parameters import ParameterFile
 from erdctl.io.rig import RigFaultDocument
+from erdctl.io.undetected import UndetectedDocument
 
 
 class Measured(TypedDict):
@@ -159,6 +160,7 @@ class DiagnosisFile(TypedDict):
     with_records: NotRequired[Scores]
     rig: NotRequired[list[RigFaultDocument]]
     not_testable: dict[str, str]
+    undetected: NotRequired[list[UndetectedDocument]]
     provenance: dict[str, Any]
 
 

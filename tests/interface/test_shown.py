@@ -124,6 +124,8 @@ def test_tables_are_tidy_and_state_units(results: dict[str, Any]) -> None:
     levels = results["diagnosed"].table("scores")
     assert list(levels["duty"]) == [0.0, 0.1, 0.2, 0.3, 0.45, "all"]
     assert results["diagnosed"].table("untestable").empty
+    undetected = results["diagnosed"].table("undetected")
+    assert set(undetected.columns) >= {"effect", "parameter", "size", "unit", "force_rms"}
     reach = results["mimicked"].table("reach")
     assert list(reach["damper"]) == ["fl", "rr"]
     assert {"missing rms [N]", "missing max [N]"} <= set(reach.columns)

@@ -23,11 +23,12 @@ from erdctl.io.diagnosis import to_json
 from erdctl.io.parameters import read_parameters
 from erdctl.io.shapes import SCHEMAS
 from erdctl.prove import document as proof
+from erdctl.prove import on_log_document as proof_on
 from erdctl.prove.case import Wish
 from erdctl.prove.judge import Failed
 
 APP = build()
-ALL = {**SCHEMAS, "proof": proof.json_schema}
+ALL = {**SCHEMAS, "proof": proof.json_schema, "proof-on": proof_on.json_schema}
 TABLE_2, SCHEDULE = str(FIXTURES / "table_2.json"), str(FIXTURES / "schedule_60s.csv")
 
 

@@ -33,6 +33,7 @@ from erdctl.report.page.words import (
     shown_value,
 )
 from erdctl.report.readable import headline, percent_of, with_unit
+from erdctl.report.undetected import HEADER, undetected_rows
 
 MOOD = {"adequate": "good", "explained": "mid", "unexplained": "bad", "cannot_tell": "mid"}
 
@@ -81,7 +82,9 @@ def diagnosis_page(
         notes=notes_of(doc),
         records=record_table(doc.get("records")),
         heldout=heldout_table(doc, peak_of(recording.force)),
+        undetected_header=HEADER,
         untestable=[[k, v] for k, v in doc["not_testable"].items()],
+        undetected=undetected_rows(doc.get("undetected", [])),
     )
 
 
@@ -145,7 +148,10 @@ def _answers(doc: Json, name: str, peak: float) -> Json:
     if verdict == "adequate":
         holds = f"Yes. Its error is {digits(rms, 3)} N rms, the noise {digits(noise, 3)} N rms."
         where = "Nowhere: no misfit beyond the noise."
-        why = "Nothing is missing: no effect in the catalogue improves data that no fit has seen."
+        why = (
+            "Nothing that these data show: no effect in the catalogue improves data that no fit has"
+            " seen. From which size each would have shown is under What stays open."
+        )
     else:
         holds = f"No. It misses {digits(missed, 3)} N rms beyond {digits(noise, 3)} N rms of noise."
         first = doc["mismatch"][:1]

@@ -1,0 +1,150 @@
+"""What an effect adds to the force of a real damper: on the motion and the duty of its own log.
+
+    D = F(plain damper with the effect) - F(plain damper)
+
+simulated in fine steps between the samples. The speed is a cubic spline through that of the log;
+the deflection is its integral, held to that of the log by what changes slowly of their difference,
+so that the noise of a deflection channel does not become motion. Before and after a record the
+motion goes on as its mirror image. D is what an independent simulation of the effect gives; added
+to a recording, it is an effect under that recording's own noise.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import CubicSpline
+from scipy.ndimage import uniform_filter1d
+from scipy.signal import savgol_filter
+
+from erdctl.plant.campaign import CampaignRecord, DutyProgramme
+from erdctl.plant.plant import Plant, Side
+from erdctl.plant.simulate import LEAD_IN, LEAD_OUT, LEAST_SUBSTEPS, LONGEST_STEP, Ride, forces
+from erdctl.plant.trajectory import Trajectory
+from erdctl.plant.twin import Scales, Twin
+
+Array = npt.NDArray[np.float64]
+Random = np.random.Generator
+
+SLOW = 0.25  # s, over which the deflection holds the integral of the speed
+BENT = 0.02  # s, over which the acceleration is the slope of the speed
+STILL = Trajectory("tones", (), (), ())  # in place of the closed form that a recording has not
+
+
+@dataclass(frozen=True, eq=False)
+class Logged:
+    """One record of a log: (n,) time [s], deflection [m], speed [m/s] and duty [1]."""
+
+    name: str
+    t: Array
+    x: Array
+    xdot: Array
+    duty: Array
+
+
+@dataclass(frozen=True, eq=False)
+class OnLog:
+    """A plain damper on the records of a log, ready for effects.
+
+    over : the records on the fine grid;  at : (n,) times of the log's samples, by record
+    plain : forces of the plain damper at the samples of `over` [N]
+    """
+
+    base: Plant
+    over: tuple[Ride, ...]
+    at: tuple[Array, ...]
+    plain: Array
+    scales: Scales
+
+    def added(self, twin: Twin, s: float, shape: Mapping[str, float]) -> Array:
+        """(n,) force that an effect of a strength adds at the samples of the log [N]."""
+        force = forces(twin.build(self.base, s, shape, self.scales), self.over) - self.plain
+        ends = np.cumsum([r.record.samples for r in self.over])[:-1]
+        parts = [
+            np.interp(t, np.arange(r.record.samples) / r.record.rate, part)
+            for t, r, part in zip(self.at, self.over, np.split(force, ends), strict=True)
+        ]
+        return np.concatenate(parts)
+
+    def parameters(self, twin: Twin, s: float, shape: Mapping[str, float]) -> dict[str, float]:
+        """What a twin shows of itself at a strength, in SI units."""
+        plant = twin.build(self.base, s, shape, self.scales)
+        out = {}
+        for path in twin.shows:
+            part, name = path.split(".")
+            if part == "own":
+                own = next(dict(o.values) for o in plant.own if o.hooks.name == twin.name)
+                out[name] = float(own[name])
+            else:
+                out[name] = float(getattr(getattr(plant, part), name))
+        return out
+
+
+def stage(records: Sequence[Logged], sides: Sequence[Mapping[str, float]]) -> OnLog:
+    """A damper on a log.
+
+    sides : k_nom, c_vis, T_d, sigma and beta in compression and in release
+    """
+    up, down = (Side(**{f: float(side[f]) for f in Side._fields}) for side in sides)
+    base = Plant(up, down)
+    over = tuple(_ride(r) for r in records)
+    plain = forces(base, over)
+    at = tuple(r.t - r.t[0] for r in records)
+    return OnLog(base, over, at, plain, _scales(over, plain))
+
+
+def _scales(over: Sequence[Ride], plain: Array) -> Scales:
+    """Sizes of the log with its plain damper; its records may differ in rate."""
+    x, v = (np.concatenate([r.sampled()[i] for r in over]) for i in (1, 2))
+    ends = np.cumsum([r.record.samples for r in over])[:-1]
+    power = np.split(np.maximum(plain * v, 0.0), ends)
+    spans = [r.record.samples / r.record.rate for r in over]
+    inside = [slice(r.lead_in, r.lead_in + r.record.samples * r.substeps) for r in over]
+    return Scales(
+        x=float(np.abs(x).max()),
+        v=float(np.abs(v).max()),
+        a=max(float(np.abs(r.a[at]).max()) for r, at in zip(over, inside, strict=True)),
+        stroke=float(np.ptp(x)) / 2,
+        force=float(np.ptp(plain)) / 2,
+        duty=max(float(r.duty.max()) for r in over),
+        shortest=min(spans),
+        longest=max(spans),
+        energy=max(float(p.sum()) / r.record.rate for p, r in zip(power, over, strict=True)),
+        tick=max(r.h for r in over),
+    )
+
+
+def _ride(r: Logged) -> Ride:
+    """A record on the fine grid."""
+    t = r.t - r.t[0]
+    dt = float(np.median(np.diff(t)))
+    n = round(float(t[-1]) / dt) + 1
+    even = dt * np.arange(n)
+    substeps = max(LEAST_SUBSTEPS, math.ceil(dt / LONGEST_STEP))
+    h = dt / substeps
+    before, after = round(LEAD_IN / h), round(LEAD_OUT / h)
+    fine = h * np.arange((n - 1) * substeps + 1)
+    speed = CubicSpline(t, r.xdot)
+    v = speed(fine)
+    path = speed.antiderivative()
+    slow = uniform_filter1d(np.interp(even, t, r.x - path(t)), max(round(SLOW / dt), 1))
+    x = path(fine) + CubicSpline(even, slow)(fine)
+    wide = max(2 * round(0.5 * BENT / h) + 1, 5)
+    a = savgol_filter(v, min(wide, 2 * ((len(v) - 1) // 2) - 1), 2, deriv=1, delta=h)
+    duty = r.duty[np.maximum(np.searchsorted(t, even + 0.5 * dt, side="right") - 1, 0)]
+    record = CampaignRecord(r.name, 1.0 / dt, n, STILL, DutyProgramme((0.0,), (0,)))
+    return Ride(
+        record, substeps, before, h, _mirrored(x, before, after, odd=True),
+        _mirrored(v, before, after, odd=False), _mirrored(a, before, after, odd=True), duty,
+    )  # fmt: skip
+
+
+def _mirrored(values: Array, before: int, after: int, *, odd: bool) -> Array:
+    """Values that go on before and after as their mirror image; `odd` turns that about its end."""
+    if odd:
+        return np.pad(values, (before, after), mode="reflect", reflect_type="odd")
+    return np.pad(values, (before, after), mode="reflect", reflect_type="even")

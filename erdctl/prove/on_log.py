@@ -1,0 +1,234 @@
+"""Effects of the catalogue hidden in a user's own recording, and what its diagnosis says.
+
+First the recording is diagnosed as it is. What that names is there anyway, and is part of the model
+that everything after it must answer for. Then each effect is hidden in several sizes: an
+independent simulation (`erdctl.plant`) says what it would add to the force on the recording's own
+motion and duty, which is added to what was measured, noise, misfit and all.
+
+    size = rms of what the model cannot absorb of the added force / local noise
+    local noise^2 = mean of (what the diagnosis left)^2, weighted by the square of that force
+
+Against it stand nulls: the recording with nothing added but what was left of it turned over, group
+by group at random, so that a name is chance.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from math import exp, log
+from zlib import crc32
+
+import numpy as np
+
+from erdctl.core.blocks import thinned
+from erdctl.core.errors import ErdctlError, UsageProblem
+from erdctl.core.progress import Progress
+from erdctl.core.recording import DIRECTIONS, Array, Recording
+from erdctl.diagnose.corrected import parameters
+from erdctl.diagnose.detectable import Injection
+from erdctl.diagnose.diagnosis import Diagnosis, diagnose
+from erdctl.effects import catalogue
+from erdctl.model.paper import QUANTITIES
+from erdctl.model.parameters import Parameters
+from erdctl.plant.on_log import Logged, OnLog, stage
+from erdctl.plant.twin import Twin
+from erdctl.plant.twins import every
+from erdctl.prove.catalogued import nameable, right_names
+from erdctl.prove.score import Found, HiddenEffect, matches
+
+MOST = 6  # effects in one diagnosis
+CLOSE = 0.03  # of the logarithm of a size
+STEPS = 16  # of the search for a strength
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One diagnosis of the recording with something hidden in it, or with nothing.
+
+    effect : hidden, None for a null;  size : see the module, as reached
+    parameters : what was hidden, value and SI unit by symbol;  force, beyond : rms of the force
+    that was added, and of what the model cannot absorb of it;  local : noise where it acts [N]
+    found : whether it was named;  said : names beyond those that are there anyway
+    skipped : why it was not diagnosed
+    """
+
+    effect: str | None
+    wanted: float
+    size: float = 0.0
+    parameters: dict[str, tuple[float, str]] = field(default_factory=dict)
+    force: float = 0.0
+    beyond: float = 0.0
+    local: float = 0.0
+    found: bool | None = None
+    said: tuple[str, ...] = ()
+    verdict: str = ""
+    skipped: str | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Host:
+    """A recording to hide effects in, with what its own diagnosis says.
+
+    recording : at its full rate;  every : of whose samples one is diagnosed
+    found : its diagnosis;  given : the corrected parameters of that
+    again : names that a diagnosis of the same recording with that model still gives
+    """
+
+    recording: Recording
+    every: int
+    found: Diagnosis
+    given: Parameters
+    again: tuple[str, ...]
+    seed: int
+
+    @property
+    def anyway(self) -> tuple[str, ...]:
+        """Names that need nothing to be hidden."""
+        return (*(f.effect.name for f in self.found.findings), *self.again)
+
+
+def host(recording: Recording, every: int, seed: int, jobs: int, progress: Progress) -> Host:
+    """A recording diagnosed as it is, and once more beyond what that names."""
+    if recording.force is None:
+        raise UsageProblem("prove --on needs a log with a measured force")
+    thin = _thinned(recording, every)
+    found = diagnose(thin, catalogue(), jobs=jobs, progress=progress)
+    if found.rig.blocking:
+        texts = "; ".join(f.text for f in found.rig.blocking)
+        raise UsageProblem(f"nothing can be hidden in this log before its rig is right: {texts}")
+    given = parameters(found)
+    more = diagnose(thin, catalogue(), given=given, most=2, jobs=jobs, progress=progress)
+    again = tuple(f.effect.name for f in more.findings)
+    # What a parameter would need is for people, and holds functions that no process can be sent.
+    lean = replace(found, problem=replace(found.problem, needs={}))
+    return Host(recording, every, lean, given, again, seed)
+
+
+def hideable(chosen: Sequence[str] | None) -> list[str]:
+    """Effects that the plant can hide and a diagnosis can name, all or those chosen."""
+    names = [n for n in every() if n in nameable()]
+    unknown = [n for n in chosen or () if n not in names]
+    if unknown:
+        raise UsageProblem(f"cannot hide {', '.join(unknown)}; there are {', '.join(names)}")
+    return [n for n in names if chosen is None or n in chosen]
+
+
+class Hiding:
+    """Hides effects in a host."""
+
+    def __init__(self, host: Host) -> None:
+        self.host = host
+        r, base = host.recording, host.found.selection.base
+        records = [
+            Logged(name, r.t[part], r.x[part], r.xdot[part], r.duty[part])
+            for name, part in zip(r.names, r.slices, strict=True)
+        ]
+        sides = [{q: base.values[f"{d}.{q}"] for q in QUANTITIES} for d in DIRECTIONS]
+        self.stage: OnLog = stage(records, sides)
+        best = host.found.selection.best
+        self.injection = Injection(host.found.problem, best)
+        self.rest = best.residual
+
+    def trials(self, name: str, sizes: Sequence[float]) -> list[Trial]:
+        """An effect hidden in each of some sizes."""
+        twin = every()[name]
+        same = {name, *right_names(name, twin.equivalents)}
+        there = sorted(same.intersection(self.host.anyway))
+        if there:
+            return [Trial(name, s, skipped=f"{there[0]} is in the log already") for s in sizes]
+        lacking = [self.host.found.untestable.get(n) for n in same]
+        if all(lacking):
+            return [Trial(name, s, skipped=f"cannot be tested: {lacking[0]}") for s in sizes]
+        shape = twin.drawn(np.random.default_rng([self.host.seed, crc32(name.encode())]))
+        out, at = [], log(twin.start)
+        for size in sizes:
+            trial, at, added = self._sought(twin, shape, size, at)
+            if trial.skipped is None:
+                trial = self._judged(trial, self._recorded(added), twin)
+            out.append(trial)
+        return out
+
+    def null(self, number: int) -> Trial:
+        """The recording with what was left of it turned over at random, group by group."""
+        problem = self.host.found.problem
+        random = np.random.default_rng([self.host.seed, number])
+        sign = random.choice([-1.0, 1.0], problem.count)[problem.group]
+        r = problem.recording
+        assert r.force is not None
+        force = r.force + (sign - 1.0) * self.rest
+        return self._judged(Trial(None, 0.0), replace(r, force=force), None)
+
+    def _sought(
+        self, twin: Twin, shape: Mapping[str, float], size: float, at: float
+    ) -> tuple[Trial, float, Array]:
+        """An effect as strong as it must be for a size, by halves of a bracket and secants."""
+        low, high = log(twin.low), log(twin.high)
+        best: tuple[float, Trial, float, Array] | None = None
+        for _ in range(STEPS):
+            trial, added = self._measured(twin, shape, exp(at), size)
+            off = log(max(trial.size, 1e-12) / size)
+            if best is None or abs(off) < best[0]:
+                best = abs(off), trial, at, added
+            if abs(off) < CLOSE or high - low < 1e-3:
+                break
+            low, high = (low, at) if off > 0.0 else (at, high)
+            following = at - off
+            at = following if low < following < high else 0.5 * (low + high)
+        assert best is not None
+        off, trial, at, added = best
+        if off > 5 * CLOSE:
+            nearest = f"the nearest is {trial.size:.2g}"
+            trial = replace(trial, skipped=f"not {size:g} times the noise on this log: {nearest}")
+        return trial, at, added
+
+    def _measured(
+        self, twin: Twin, shape: Mapping[str, float], s: float, wanted: float
+    ) -> tuple[Trial, Array]:
+        """What an effect of a strength is on this log, and the force that it adds."""
+        added = self.stage.added(twin, s, shape)
+        r = self.host.recording
+        here = _thinned(replace(r, force=added), self.host.every).force
+        assert here is not None
+        beyond = self.injection.beyond(here)
+        weight = self.host.found.problem.block.weight
+        energy = float(np.dot(weight, beyond**2))
+        local = float(np.sqrt(np.dot(weight, (beyond * self.rest) ** 2) / max(energy, 1e-300)))
+        rms = float(np.sqrt(energy / weight.sum()))
+        shown = self.stage.parameters(twin, s, shape)
+        units = {path.split(".")[1]: unit for path, unit in twin.shows.items()}
+        trial = Trial(
+            effect=twin.name,
+            wanted=wanted,
+            size=rms / local if local > 0.0 else 0.0,
+            parameters={symbol: (value, units[symbol]) for symbol, value in shown.items()},
+            force=float(np.sqrt(np.dot(weight, here**2) / weight.sum())),
+            beyond=rms,
+            local=local,
+        )
+        return trial, added
+
+    def _recorded(self, added: Array) -> Recording:
+        r = self.host.recording
+        assert r.force is not None
+        return _thinned(replace(r, force=r.force + added), self.host.every)
+
+    def _judged(self, trial: Trial, recording: Recording, twin: Twin | None) -> Trial:
+        """A trial with what the diagnosis says beyond what is there anyway."""
+        most = min(1 + len(self.host.again), MOST)
+        try:
+            found = diagnose(recording, catalogue(), given=self.host.given, most=most)
+        except ErdctlError as problem:
+            return replace(trial, skipped=f"cannot be diagnosed: {problem}")
+        new = [f for f in found.findings if f.effect.name not in self.host.again]
+        said = tuple("/".join([f.effect.name, *f.equivalent]) for f in new)
+        named = None
+        if twin is not None:
+            hidden = HiddenEffect(twin.name, trial.size, right_names(twin.name, twin.equivalents))
+            named = any(matches(Found(f.effect.name, f.equivalent), hidden) for f in new)
+        return replace(trial, found=named, said=said, verdict=found.verdict.value)
+
+
+def _thinned(recording: Recording, every: int) -> Recording:
+    """One of so many samples; of all where that is one."""
+    return recording if every == 1 else thinned(recording, -(-len(recording) // every))

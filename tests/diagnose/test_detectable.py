@@ -1,0 +1,129 @@
+"""From which size data would have shown an effect: held against effects of that size."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from rig import TRUTH, campaign, noisy
+
+from erdctl.core.errors import UsageProblem
+from erdctl.core.recording import Recording
+from erdctl.diagnose.detectable import ABSORBED, TAKEN, Detectable, Injection, amount_of
+from erdctl.diagnose.diagnosis import Diagnosis, diagnose
+from erdctl.diagnose.forecast import forecast
+from erdctl.diagnose.problem import prepare
+from erdctl.effects import catalogue, get
+from erdctl.io.diagnosis import to_json
+from erdctl.model.composed import Model
+from erdctl.model.parameters import Estimate, Parameters
+
+FEW = ("coulomb_friction", "backlash", "input_delay", "mount_compliance")
+
+
+@pytest.fixture(scope="module")
+def healthy() -> Diagnosis:
+    return diagnose(noisy(campaign(100.0, 8.0), seed=31), [get(n) for n in FEW], jobs=1)
+
+
+def of(found: Diagnosis, name: str) -> Detectable:
+    (one,) = [d for d in found.undetected if d.effect.name == name]
+    return one
+
+
+def with_effect(found: Diagnosis, name: str, times: float) -> Recording:
+    """The recording with an effect of so many times the size, by the model's own simulation."""
+    r, d = found.problem.recording, of(found, name)
+    assert d.values is not None
+    assert r.force is not None
+    on, best = amount_of(d.effect), found.selection.best
+    values = {**d.values, on.symbol: on.off + times * (d.values[on.symbol] - on.off)}
+    full = best.values | {d.effect.key(s): v for s, v in values.items()}
+    signals = found.problem.block.signals
+    added = Model((d.effect,)).force(signals, full) - best.model.force(signals, best.values)
+    return replace(r, force=r.force + added)
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_that_size_is_named_and_a_tenth_is_not(healthy: Diagnosis, name: str) -> None:
+    named = diagnose(with_effect(healthy, name, 1.0), [get(name)], most=1)
+    assert [f.effect.name for f in named.findings] == [name]
+    assert diagnose(with_effect(healthy, name, 0.1), [get(name)], most=1).findings == ()
+
+
+def test_every_effect_that_was_not_named_is_told(healthy: Diagnosis) -> None:
+    document = to_json(healthy)["undetected"]
+    assert {d["effect"] for d in document} == set(FEW)
+    friction = next(d for d in document if d["effect"] == "coulomb_friction")
+    assert friction["detectable"]
+    assert friction["parameter"] == "F_c"
+    assert friction["unit"] == "N"
+    # Friction is its own force; a fit takes up a part of it.
+    assert friction["force_rms"] == pytest.approx(friction["size"], rel=0.02)
+    assert 0.0 < friction["beyond_rms"] < friction["force_rms"]
+    text = to_json(healthy)["remaining"]["text"]
+    assert "would have shown" in text
+    assert "holds nothing" not in text
+
+
+def test_more_noise_hides_more() -> None:
+    quiet, loud = (
+        diagnose(noisy(campaign(100.0, 8.0), seed=5, rms=rms), [get("coulomb_friction")])
+        for rms in (0.1, 1.0)
+    )
+    sizes = [of(d, "coulomb_friction").size for d in (quiet, loud)]
+    assert sizes[0] is not None
+    assert sizes[1] is not None
+    assert sizes[1] == pytest.approx(10 * sizes[0], rel=0.15)
+
+
+def test_what_the_model_takes_up_is_never_shown() -> None:
+    """At one duty level and no steps the yield force takes up all friction."""
+    r = campaign(100.0, 8.0).select([1])
+    found = diagnose(noisy(r, seed=8), [get("coulomb_friction"), get("input_delay")])
+    friction, delay = of(found, "coulomb_friction"), of(found, "input_delay")
+    assert friction.size is None
+    assert friction.reason == ABSORBED
+    assert delay.size is None
+    assert delay.reason == found.untestable["input_delay"]
+    entry = {d["effect"]: d for d in to_json(found)["undetected"]}["coulomb_friction"]
+    assert entry["detectable"] is False
+    assert entry["parameters"] == {}
+
+
+def test_two_springs_cannot_act_together() -> None:
+    r = noisy(campaign(100.0, 8.0), seed=3)
+    block = prepare(r).block
+    stiff = get("mount_compliance")
+    soft = Model((stiff,)).force(block.signals, {**TRUTH, stiff.key("s_m"): 2e-4})
+    found = diagnose(
+        replace(r, force=soft + (r.force - campaign(100.0, 8.0).force)), [stiff], most=1
+    )
+    assert [f.effect.name for f in found.findings] == [stiff.name]
+    injection = Injection(found.problem, found.selection.best)
+    assert injection.least(get("fluid_compressibility")).reason == TAKEN
+
+
+def test_an_effect_at_its_least_is_not_seen_by_the_way_it_is_simulated(healthy: Diagnosis) -> None:
+    spring = of(healthy, "mount_compliance")
+    assert spring.size is not None
+    assert spring.size > 1e3 * amount_of(spring.effect).low
+
+
+def test_forecast_of_a_drive_without_force() -> None:
+    drive = replace(campaign(100.0, 8.0), force=None)
+    with pytest.raises(UsageProblem, match="--params FILE and --noise N"):
+        forecast(drive, catalogue())
+    damper = Parameters(
+        model=Model(),
+        estimates={n: Estimate(value=v, unit="") for n, v in TRUTH.items()},
+    )
+    few = [get(n) for n in FEW]
+    ahead = forecast(drive, few, parameters=damper, noise=0.3)
+    after = diagnose(noisy(campaign(100.0, 8.0), seed=31), few)
+    for d in ahead.effects:
+        measured = of(after, d.effect.name).size
+        assert d.size is not None
+        assert measured is not None
+        assert abs(np.log(d.size / measured)) < np.log(2.0), d.effect.name

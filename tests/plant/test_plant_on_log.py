@@ -1,0 +1,61 @@
+"""What an effect adds to a real log: the plant on the log's own motion."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from plant_rig import DAMPER, campaign, effect
+
+from erdctl.plant.on_log import Logged, OnLog, stage
+from erdctl.plant.simulate import force, rides
+
+
+def logged() -> list[Logged]:
+    out = []
+    for i, r in enumerate(rides(campaign())):
+        t, x, v = r.sampled()
+        out.append(Logged(f"r{i}", t, x, v, r.duty))
+    return out
+
+
+@pytest.fixture(scope="module")
+def on_log() -> OnLog:
+    sides = [s._asdict() for s in (DAMPER.compression, DAMPER.release)]
+    return stage(logged(), sides)
+
+
+def test_the_motion_of_the_log_is_the_motion_of_the_plant(on_log: OnLog) -> None:
+    for ride, r in zip(on_log.over, logged(), strict=True):
+        _, x, v = ride.sampled()
+        assert np.abs(v - r.xdot).max() < 1e-9
+        assert np.abs(x - r.x).max() < 0.01 * np.ptp(r.x)
+
+
+@pytest.mark.parametrize("name", ["coulomb_friction", "backlash", "fluid_inertia", "input_delay"])
+def test_what_is_added_is_what_the_plant_itself_would(on_log: OnLog, name: str) -> None:
+    """The campaign in closed form, and its samples as a log: the same effect, the same force."""
+    twin, over = effect(name), rides(campaign())
+    shape = {k: 0.5 * (a + b) for k, (a, b) in twin.shape.items()}
+    built = twin.build(DAMPER, twin.start, shape, on_log.scales)
+    true = np.concatenate([force(built, r) - force(DAMPER, r) for r in over])
+    added = on_log.added(twin, twin.start, shape)
+    settled = np.concatenate([r.sampled()[0] > 0.3 for r in over])
+    assert np.std((added - true)[settled]) < 0.15 * np.std(true[settled])
+
+
+def test_nothing_of_an_effect_adds_nothing(on_log: OnLog) -> None:
+    twin = effect("coulomb_friction")
+    assert np.abs(on_log.added(twin, 0.0, {})).max() == 0.0
+    assert on_log.parameters(twin, 0.01, {}) == {"F_c": pytest.approx(0.01 * on_log.scales.force)}
+
+
+def test_gaps_and_jitter_keep_every_sample(on_log: OnLog) -> None:
+    r = logged()[1]
+    kept = np.flatnonzero(np.arange(len(r.t)) % 97 != 5)
+    holed = Logged("holed", r.t[kept], r.x[kept], r.xdot[kept], r.duty[kept])
+    sides = [s._asdict() for s in (DAMPER.compression, DAMPER.release)]
+    twin = effect("coulomb_friction")
+    whole = stage([r], sides).added(twin, 0.05, {})[kept]
+    added = stage([holed], sides).added(twin, 0.05, {})
+    assert added.shape == kept.shape
+    assert np.median(np.abs(added / whole - 1.0)) < 0.05

@@ -1,0 +1,90 @@
+"""`erdctl prove --on`: effects hidden in a user's own recording."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import jsonschema
+import pandas as pd
+import pytest
+from rig import campaign, noisy
+
+from erdctl.prove.on_log import Trial, hideable
+from erdctl.prove.on_log_document import json_schema, line, tables
+
+ERDCTL = [sys.executable, "-m", "erdctl", "prove"]
+
+
+def run(*arguments: object, code: int = 0) -> subprocess.CompletedProcess[str]:
+    done = subprocess.run([*ERDCTL, *map(str, arguments)], capture_output=True, text=True)
+    assert done.returncode == code, done.stderr
+    assert "Traceback" not in done.stderr
+    return done
+
+
+@pytest.fixture
+def log(tmp_path: Path) -> Path:
+    r = noisy(campaign(50.0, 8.0), seed=77)
+    path = tmp_path / "bench.csv"
+    records = [name for name, part in zip(r.names, r.slices, strict=True) for _ in r.t[part]]
+    columns = {"t": r.t, "x": r.x, "xdot": r.xdot, "duty": r.duty, "force": r.force}
+    pd.DataFrame({**columns, "record": records}).to_csv(path, index=False)
+    return path
+
+
+def test_a_large_effect_is_found_and_nothing_is_not(log: Path, tmp_path: Path) -> None:
+    kept = tmp_path / "kept"
+    options = ["--on", log, "--effects", "quadratic_damping", "--sizes", "0.02,2", "--nulls", 1,
+               "--jobs", 1, "--keep", kept, "--json"]  # fmt: skip
+    document = json.loads(run(*options).stdout)
+    jsonschema.validate(document, json_schema(), cls=jsonschema.Draft202012Validator)
+    small, large = document["trials"]
+    assert [small["found"], large["found"]] == [False, True]
+    assert large["size"] == pytest.approx(2.0, rel=0.05)
+    assert large["beyond_rms"] == pytest.approx(2.0 * large["local_noise_rms"], rel=0.05)
+    # Beyond noise alone, local noise is noise.
+    assert large["local_noise_rms"] == pytest.approx(0.3, rel=0.3)
+    assert document["named"] == document["again"] == document["nulls"][0]["said"] == []
+    (found,) = document["summary"]["effects"]
+    assert found["size"] == 2.0
+    assert found["parameters"] == large["parameters"]
+
+    # What is kept is not done again: an outcome that was changed there comes back changed.
+    (file,) = kept.glob("quadratic_damping-*.json")
+    file.write_text(file.read_text().replace('"found":true', '"found":false'))
+    again = json.loads(run(*options).stdout)
+    assert [t["found"] for t in again["trials"]] == [False, False]
+
+
+def test_what_does_not_go_together_is_refused(log: Path) -> None:
+    assert "--kind does not go with --on" in run("--on", log, "--kind", "null", code=2).stderr
+    assert "expected sizes" in run("--on", log, "--sizes", "1,-2", code=2).stderr
+    assert "cannot hide nonsense" in run("--on", log, "--effects", "nonsense", code=2).stderr
+
+
+def test_effects_can_be_chosen() -> None:
+    assert hideable(["backlash"]) == ["backlash"]
+    assert len(hideable(None)) > 20
+
+
+def trial(effect: str | None, wanted: float, found: bool | None, **more: object) -> Trial:
+    values = {"g": (1e-4 * wanted, "m")}
+    return Trial(effect, wanted, wanted, values, wanted, wanted, 1.0, found, **more)  # type: ignore[arg-type]
+
+
+def test_found_from_the_size_from_which_all_larger_are() -> None:
+    trials = [
+        trial("a", 1.0, found=True), trial("a", 2.0, found=False), trial("a", 4.0, found=True),
+        trial("b", 1.0, found=None, skipped="is in the log already"),
+        trial(None, 0.0, found=None, said=("c",), verdict="explained"),
+        trial(None, 0.0, found=None, verdict="adequate"),
+    ]  # fmt: skip
+    effects, shares, skipped = tables(trials)
+    assert effects[2] == [["a", "yes", "no", "yes", "g 0.4 mm", "4 N"]]
+    assert shares[2][-1] == ["nothing", "1", "2", "50 %"]
+    assert skipped[2] == [["b", "is in the log already"]]
+    assert "found no" in line(trials[1])
+    assert "nothing hidden" in line(trials[-1])
