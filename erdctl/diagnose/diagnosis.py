@@ -150,7 +150,7 @@ def diagnose(
         mismatch = locate(best.problem, energy)[: thresholds.REGIONS]
         mismatch += [alone] if alone else []
     refitted = _validate(problem, selection.base)
-    fit, record_effects = _errors(problem, best)
+    fit, record_effects = fit_errors(problem, best)
     return Diagnosis(
         verdict=verdict,
         noise_rms=noise,
@@ -233,7 +233,8 @@ def _findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
     return tuple(sorted(found, key=lambda f: -f.gain.gain))
 
 
-def _errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEffects | None]:
+def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEffects | None]:
+    """The last step on all samples and the errors of a hypothesis, and of its record effects."""
     model = hypothesis.model
     block, record_effects = hypothesis.problem.block, hypothesis.record_effects
     shared = block if record_effects is None else record_effects.shared(block)

@@ -5,20 +5,24 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from erdctl.core.blocks import Block
-from erdctl.core.recording import Array
+from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.core.signals import Signals
 from erdctl.estimate.autoregressive import ColouredNoise
 from erdctl.estimate.least_squares import huber_weight
+from erdctl.estimate.noise_size import innovation_size, within_records
 from erdctl.estimate.normal_equations import Normal
+from erdctl.estimate.record_scatter import RecordSums, covariance
 from erdctl.model.composed import Model
 from erdctl.model.parameters import Estimate
 from erdctl.model.slots import Values
 
 DIFFERENCE = 1e-6  # relative step of a one-sided difference
+WIDE = 1e-3  # relative step to either side of a parameter that the force may jump with
 COLOURED = 16  # blocks on which the effect of coloured noise is measured
 
 
@@ -55,14 +59,14 @@ class Fit:
         return np.asarray(self.covariance / np.outer(scale, scale))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Sums:
-    """What one block contributes: J'WJ, J'Wr, J'WCWJ (where it is asked for), its samples."""
+    """What one block contributes, by number of record; the meat only where it was asked for."""
 
-    normal: Array
-    gradient: Array
-    meat: Array | None
-    samples: int
+    normal: dict[int, Array]
+    score: dict[int, Array]
+    meat: dict[int, Array]
+    rough: Array | None
 
 
 def assess(
@@ -80,8 +84,10 @@ def assess(
 
     The start may come from a part of the data: one step from there is as good as the full search
     to the order of the standard errors (one-step estimator, Le Cam). The covariance is the
-    sandwich (J'J)^-1 (J' C J) (J'J)^-1 with C the noise covariance of an autoregressive model of
-    the residual, so that correlated residuals do not make errors look small.
+    sandwich (J'J)^-1 (J' C J) (J'J)^-1. C is that of an autoregressive model of the residual whose
+    innovations grow as those found do with the force and from record to record, so that neither
+    correlated nor uneven residuals make errors look small; to it comes what scatters from record to
+    record (`erdctl.estimate.record_scatter`).
     """
     held = set(fixed)
     free = tuple(n for n in model.quantities if n not in held)
@@ -104,12 +110,12 @@ def assess(
                 range(len(weighted)),
             )
         )
-        normal = Normal.of(np.sum([p.normal for p in parts], axis=0))
+        records = _records(parts)
+        p = len(free)
+        normal = Normal.of(np.sum([r.normal for r in records], axis=0)[:p, :p])
         inverse = normal.pseudo_inverse()
-        coloured = [(p.meat, p.samples) for p in parts if p.meat is not None]
-        share = sum(p.samples for p in parts) / max(sum(n for _, n in coloured), 1)
-        meat = share * np.sum([m for m, _ in coloured], axis=0)
-        step = inverse @ np.sum([p.gradient for p in parts], axis=0)
+        rough = _roughness(parts, inverse)
+        step = inverse @ np.sum([r.score for r in records], axis=0)[:p]
         moved = dict(values)
         for name, move in zip(free, step.tolist(), strict=True):
             q = model.quantities[name]
@@ -122,7 +128,7 @@ def assess(
         model=model,
         values=moved,
         free=free,
-        covariance=inverse @ meat @ inverse,
+        covariance=covariance(records, inverse, rough),
         rms=float(np.sqrt(after / max(samples - len(free), 1))),
         noise=noise_after,
         samples=samples,
@@ -153,6 +159,18 @@ def estimates(found: Fit, reasons: Mapping[str, str]) -> dict[str, Estimate]:
 
 def jacobian(model: Model, signals: Signals, values: Values, free: Sequence[str]) -> Array:
     """(p, n) derivative of the force by every free parameter."""
+    return _linearised(model, signals, values, free)[1]
+
+
+def _linearised(
+    model: Model, signals: Signals, values: Values, free: Sequence[str], *, wide: bool = False
+) -> tuple[Array, Array]:
+    """(n,) force and its (p, n) derivative by every free parameter.
+
+    wide : the slope of an effect's parameter over a thousandth of it to either side. Where force
+        jumps from sample to sample as the parameter grows (contacts, delays), the slope at a point
+        is that of one sample
+    """
     prepared = model.prepare(signals, values)
     # Where the force feeds back on itself no column stands alone.
     known = zip(model.linear, prepared.columns(), strict=True) if model.separable else ()
@@ -163,22 +181,32 @@ def jacobian(model: Model, signals: Signals, values: Values, free: Sequence[str]
         if name in linear:
             rows.append(linear[name])
             continue
-        q = model.quantities[name]
-        step = DIFFERENCE * max(abs(values[name]), 1e-3 * max(abs(q.start), 1e-3))
-        step = -step if values[name] + step > q.high else step
-        shifted = model.force(signals, {**values, name: values[name] + step})
+        q, value = model.quantities[name], values[name]
+        if wide and name.split(".")[0] not in DIRECTIONS:
+            step = WIDE * max(abs(value), 0.1 * abs(q.start))
+            low, high = max(value - step, q.low), min(value + step, q.high)
+            ends = [model.force(signals, {**values, name: v}) for v in (low, high)]
+            rows.append((ends[1] - ends[0]) / (high - low))
+            continue
+        step = DIFFERENCE * max(abs(value), 1e-3 * max(abs(q.start), 1e-3))
+        step = -step if value + step > q.high else step
+        shifted = model.force(signals, {**values, name: value + step})
         rows.append((shifted - force) / step)
-    return np.array(rows)
+    return force, np.array(rows)
 
 
 def _residual(
     model: Model, block: Block, values: Values, robust: bool
 ) -> tuple[Block, float, ColouredNoise]:
-    residual = block.force - model.force(block.signals, values)
+    force = model.force(block.signals, values)
+    residual = block.force - force
     if robust:
         block = block._replace(weight=block.weight * huber_weight(residual, block.weight))
     square = float(np.dot(block.weight, residual * residual))
-    noise = ColouredNoise.of(residual * np.sqrt(block.weight), block.signals.starts)
+    root, starts = np.sqrt(block.weight), block.signals.starts
+    noise = ColouredNoise.of(
+        within_records(residual * root, force * root, root, starts), starts, used=root > 0.0
+    )
     return block, square, noise
 
 
@@ -189,22 +217,61 @@ def _sum_up(
     free: Sequence[str],
     noise: ColouredNoise | None,
 ) -> _Sums:
-    J = jacobian(model, block.signals, values, free)
-    residual = block.force - model.force(block.signals, values)
-    weighted = J * block.weight
-    meat = None
+    force, J = _linearised(model, block.signals, values, free, wide=True)
+    root, starts = np.sqrt(block.weight), block.signals.starts
+    rows = np.concatenate([J, [force, np.ones_like(force)]]) * root
+    residual = (block.force - force) * root
+    normal, score, meat, rough = {}, {}, {}, None
     if noise is not None:
-        coloured = noise.colour(weighted, block.signals.starts)
-        meat = coloured @ coloured.T
-    return _Sums(
-        normal=weighted @ J.T,
-        gradient=weighted @ residual,
-        meat=meat,
-        samples=int(np.count_nonzero(block.weight)),
-    )
+        rest = within_records(residual, rows[-2], root, starts)
+        innovations = noise.innovations(rest, starts)
+        size = innovation_size(innovations, np.abs(force), root > 0.0, starts)
+        coloured = noise.colour(rows, starts)
+        p = len(free)
+        each = coloured[:p] * innovations
+        rough = each @ each.T
+        coloured *= size
+    for r, (a, b) in enumerate(pairwise(starts.tolist()), start=block.first):
+        part = rows[:, a:b]
+        normal[r], score[r] = part @ part.T, part @ residual[a:b]
+        if noise is not None:
+            meat[r] = coloured[:, a:b] @ coloured[:, a:b].T
+    return _Sums(normal, score, meat, rough)
+
+
+def _records(parts: Sequence[_Sums]) -> list[RecordSums]:
+    """The sums of each record; where no meat was made, as large as elsewhere for its normal."""
+    normal, score, meat, seen = {}, {}, {}, {}
+    for part in parts:
+        for r, matrix in part.normal.items():
+            normal[r] = normal.get(r, 0.0) + matrix
+            score[r] = score.get(r, 0.0) + part.score[r]
+            if r in part.meat:
+                meat[r] = meat.get(r, 0.0) + part.meat[r]
+                seen[r] = seen.get(r, 0.0) + matrix
+    made, whole = (np.diag(np.sum(list(m.values()), axis=0)) for m in (meat, seen))
+    root = np.sqrt(np.where(whole > 0.0, made / np.where(whole > 0.0, whole, 1.0), 0.0))
+    return [
+        RecordSums(n, score[r], meat.get(r, 0.0) + np.outer(root, root) * (n - seen.get(r, 0.0)))
+        for r, n in sorted(normal.items())
+    ]
 
 
 def _flat(normal: Normal, free: Sequence[str]) -> tuple[tuple[str, ...], ...]:
     """The parameters along each direction in which the cost does not change."""
     names = np.array(free)
     return tuple(tuple(names[np.abs(along) > 0.1].tolist()) for along in normal.lost.T)
+
+
+def _roughness(parts: Sequence[_Sums], inverse: Array) -> Array:
+    """(p,) factors of the errors by noise, no less than 1, which the innovations found ask for.
+
+    What a model misses in few samples, where a parameter is told from (contacts, jumps, turns), is
+    no part of a smooth size of the noise, but stands in the products of rows and innovations
+    themselves (White 1980). They scatter more, and decide only where they say more.
+    """
+    p, found = len(inverse), [part for part in parts if part.rough is not None]
+    smooth = np.sum([m[:p, :p] for part in found for m in part.meat.values()], axis=0)
+    uneven = np.sum([part.rough for part in found], axis=0)
+    a, b = (np.diag(inverse @ m @ inverse) for m in (uneven, smooth))
+    return np.sqrt(np.maximum(a / np.where(b > 0.0, b, np.inf), 1.0))

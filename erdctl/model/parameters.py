@@ -11,6 +11,8 @@ from erdctl.core.recording import Recording
 from erdctl.core.version import __version__
 from erdctl.model.composed import Model
 
+NORMAL_95 = 1.96  # standard errors to either side that hold 95 %
+
 
 @dataclass(frozen=True, kw_only=True)
 class Estimate:
@@ -19,6 +21,7 @@ class Estimate:
     value : None when the data do not identify it; `assumed` is then what a simulation uses, and
     `reason` says in plain words why
     at_bound : the value is a bound of the parameter, where a standard error says nothing
+    within : 95 % interval where it is not value +- 1.96 stderr: one-sided at a bound, or skew
     """
 
     value: float | None
@@ -27,11 +30,19 @@ class Estimate:
     assumed: float | None = None
     reason: str | None = None
     at_bound: bool = False
+    within: tuple[float, float] | None = None
 
     @property
     def identified(self) -> bool:
         """Whether there is a value."""
         return self.value is not None
+
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """95 % interval; None without a value or an error."""
+        if self.within is not None or self.value is None or self.stderr is None:
+            return self.within
+        return self.value - NORMAL_95 * self.stderr, self.value + NORMAL_95 * self.stderr
 
     @property
     def used(self) -> float:

@@ -88,6 +88,17 @@ def draw_campaign(random: Random) -> Campaign:
     return _fill(random, rating, rate, low, high, samples / count, count)
 
 
+def draw_short(random: Random, *, samples: int = 8_000, count: int = 10) -> Campaign:
+    """A campaign of few samples, for questions that need many draws and no long logs."""
+    rate = float(random.choice((100.0, 200.0, 250.0)))
+    mean = max(samples / count, SHORTEST * rate)
+    low = max(float(np.exp(random.uniform(np.log(0.3), np.log(0.6)))), 2.0 * rate / mean)
+    high = max(rate / random.uniform(50, 80), 2.0 * low)
+    stroke = float(np.exp(random.uniform(np.log(0.008), np.log(0.06))))
+    rating = Rating(stroke, 2 * np.pi * float(np.sqrt(low * high)) * stroke)
+    return _fill(random, rating, rate, low, high, mean, count)
+
+
 def draw_other(random: Random, campaign: Campaign, *, count: int = 6) -> Campaign:
     """Records of other motions and duties on the same rig, as long as those of the campaign, or a
     fault that sets in late and slow heat would not show in them."""

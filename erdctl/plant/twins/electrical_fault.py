@@ -6,11 +6,15 @@ The yield force times 1 - s.
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     return plant.with_physics(electrical=1.0 - s, onset=q["onset"] * by.shortest)
+
+
+def _law(plant: Plant) -> Law:
+    return plant, {"f": plant.physics.electrical, "t_0": plant.physics.onset}
 
 
 TWIN = Twin(
@@ -21,6 +25,7 @@ TWIN = Twin(
     start=0.2,
     high=0.98,
     build=_build,
+    law=_law,
     shows={"physics.electrical": "1", "physics.onset": "s"},
     shape={"onset": (0.2, 0.75)},
     hidden=True,

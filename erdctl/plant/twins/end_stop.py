@@ -6,7 +6,7 @@ Touched over the last part of the stroke; s times the damper's force at its end.
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
@@ -16,6 +16,14 @@ def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     return plant.with_physics(stop_high=high, stop_low=low, stop_rate=s * by.force / depth)
 
 
+def _law(plant: Plant) -> Law:
+    return plant.with_physics(stop_low=-plant.physics.stop_high), {
+        "x_stop": plant.physics.stop_high,
+        "k_c": plant.physics.stop_rate,
+        "k_r": plant.physics.stop_rate,
+    }
+
+
 TWIN = Twin(
     name="end_stop",
     family="stop",
@@ -23,6 +31,7 @@ TWIN = Twin(
     start=0.3,
     high=60.0,
     build=_build,
+    law=_law,
     shows={"physics.stop_high": "m", "physics.stop_low": "m", "physics.stop_rate": "N/m"},
     shape={"depth": (0.15, 0.45), "rebound": (0.9, 1.3)},
 )

@@ -6,11 +6,18 @@ tau_y = alpha E_s^beta tanh((E/E_s)^beta); E_s = the highest field / s.
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     return plant.with_physics(screening=s / by.duty)
+
+
+def _law(plant: Plant) -> Law:
+    return plant, {
+        "a_c": plant.physics.screening**plant.compression.beta,
+        "a_r": plant.physics.screening**plant.release.beta,
+    }
 
 
 TWIN = Twin(
@@ -21,5 +28,6 @@ TWIN = Twin(
     start=1.5,
     high=12.0,
     build=_build,
+    law=_law,
     shows={"physics.screening": "1"},
 )
