@@ -13,6 +13,7 @@ from erdctl.core.blocks import Block
 from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.core.signals import Signals
 from erdctl.estimate.autoregressive import ColouredNoise
+from erdctl.estimate.finer import Finer
 from erdctl.estimate.least_squares import huber_weight
 from erdctl.estimate.noise_size import innovation_size, within_records
 from erdctl.estimate.normal_equations import Normal
@@ -23,6 +24,8 @@ from erdctl.model.slots import Values
 
 DIFFERENCE = 1e-6  # relative step of a one-sided difference
 WIDE = 1e-3  # relative step to either side of a parameter that the force may jump with
+STEPS = 4  # of Gauss-Newton in a model with effects, from a fit in the log's own steps
+SETTLED = 1e-6  # part of the cost that a step must gain for another
 COLOURED = 16  # blocks on which the effect of coloured noise is measured
 
 
@@ -91,46 +94,49 @@ def assess(
     """
     held = set(fixed)
     free = tuple(n for n in model.quantities if n not in held)
+    p = len(free)
+    # The paper's model alone is exact but for turns, and its logs may be long.
+    finer = [Finer.of(b.signals) if model.effects else Finer(b.signals, None) for b in blocks]
     with ThreadPoolExecutor(threads) as pool:
 
         def residuals(at: Values) -> tuple[list[Block], float, ColouredNoise]:
             """The blocks with robust weights, their weighted square, and the noise in them."""
-            found = list(pool.map(lambda b: _residual(model, b, at, robust), blocks))
+            found = list(pool.map(lambda b, f: _residual(model, b, f, at, robust), blocks, finer))
             noise = ColouredNoise.pooled([n for _, _, n in found])
             return [b for b, _, _ in found], sum(s for _, s, _ in found), noise
 
         weighted, before, noise = residuals(values)
         # Colouring is the dearest part, and a share of a long log gives the noise's effect as well.
         every = -(-len(weighted) // COLOURED)
-        parts = list(
-            pool.map(
-                lambda i: _sum_up(
-                    model, weighted[i], values, free, noise if i % every == 0 else None
-                ),
-                range(len(weighted)),
-            )
-        )
-        records = _records(parts)
-        p = len(free)
-        normal = Normal.of(np.sum([r.normal for r in records], axis=0)[:p, :p])
-        inverse = normal.pseudo_inverse()
-        rough = _roughness(parts, inverse)
-        step = inverse @ np.sum([r.score for r in records], axis=0)[:p]
-        moved = dict(values)
-        for name, move in zip(free, step.tolist(), strict=True):
-            q = model.quantities[name]
-            moved[name] = float(np.clip(values[name] + move, q.low, q.high))
-        _, after, noise_after = residuals(moved)
-        if not after <= before:
-            moved, after, noise_after = dict(values), before, noise
+        for _ in range(STEPS if model.effects else 1):
+            colours = [noise if i % every == 0 else None for i in range(len(weighted))]
+            parts = list(
+                pool.map(
+                    lambda b, f, c, at=values: _sum_up(model, b, f, at, free, c),
+                    weighted, finer, colours,
+                )
+            )  # fmt: skip
+            records = _records(parts)
+            normal = Normal.of(np.sum([r.normal for r in records], axis=0)[:p, :p])
+            inverse = normal.pseudo_inverse()
+            step = inverse @ np.sum([r.score for r in records], axis=0)[:p]
+            moved = _moved(model, values, free, step)
+            again, after, noise_after = residuals(moved)
+            if not after <= before:
+                break
+            values, weighted, noise = moved, again, noise_after
+            gained, before = before - after, after
+            if gained <= SETTLED * after:
+                break
+    after = before
     samples = sum(int(np.count_nonzero(b.weight)) for b in blocks)
     return Fit(
         model=model,
-        values=moved,
+        values=dict(values),
         free=free,
-        covariance=covariance(records, inverse, rough),
+        covariance=covariance(records, inverse, _roughness(parts, inverse)),
         rms=float(np.sqrt(after / max(samples - len(free), 1))),
-        noise=noise_after,
+        noise=noise,
         samples=samples,
         evaluations=evaluations,
         converged=converged,
@@ -157,13 +163,21 @@ def estimates(found: Fit, reasons: Mapping[str, str]) -> dict[str, Estimate]:
     return out
 
 
+def _moved(model: Model, values: Values, free: Sequence[str], step: Array) -> dict[str, float]:
+    out = dict(values)
+    for name, move in zip(free, step.tolist(), strict=True):
+        q = model.quantities[name]
+        out[name] = float(np.clip(values[name] + move, q.low, q.high))
+    return out
+
+
 def jacobian(model: Model, signals: Signals, values: Values, free: Sequence[str]) -> Array:
     """(p, n) derivative of the force by every free parameter."""
-    return _linearised(model, signals, values, free)[1]
+    return _linearised(model, Finer(signals, None), values, free)[1]
 
 
 def _linearised(
-    model: Model, signals: Signals, values: Values, free: Sequence[str], *, wide: bool = False
+    model: Model, finer: Finer, values: Values, free: Sequence[str], *, wide: bool = False
 ) -> tuple[Array, Array]:
     """(n,) force and its (p, n) derivative by every free parameter.
 
@@ -171,11 +185,12 @@ def _linearised(
         jumps from sample to sample as the parameter grows (contacts, delays), the slope at a point
         is that of one sample
     """
-    prepared = model.prepare(signals, values)
+    prepared = model.prepare(finer.signals, values)
     # Where the force feeds back on itself no column stands alone.
-    known = zip(model.linear, prepared.columns(), strict=True) if model.separable else ()
+    columns = finer.picked(prepared.columns()) if model.separable else ()
+    known = zip(model.linear, columns, strict=True) if model.separable else ()
     linear = dict(known)
-    force = prepared.force(values)
+    force = finer.picked(prepared.force(values))
     rows = []
     for name in free:
         if name in linear:
@@ -185,20 +200,20 @@ def _linearised(
         if wide and name.split(".")[0] not in DIRECTIONS:
             step = WIDE * max(abs(value), 0.1 * abs(q.start))
             low, high = max(value - step, q.low), min(value + step, q.high)
-            ends = [model.force(signals, {**values, name: v}) for v in (low, high)]
+            ends = [finer.force(model, {**values, name: v}) for v in (low, high)]
             rows.append((ends[1] - ends[0]) / (high - low))
             continue
         step = DIFFERENCE * max(abs(value), 1e-3 * max(abs(q.start), 1e-3))
         step = -step if value + step > q.high else step
-        shifted = model.force(signals, {**values, name: value + step})
+        shifted = finer.force(model, {**values, name: value + step})
         rows.append((shifted - force) / step)
     return force, np.array(rows)
 
 
 def _residual(
-    model: Model, block: Block, values: Values, robust: bool
+    model: Model, block: Block, finer: Finer, values: Values, robust: bool
 ) -> tuple[Block, float, ColouredNoise]:
-    force = model.force(block.signals, values)
+    force = finer.force(model, values)
     residual = block.force - force
     if robust:
         block = block._replace(weight=block.weight * huber_weight(residual, block.weight))
@@ -213,11 +228,12 @@ def _residual(
 def _sum_up(
     model: Model,
     block: Block,
+    finer: Finer,
     values: Values,
     free: Sequence[str],
     noise: ColouredNoise | None,
 ) -> _Sums:
-    force, J = _linearised(model, block.signals, values, free, wide=True)
+    force, J = _linearised(model, finer, values, free, wide=True)
     root, starts = np.sqrt(block.weight), block.signals.starts
     rows = np.concatenate([J, [force, np.ones_like(force)]]) * root
     residual = (block.force - force) * root
