@@ -26,7 +26,8 @@ from erdctl.diagnose.residual.localisation import Region, locate, record_region
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
 from erdctl.diagnose.search import Selection, refit, search
-from erdctl.estimate.covariance import Fit, assess
+from erdctl.estimate.covariance import Fit
+from erdctl.estimate.last_step import assess
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
 from erdctl.model.simulate import simulate

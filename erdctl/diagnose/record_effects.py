@@ -20,7 +20,7 @@ from erdctl.core.blocks import Block
 from erdctl.core.recording import Array, Index
 from erdctl.diagnose import thresholds
 from erdctl.estimate.autoregressive import ColouredNoise
-from erdctl.estimate.covariance import jacobian
+from erdctl.estimate.linearisation import jacobian
 from erdctl.estimate.normal_equations import SINGULAR, Normal
 from erdctl.model.composed import Model
 from erdctl.model.slots import Values
