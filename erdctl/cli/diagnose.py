@@ -248,7 +248,7 @@ def _show(found: Diagnosis) -> None:
         say(f"{said}: {finding_text(finding)}", effect.name)
         for q in effect.quantities:
             e = own[q.symbol]
-            said = estimate(e.value, e.unit, e.stderr, at_bound=e.at_bound)
+            said = estimate(e.value, e.unit, e.stderr, at_bound=e.at_bound, within=e.within)
             say(f"  {q.symbol} = {said}  ({q.title})", effect.name)
     if found.findings:
         for line in corrected_equation([f.effect for f in found.findings]):

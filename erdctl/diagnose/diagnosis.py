@@ -239,8 +239,9 @@ def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEff
     model = hypothesis.model
     block, record_effects = hypothesis.problem.block, hypothesis.record_effects
     shared = block if record_effects is None else record_effects.shared(block)
-    fixed = set(model.quantities).difference(hypothesis.free)
-    fit = assess(model, [shared], hypothesis.values, fixed=fixed, threads=1)
+    held = set(problem.held)
+    bounded = set(model.quantities).difference(hypothesis.free, held)
+    fit = assess(model, [shared], hypothesis.values, fixed=held, bounded=sorted(bounded), threads=1)
     if record_effects is None:
         return fit, None
     covariance, record_effects = errors(

@@ -57,7 +57,7 @@ def estimates(found: Fit, reasons: Mapping[str, str]) -> dict[str, Estimate]:
     errors, out = found.stderr, {}
     for name, q in found.model.quantities.items():
         value, reason, error = found.values[name], reasons.get(name), errors.get(name)
-        bound = q.bound_at(value, error) if name in errors else None
+        bound = q.bound_at(value, error) if name in errors or name in found.intervals else None
         within = found.intervals.get(name)
         if reason is not None:
             out[name] = Estimate(value=None, unit=q.unit, assumed=value, reason=reason)

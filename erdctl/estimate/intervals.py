@@ -22,11 +22,15 @@ GUESS = 1e-3  # of a value or a start, where there is no error to begin with
 
 
 def with_intervals(
-    found: Fit, blocks: Sequence[Block], finer: Sequence[Finer], plain: Array
+    found: Fit,
+    blocks: Sequence[Block],
+    finer: Sequence[Finer],
+    plain: Array,
+    bounded: Sequence[str] = (),
 ) -> Fit:
     """The fit with intervals of effects' parameters that the cost is no parabola of.
 
-    plain : (p,) variances that a unit of smooth noise would make, for what it counts in each.
+    bounded : parameters at a bound, which are not free;  plain : (p,) variances that a unit of smooth noise would make, for what it counts in each.
     Where a profile finds a better value, the fit has it.
     """
     model, free = found.model, found.free
@@ -35,7 +39,7 @@ def with_intervals(
         if n.split(".")[0] not in DIRECTIONS and n not in model.linear
         and not any(n in group and group != (n,) for group in found.flat)
     ]  # fmt: skip
-    if not asked or sum(len(b.force) for b in blocks) > LONGEST:
+    if not (asked or bounded) or sum(len(b.force) for b in blocks) > LONGEST:
         return found
     root = np.sqrt(np.concatenate([b.weight for b in blocks]))
     measured = np.concatenate([b.force for b in blocks])
@@ -44,17 +48,19 @@ def with_intervals(
     limit = farthest(measured - _force(found, finer, values), root, measured)
     robust = np.diag(found.covariance)
     usual = _noise(robust, plain)
-    for name in asked:
-        i, q = free.index(name), model.quantities[name]
-        rest, own = others(rows, free, name), _noise(robust[i : i + 1], plain[i : i + 1])
+    for name in [*asked, *bounded]:
+        q, at = model.quantities[name], [i for i, n in enumerate(free) if n == name]
+        rest, own = others(rows, free, name), _noise(robust[at], plain[at])
         phi = max(own, usual) if np.isfinite(own) else usual
         if not np.isfinite(phi):
             continue
         cost = _cost(found, finer, values, name, rest, measured, root, limit, phi)
-        error = float(np.sqrt(max(robust[i], 0.0)))
+        error = float(np.sqrt(max(robust[at[0]], 0.0))) if at else 0.0
         if parabolic(cost, q, values[name], error):
             continue
-        size = error if error > 0.0 and np.isfinite(error) else GUESS * max(abs(values[name]), q.start)
+        size = (
+            error if error > 0.0 and np.isfinite(error) else GUESS * max(abs(values[name]), q.start)
+        )
         best, low, high = interval(cost, q, values[name], NORMAL_95 * size)
         intervals[name] = (low, high)
         if best != values[name]:

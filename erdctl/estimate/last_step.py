@@ -30,12 +30,16 @@ def assess(
     values: Values,
     *,
     fixed: Iterable[str] = (),
+    bounded: Iterable[str] = (),
     evaluations: int = 0,
     converged: bool = True,
     robust: bool = False,
     threads: int = 2,
 ) -> Fit:
     """One Gauss-Newton step over all data from a good start, then errors of the estimates.
+
+    fixed : parameters that keep their value;  bounded : the same, as they lie at a bound, so that
+        one side is left to say something of
 
     The start may come from a part of the data: one step from there is as good as the full search
     to the order of the standard errors (one-step estimator, Le Cam). The covariance is the
@@ -44,7 +48,8 @@ def assess(
     correlated nor uneven residuals make errors look small; to it comes what scatters from record to
     record (`erdctl.estimate.record_scatter`).
     """
-    held = set(fixed)
+    ends = tuple(bounded)
+    held = {*fixed, *ends}
     free = tuple(n for n in model.quantities if n not in held)
     p, has_effects = len(free), bool(model.effects)
     # The paper's model alone is exact but for turns, and its logs may be long.
@@ -100,7 +105,11 @@ def assess(
         converged=converged,
         flat=_flat(normal, free),
     )
-    return with_intervals(found, blocks, finer, np.diag(inverse) * rough**2) if has_effects else found
+    return (
+        with_intervals(found, blocks, finer, np.diag(inverse) * rough**2, ends)
+        if has_effects
+        else found
+    )
 
 
 def _moved(model: Model, values: Values, free: Sequence[str], step: Array) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""Noise that is not everywhere the same: how large it is, by the size of the force and by record."""
+"""Noise that is not everywhere the same: its size by that of the force, and by record."""
 
 from __future__ import annotations
 

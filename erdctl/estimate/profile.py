@@ -50,7 +50,7 @@ class Linear:
 
 
 def parabolic(cost: Callable[[float], float], q: Quantity, value: float, error: float) -> bool:
-    """Whether the cost, over phi, rises as a parabola does at one to three errors to either side."""
+    """Whether the cost, over phi, is a parabola up to three errors to either side."""
     if not (np.isfinite(error) and error > 0.0):
         return False
     least = cost(value)
@@ -100,7 +100,11 @@ def interval(
 
 
 def _outwards(
-    cost: Callable[[float], float], q: Quantity, value: float, step: float, known: dict[float, float]
+    cost: Callable[[float], float],
+    q: Quantity,
+    value: float,
+    step: float,
+    known: dict[float, float],
 ) -> float:
     """Look at values farther and farther to one side; the last one, a bound if nothing ends it."""
     reach, passed = 0.05 * step, 0

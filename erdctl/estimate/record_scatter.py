@@ -56,22 +56,24 @@ def covariance(records: Sequence[RecordSums], inverse: Array, rough: Array) -> A
     # What a unit of gain or zero in each record moves the parameters by: (p, 2, r).
     moved = np.stack([inverse @ r.normal[:p, p:] for r in records], axis=-1)
     chosen = np.unique(np.linspace(0, len(records) - 1, min(len(records), MOST)).astype(int))
-    variance, uncertain = _variances([records[i] for i in chosen], moved[:, :, chosen], meat, inverse)
+    variance, uncertain = _variances(
+        [records[i] for i in chosen], moved[:, :, chosen], meat, inverse
+    )
     between = np.einsum("pkr,qkr->kpq", moved, moved)
     total = within + np.einsum("k,kpq->pq", variance, between)
     parts = np.einsum("kpp->pk", between)
     doubt = np.einsum("pk,kl,pl->p", parts, uncertain, parts)
-    return total * _stretch(np.diag(total), doubt)
+    return np.asarray(total * _stretch(np.diag(total), doubt))
 
 
 def _stretch(variance: Array, doubt: Array) -> Array:
-    """(p, p) factors of a covariance whose variances (p,) are themselves uncertain by doubt (p,)."""
+    """(p, p) factors of a covariance whose variances (p,) have a variance (p,) too."""
     from scipy.stats import t
 
     known = (doubt > 0.0) & (variance > 0.0)
     freedom = np.where(known, 2.0 * variance**2 / np.where(known, doubt, 1.0), np.inf)
     factor = np.where(known, t.ppf(0.975, np.maximum(freedom, 1.0)) / NORMAL_95, 1.0)
-    return np.outer(factor, factor)
+    return np.asarray(np.outer(factor, factor))
 
 
 def _variances(
@@ -121,8 +123,8 @@ def _variances(
     found = minimize(cost, start, method="Nelder-Mead", bounds=[(low, high)] * KINDS)
     variance = unit * np.exp(2.0 * np.asarray(found.x))
     seen = variance > NOTHING * unit
-    here = np.linalg.inv(noise + np.einsum("k,kij->ij", variance, spread))
-    weighed = np.stack([here @ s for s in spread])
+    certain = np.linalg.inv(noise + np.einsum("k,kij->ij", variance, spread))
+    weighed = np.stack([certain @ s for s in spread])
     information = 0.5 * np.einsum("kij,lji->kl", weighed, weighed)
     uncertain = np.zeros((KINDS, KINDS))
     uncertain[np.ix_(seen, seen)] = np.linalg.pinv(information[np.ix_(seen, seen)], hermitian=True)

@@ -19,6 +19,7 @@ from erdctl.estimate.record_scatter import RecordSums
 from erdctl.model.composed import Model
 from erdctl.model.slots import Values
 
+
 @dataclass(frozen=True, eq=False)
 class Sums:
     """What one block contributes, by number of record; the meat only where it was asked for."""
@@ -77,7 +78,10 @@ def sum_up(
 
 def by_record(parts: Sequence[Sums]) -> list[RecordSums]:
     """The sums of each record; where no meat was made, as large as elsewhere for its normal."""
-    normal, score, meat, seen = {}, {}, {}, {}
+    normal: dict[int, Array] = {}
+    score: dict[int, Array] = {}
+    meat: dict[int, Array] = {}
+    seen: dict[int, Array] = {}
     for part in parts:
         for r, matrix in part.normal.items():
             normal[r] = normal.get(r, 0.0) + matrix
@@ -100,8 +104,8 @@ def roughness(parts: Sequence[Sums], inverse: Array) -> Array:
     no part of a smooth size of the noise, but stands in the products of rows and innovations
     themselves (White 1980). They scatter more, and decide only where they say more.
     """
-    p, found = len(inverse), [part for part in parts if part.rough is not None]
+    p, found = len(inverse), [part for part in parts if part.meat]
     smooth = np.sum([m[:p, :p] for part in found for m in part.meat.values()], axis=0)
-    uneven = np.sum([part.rough for part in found], axis=0)
+    uneven = np.sum([part.rough for part in found if part.rough is not None], axis=0)
     a, b = (np.diag(inverse @ m @ inverse) for m in (uneven, smooth))
     return np.sqrt(np.maximum(a / np.where(b > 0.0, b, np.inf), 1.0))

@@ -75,7 +75,8 @@ def _finding(f: Finding, corrected: Parameters) -> dict[str, Any]:
     def value(symbol: str) -> dict[str, Any]:
         e = corrected.estimates[f.effect.key(symbol)]
         bound = {"at_bound": True} if e.at_bound else {}
-        return {"value": e.value, "unit": e.unit, "stderr": e.stderr, **bound}
+        ends = {"interval": list(e.within)} if e.within else {}
+        return {"value": e.value, "unit": e.unit, "stderr": e.stderr, **bound, **ends}
 
     out: dict[str, Any] = {
         "effect": f.effect.name,

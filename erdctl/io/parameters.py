@@ -23,7 +23,7 @@ class Value(msgspec.Struct, omit_defaults=True):
 
     A parameter that the data do not identify has value null, the `reason`, and in `assumed` what a
     simulation uses in its place. One that a fit pressed against its bound has `at_bound` and no
-    standard error.
+    standard error. `interval` is the 95 % one where it is not value +- 1.96 stderr.
     """
 
     value: float | None
@@ -33,6 +33,7 @@ class Value(msgspec.Struct, omit_defaults=True):
     assumed: float | None = None
     reason: str | None = None
     at_bound: bool = False
+    interval: tuple[float, float] | None = None
 
 
 class Direction(msgspec.Struct):
@@ -147,6 +148,9 @@ def _estimate(given: Value | float, quantity: Quantity, full: str, name: str) ->
     for what, number in (("", value), ("the standard error of ", stderr), ("assumed ", assumed)):
         if number is not None and not math.isfinite(number):
             raise InputProblem(f"{what}{full} is not a finite number", file=name)
+    ends = given.interval
+    if ends is not None and not (math.isfinite(ends[0]) and ends[0] <= ends[1] < math.inf):
+        raise InputProblem(f"the interval of {full} is no pair of rising numbers", file=name)
     used = assumed if value is None else value
     if used is not None and not quantity.admits(used):
         raise InputProblem(
@@ -156,6 +160,7 @@ def _estimate(given: Value | float, quantity: Quantity, full: str, name: str) ->
     return Estimate(
         value=value, unit=quantity.unit, stderr=stderr, assumed=assumed, reason=given.reason,
         at_bound=given.at_bound,
+        within=None if ends is None else (ends[0] * factor, ends[1] * factor),
     )  # fmt: skip
 
 
@@ -172,6 +177,7 @@ def to_document(parameters: Parameters) -> ParameterFile:
             assumed=e.assumed,
             reason=e.reason,
             at_bound=e.at_bound,
+            interval=e.within,
         )
 
     directions = {

@@ -19,12 +19,16 @@ from erdctl.io.rig import RigFaultDocument
 
 
 class Measured(TypedDict):
-    """An estimate with its standard error, which is null where there is none, as at a bound."""
+    """An estimate with its standard error, which is null where there is none, as at a bound.
+
+    interval : 95 %, where it is not value +- 1.96 stderr: one-sided at a bound, or skew
+    """
 
     value: float | None
     unit: str
     stderr: float | None
     at_bound: NotRequired[bool]
+    interval: NotRequired[tuple[float, float]]
 
 
 class IntervalDocument(TypedDict):

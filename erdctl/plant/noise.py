@@ -132,9 +132,7 @@ def draw_gains(random: Random, count: int, scatter: float) -> tuple[float, ...]:
 DISTURBANCES = ("white", "ar1", "growing", "scatter")
 
 
-def disturbed(
-    random: Random, force: Array, lengths: Sequence[int], rms: float, kind: str
-) -> Array:
+def disturbed(random: Random, force: Array, lengths: Sequence[int], rms: float, kind: str) -> Array:
     """(n,) a clean force [N] as a rig records it.
 
     kind : "white" noise of rms [N]; "ar1", the same with a memory; "growing", white from half of

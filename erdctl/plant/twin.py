@@ -43,7 +43,7 @@ class Twin:
     part : of the force ("gas", "viscous", "yielding" or "") without which it cannot be seen
     low, start, high : strengths between which the wanted level is sought; low is all but nothing
     build : plant, s, drawn shape, scales -> plant
-    law : a plant with the effect -> the nearest whose law is the one that is usually fitted, and its
+    law : a plant with the effect -> the nearest whose law is the one usually fitted, and its
         parameters by the field's symbols ("compression.T_d" for one of the paper's that the law
         changes); None where this twin's law is always another
     shows : fields of the plant that state its parameters, and their SI units: "physics.gap",

@@ -7,7 +7,7 @@ what the plant was given.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,9 +24,9 @@ from erdctl.plant.base import draw_base
 from erdctl.plant.campaign import draw_short
 from erdctl.plant.noise import DISTURBANCES, disturbed
 from erdctl.plant.plant import Plant
+from erdctl.plant.refit import joined
 from erdctl.plant.simulate import Ride, forces, rides
 from erdctl.plant.strength import scales_of
-from erdctl.plant.refit import joined
 from erdctl.plant.twins import every
 
 FRACTIONS = (0.003, 0.01)  # rms of the noise over the range of the force
@@ -52,6 +52,7 @@ class Held:
 
 def draw(effect: str, kind: str, seed: int) -> list[Held]:
     """Parameters of one draw; `effect` is "" for the paper's model alone."""
+    own: dict[str, float] = {}
     random = np.random.default_rng([seed, DISTURBANCES.index(kind), *effect.encode()])
     campaign = draw_short(random)
     over = rides(campaign)
@@ -64,6 +65,8 @@ def draw(effect: str, kind: str, seed: int) -> list[Held]:
         low, high = max(twin.low, 0.3 * twin.start), min(twin.high, 2.0 * twin.start)
         strength = float(np.exp(random.uniform(np.log(low), np.log(high))))
         plant = twin.build(plant, strength, twin.drawn(random), scales)
+        if twin.law is None:
+            raise ValueError(f"{effect}: the plant has another law than is fitted, so no truth")
         plant, own = twin.law(plant)
         clean = forces(plant, over)
     lengths = [r.record.samples for r in over]
