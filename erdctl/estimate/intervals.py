@@ -30,7 +30,8 @@ def with_intervals(
 ) -> Fit:
     """The fit with intervals of effects' parameters that the cost is no parabola of.
 
-    bounded : parameters at a bound, which are not free;  plain : (p,) variances that a unit of smooth noise would make, for what it counts in each.
+    plain : (p,) variances that noise of unit variance would make, for where each is told from
+    bounded : parameters at a bound, which are not free
     Where a profile finds a better value, the fit has it.
     """
     model, free = found.model, found.free
