@@ -50,7 +50,7 @@ def covariance(records: Sequence[RecordSums], inverse: Array, rough: Array) -> A
     """
     p = len(inverse)
     meat = np.sum([r.meat for r in records], axis=0)[:p, :p]
-    within = inverse @ meat @ inverse * np.outer(rough, rough)
+    within = np.asarray(inverse @ meat @ inverse * np.outer(rough, rough))
     if len(records) < 2:
         return within
     # What a unit of gain or zero in each record moves the parameters by: (p, 2, r).
