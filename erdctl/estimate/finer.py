@@ -20,14 +20,20 @@ from erdctl.model.slots import Values
 
 FINE = 0.5e-3  # s
 MOST_PARTS = 10  # of a step
-MOST_SAMPLES = 600_000  # of the finer signals, beyond which memory and time speak against it
+MOST_SAMPLES = 300_000  # of the finer signals, beyond which memory and time speak against it
 
 
 class Finer(NamedTuple):
-    """Finer signals, and the places of the log's samples in them; None for all of them."""
+    """Finer signals of a log, and the places of its samples in them; None for all of them."""
 
+    log: Signals
     signals: Signals
     rows: Index | None
+
+    @classmethod
+    def none(cls, signals: Signals) -> Finer:
+        """The log's own steps."""
+        return cls(signals, signals, None)
 
     @classmethod
     def of(cls, signals: Signals) -> Finer:
@@ -41,7 +47,7 @@ class Finer(NamedTuple):
         parts = int(np.ceil(s.typical_step / FINE)) if s.typical_step > 0.0 else 1
         parts = min(parts, MOST_PARTS, MOST_SAMPLES // max(len(s), 1))
         if parts < 2:
-            return cls(s, None)
+            return cls.none(s)
         channels: list[tuple[Array, ...]] = []
         for a, b in pairwise(s.starts.tolist()):
             channels.append(_record(s, a, b, parts))
@@ -51,7 +57,7 @@ class Finer(NamedTuple):
         starts = np.concatenate([[0], np.cumsum(finer)]).astype(np.intp)
         within = np.arange(len(s)) - np.repeat(s.starts[:-1], lengths)
         rows = np.repeat(starts[:-1], lengths) + within * parts
-        return cls(Signals(t, x, xdot, duty, step, starts), rows)
+        return cls(s, Signals(t, x, xdot, duty, step, starts), rows)
 
     def force(self, model: Model, values: Values) -> Array:
         """(n,) force at the log's samples [N]."""

@@ -15,7 +15,7 @@ from erdctl.estimate.linearisation import linearised
 from erdctl.estimate.profile import Linear, interval, others, parabolic
 from erdctl.model.parameters import NORMAL_95
 
-LONGEST = 200_000  # samples; a longer log has its derivatives at many jumps, and no memory for this
+LONGEST = 60_000  # samples; a longer log has its derivatives at many jumps, and no memory for this
 OUTLYING = 2.0  # standard deviations of the noise: no single sample rises beyond 1.96^2
 ROUNDING = 1e-4  # of the force, below which nothing is told apart
 GUESS = 1e-3  # of a value or a start, where there is no error to begin with

@@ -19,8 +19,8 @@ from erdctl.estimate.sandwich import by_record, roughness, sum_up, weighed
 from erdctl.model.composed import Model
 from erdctl.model.slots import Values
 
-STEPS = 4  # of Gauss-Newton in a model with effects, from a fit in the log's own steps
-SETTLED = 1e-6  # part of the cost that a step must gain for another
+STEPS = 3  # of Gauss-Newton in a model with effects, from a fit in the log's own steps
+SETTLED = 1e-5  # part of the cost that a step must gain for another
 COLOURED = 16  # blocks on which the effect of coloured noise is measured
 
 
@@ -53,7 +53,7 @@ def assess(
     free = tuple(n for n in model.quantities if n not in held)
     p, has_effects = len(free), bool(model.effects)
     # The paper's model alone is exact but for turns, and its logs may be long.
-    finer = [Finer.of(b.signals) if has_effects else Finer(b.signals, None) for b in blocks]
+    finer = [Finer.of(b.signals) if has_effects else Finer.none(b.signals) for b in blocks]
     with ThreadPoolExecutor(threads) as pool:
 
         def residuals(at: Values) -> tuple[list[Block], float, ColouredNoise]:

@@ -18,7 +18,7 @@ WIDE = 1e-3  # relative step to either side of a parameter that the force may ju
 
 def jacobian(model: Model, signals: Signals, values: Values, free: Sequence[str]) -> Array:
     """(p, n) derivative of the force by every free parameter."""
-    return linearised(model, Finer(signals, None), values, free)[1]
+    return linearised(model, Finer.none(signals), values, free)[1]
 
 
 def linearised(
@@ -30,12 +30,12 @@ def linearised(
         jumps from sample to sample as the parameter grows (contacts, delays), the slope at a point
         is that of one sample
     """
-    prepared = model.prepare(finer.signals, values)
+    # Slopes change little between a simulation in the log's steps and one between them.
+    prepared = model.prepare(finer.log, values)
     # Where the force feeds back on itself no column stands alone.
-    columns = finer.picked(prepared.columns()) if model.separable else ()
-    known = zip(model.linear, columns, strict=True) if model.separable else ()
+    known = zip(model.linear, prepared.columns(), strict=True) if model.separable else ()
     linear = dict(known)
-    force = finer.picked(prepared.force(values))
+    force = prepared.force(values)
     rows = []
     for name in free:
         if name in linear:
@@ -50,6 +50,6 @@ def linearised(
             continue
         step = DIFFERENCE * max(abs(value), 1e-3 * max(abs(q.start), 1e-3))
         step = -step if value + step > q.high else step
-        shifted = finer.force(model, {**values, name: value + step})
+        shifted = model.force(finer.log, {**values, name: value + step})
         rows.append((shifted - force) / step)
-    return force, np.array(rows)
+    return force if finer.rows is None else finer.force(model, values), np.array(rows)

@@ -26,7 +26,7 @@ from erdctl.model.parameters import NORMAL_95
 LIKE = (0.5, 2.0)  # of the rise that a parabola has at a few errors, to count as one
 BEYOND = 4.0  # times the rise that ends an interval: no more is looked for
 FARTHEST = 26  # doublings by a half from a twentieth of an error
-AROUND, POINTS = 0.01, 49  # part of a value to either side, evenly looked at
+AROUND, POINTS = 0.01, 33  # part of a value to either side, evenly looked at
 HALVINGS = 7  # of what lies between a value inside and one outside
 
 
