@@ -25,7 +25,8 @@ from erdctl.model.parameters import NORMAL_95
 KINDS = 2  # of columns that scatter: the model's force and one
 MOST = 120  # records that the variances are estimated from, evenly chosen
 DETERMINED = 1e-6  # relative eigenvalue below which the parameters leave nothing of a scatter
-LEAST, LARGEST = 1e-3, 1e4  # standard deviations that are looked at, over their error by noise
+LEAST = 1e-3  # standard deviation that is looked at, over its error by noise
+ROUNDED = 1e-6  # relative eigenvalue of the noise in these sums below which it is rounding
 NOTHING = 1e-2  # variance, over that by noise, that is none
 
 
@@ -102,7 +103,10 @@ def _variances(
     w, v = np.linalg.eigh(left / np.outer(scale, scale))
     v = (v / scale[:, None])[:, w > DETERMINED * w[-1]]
     q, noise = v.T @ q, v.T @ noise @ v
-    noise += 1e-12 * np.trace(noise) / max(len(noise), 1) * np.eye(len(noise))
+    size = np.sqrt(np.maximum(np.diag(noise), 1e-12 * np.trace(noise) / max(len(noise), 1)))
+    e, u = np.linalg.eigh(noise / np.outer(size, size))
+    u = u * size[:, None]
+    noise = (u * np.maximum(e, ROUNDED * e[-1])) @ u.T
     shares = [v.T @ left[:, k * count : (k + 1) * count] for k in range(KINDS)]
     spread = np.stack([s @ s.T for s in shares])
     # A standard deviation of a record's value by noise alone is the unit of the search.
@@ -117,10 +121,12 @@ def _variances(
         z = np.linalg.solve(root, q)
         return float(2.0 * np.log(np.diag(root)).sum() + z @ z)
 
-    low, high = np.log(LEAST), np.log(LARGEST)
-    grid = np.linspace(low, high, 9)
-    start = min(((a, b) for a in grid for b in grid), key=lambda u: cost(np.array(u)))
-    found = minimize(cost, start, method="Nelder-Mead", bounds=[(low, high)] * KINDS)
+    # No more than would alone make ten times what was found.
+    most = 10.0 * float(q @ q) / np.array([max(np.trace(s), 1e-300) for s in spread]) / unit
+    low, highs = np.log(LEAST), np.maximum(0.5 * np.log(np.maximum(most, 1.0)), 1.0)
+    grids = [np.linspace(low, high, 9) for high in highs]
+    start = min(((a, b) for a in grids[0] for b in grids[1]), key=lambda u: cost(np.array(u)))
+    found = minimize(cost, start, method="Nelder-Mead", bounds=[(low, h) for h in highs])
     variance = unit * np.exp(2.0 * np.asarray(found.x))
     seen = variance > NOTHING * unit
     certain = np.linalg.inv(noise + np.einsum("k,kij->ij", variance, spread))
