@@ -18,11 +18,15 @@ LONGEST = 50_000  # samples in one piece: its columns fit into a processor's cac
 
 
 class Block(NamedTuple):
-    """A stretch of data: signals, measured force (n,) [N] and weight of each sample (n,) >= 0."""
+    """A stretch of data: signals, measured force (n,) [N] and weight of each sample (n,) >= 0.
+
+    first : number of its first record, so that pieces of one record are known to be
+    """
 
     signals: Signals
     force: Array
     weight: Array
+    first: int = 0
 
 
 def whole(recording: Recording) -> Block:
@@ -69,8 +73,11 @@ def pieces(recording: Recording, longest: int = LONGEST) -> list[Block]:
     without weight in which its state settles.
     """
     out: list[Block] = []
+    first = 0
     for run in neighbours(recording, longest):
-        out += _cut(run, longest) if len(run) > longest else [whole(run)]
+        blocks = _cut(run, longest) if len(run) > longest else [whole(run)]
+        out += [block._replace(first=first) for block in blocks]
+        first += len(run.names)
     return out
 
 

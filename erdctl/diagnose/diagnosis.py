@@ -29,7 +29,8 @@ from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
 from erdctl.diagnose.search import Selection, refit, search
 from erdctl.diagnose.thin import thinned
-from erdctl.estimate.covariance import Fit, assess
+from erdctl.estimate.covariance import Fit
+from erdctl.estimate.last_step import assess
 from erdctl.estimate.onsets import onset_intervals, placed
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
@@ -165,7 +166,7 @@ def diagnose(
         mismatch += locate(best.problem, energy)[: thresholds.REGIONS - len(mismatch)]
         mismatch += [alone] if alone else []
     refitted = _validate(problem, selection.base)
-    fit, record_effects = _errors(problem, best)
+    fit, record_effects = fit_errors(problem, best)
     undetected = _undetected(thin, searched.best, selection.best, candidates, missing, progress)
     return Diagnosis(
         verdict=verdict,
@@ -281,15 +282,20 @@ def _findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
     return tuple(sorted(found, key=lambda f: -f.gain.gain))
 
 
-def _errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEffects | None]:
+def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEffects | None]:
+    """The last step on all samples and the errors of a hypothesis, and of its record effects."""
     model = hypothesis.model
     block, record_effects = hypothesis.problem.block, hypothesis.record_effects
     shared = block if record_effects is None else record_effects.shared(block)
-    fixed = set(model.quantities).difference(hypothesis.free) | set(placed(model))
-    fit = assess(model, [shared], hypothesis.values, fixed=fixed, threads=1)
-    fit = replace(
-        fit, intervals=onset_intervals(model, shared, fit.values, hypothesis.problem.held)
+    held, onsets = set(problem.held), set(placed(model))
+    bounded = set(model.quantities).difference(hypothesis.free, held, onsets)
+    fit = assess(
+        model, [shared], hypothesis.values, fixed=held | onsets, bounded=sorted(bounded), threads=1
     )
+    if onsets:
+        # Found by a search of all times: no curvature says how well.
+        found = onset_intervals(model, shared, fit.values, hypothesis.problem.held)
+        fit = replace(fit, intervals={**fit.intervals, **found})
     if record_effects is None:
         return fit, None
     covariance, record_effects = errors(

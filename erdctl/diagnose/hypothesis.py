@@ -11,8 +11,8 @@ from erdctl.core.recording import Array
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem, mask_doubtful
 from erdctl.diagnose.record_effects import RecordEffects, estimate
-from erdctl.estimate.covariance import jacobian
 from erdctl.estimate.least_squares import Fitted, at_bound, fit
+from erdctl.estimate.linearisation import jacobian
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 

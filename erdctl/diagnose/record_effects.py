@@ -20,7 +20,7 @@ from erdctl.core.blocks import Block
 from erdctl.core.recording import Array, Index
 from erdctl.diagnose import thresholds
 from erdctl.estimate.autoregressive import ColouredNoise
-from erdctl.estimate.covariance import jacobian
+from erdctl.estimate.linearisation import jacobian
 from erdctl.estimate.normal_equations import SINGULAR, Normal
 from erdctl.model.composed import Model
 from erdctl.model.slots import Values
@@ -87,10 +87,10 @@ def estimate(free: Varying, block: Block, modelled: Array, last: RecordEffects) 
     weight, starts = block.weight, block.signals.starts
     gain, offset = last.along(starts)
     rest = (block.force - offset - gain * modelled) * np.sqrt(weight)
-    noise = ColouredNoise.of(rest, starts)
+    noise = ColouredNoise.of(rest, starts, used=weight > 0.0)
     rows = np.array([modelled, np.ones_like(modelled)])[[free.gain, free.offset]]
     weighted = rows * weight
-    coloured = noise.colour(weighted, starts)
+    coloured = noise.colour(weighted, starts) * np.sqrt(noise.innovation)
     target = block.force - np.where(free.gain, 0.0, modelled)
     normal = _per_record(weighted[:, None] * rows[None], starts)
     right = _per_record(weighted * target, starts)
@@ -177,7 +177,7 @@ def errors(
     J = jacobian(model, block.signals, values, names) * gain
     own = np.array([modelled, np.ones_like(modelled)])[[free.gain, free.offset]]
     rest = (block.force - offset - gain * modelled) * np.sqrt(weight)
-    noise = ColouredNoise.of(rest, starts)
+    noise = ColouredNoise.of(rest, starts, used=weight > 0.0)
     many = p + len(own) * records
 
     def bordered(a: Array, b: Array) -> Array:
@@ -198,7 +198,7 @@ def errors(
     rows = np.concatenate([J, own])
     root = rows * np.sqrt(weight)
     normal = bordered(root, root)
-    coloured = noise.colour(rows * weight, starts)
+    coloured = noise.colour(rows * weight, starts) * np.sqrt(noise.innovation)
     meat = bordered(coloured, coloured)
     kept = [found.gain_error, found.offset_error]
     fixed = np.concatenate(

@@ -18,7 +18,7 @@ from erdctl.core.recording import Array
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
-from erdctl.estimate.covariance import jacobian
+from erdctl.estimate.linearisation import jacobian
 from erdctl.estimate.onsets import profile
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect

@@ -7,45 +7,57 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+import numpy.typing as npt
 
 from erdctl.core.recording import Array, Index
+
+Flags = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
 class ColouredNoise:
     """An autoregressive model of a residual: r[i] = sum a[k] r[i-k] + e[i], e white.
 
-    autocovariance : (m + 1,) sums over the samples of r[i] r[i+k], from which it is made
+    autocovariance : (m + 1,) sums of r[i] r[i+k], from which it is made
+    pairs : (m + 1,) how many samples are in each sum
     """
 
     autocovariance: Array
-    samples: int
+    pairs: Array
     coefficients: Array
     innovation: float
 
     @classmethod
-    def of(cls, residual: Array, starts: Index, max_order: int = 24) -> ColouredNoise:
-        """Model of a residual (n,) [N] of several records (offsets `starts`)."""
-        sums = np.zeros(max_order + 1)
+    def of(
+        cls, residual: Array, starts: Index, max_order: int = 24, used: Flags | None = None
+    ) -> ColouredNoise:
+        """Model of a residual (n,) [N] of several records (offsets `starts`).
+
+        used : (n,) samples that count; the residual is 0 elsewhere
+        """
+        sums, pairs = np.zeros((2, max_order + 1))
+        counts = np.ones(len(residual)) if used is None else used.astype(np.float64)
         for a, b in pairwise(starts.tolist()):
-            r = residual[a:b]
+            r, c = residual[a:b], counts[a:b]
+            gaps = used is not None and not c.all()
             for k in range(min(max_order + 1, len(r))):
                 sums[k] += np.dot(r[: len(r) - k], r[k:])
-        return cls._solve(sums, int(starts[-1]))
+                pairs[k] += np.dot(c[: len(c) - k], c[k:]) if gaps else len(r) - k
+        return cls._solve(sums, pairs)
 
     @classmethod
     def pooled(cls, parts: Sequence[ColouredNoise]) -> ColouredNoise:
         """One model of several residuals."""
         total = np.sum([p.autocovariance for p in parts], axis=0)
-        return cls._solve(total, sum(p.samples for p in parts))
+        return cls._solve(total, np.sum([p.pairs for p in parts], axis=0))
 
     @classmethod
-    def _solve(cls, sums: Array, samples: int) -> ColouredNoise:
+    def _solve(cls, sums: Array, pairs: Array) -> ColouredNoise:
         """Levinson-Durbin recursion, the order by Akaike's criterion."""
-        gamma = sums / max(samples, 1)
+        gamma, samples = sums / np.maximum(pairs, 1.0), float(pairs[0])
         best = (np.empty(0), float(gamma[0]))
         if gamma[0] <= 0.0:
-            return cls(sums, samples, best[0], 0.0)
+            return cls(sums, pairs, best[0], 0.0)
         a, error = np.empty(0), float(gamma[0])
         best_cost = samples * np.log(error)
         for order in range(1, len(gamma)):
@@ -57,17 +69,31 @@ class ColouredNoise:
             cost = samples * np.log(error) + 2.0 * order
             if cost < best_cost:
                 best, best_cost = (a, error), cost
-        return cls(sums, samples, *best)
+        return cls(sums, pairs, *best)
+
+    def innovations(self, residual: Array, starts: Index) -> Array:
+        """(n,) what is new in each sample of a residual (n,): e of the model."""
+        if self.coefficients.size == 0:
+            return residual
+        from scipy.signal import lfilter
+
+        whitening = np.concatenate([[1.0], -self.coefficients])
+        parts = [lfilter(whitening, [1.0], residual[a:b]) for a, b in pairwise(starts.tolist())]
+        return np.asarray(np.concatenate(parts))
 
     def colour(self, rows: Array, starts: Index) -> Array:
-        """Rows (p, n) filtered so that their products are J' C J, C the noise's covariance."""
+        """Rows (p, n) filtered so that J' C J is their product once each sample is multiplied by
+        the standard deviation of its innovation, C the noise's covariance.
+
+        C = H D H' with the causal filter H and D of these squares; H' runs backwards in time.
+        """
         if self.coefficients.size == 0:
-            return rows * float(np.sqrt(self.innovation))
+            return np.array(rows)
         from scipy.signal import lfilter
 
         denominator = np.concatenate([[1.0], -self.coefficients])
         parts = [
-            lfilter([np.sqrt(self.innovation)], denominator, rows[:, a:b], axis=1)
+            lfilter([1.0], denominator, rows[:, a:b][:, ::-1], axis=1)[:, ::-1]
             for a, b in pairwise(starts.tolist())
         ]
         return np.asarray(np.concatenate(parts, axis=1))

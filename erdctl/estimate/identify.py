@@ -12,7 +12,8 @@ from erdctl.core.blocks import Block, pieces, sample
 from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import DIRECTIONS, Recording
-from erdctl.estimate.covariance import Fit, assess, estimates
+from erdctl.estimate.covariance import Fit, estimates
+from erdctl.estimate.last_step import assess
 from erdctl.estimate.least_squares import Fitted, fit
 from erdctl.estimate.measurement_noise import measurement_noise
 from erdctl.estimate.starts import fresh_start

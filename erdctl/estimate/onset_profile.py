@@ -96,8 +96,9 @@ class Profile:
         more = other.square - best.square
         if norm <= 0.0 or more <= 0.0:
             return 0.0
-        spread = ColouredNoise.of(left, self.starts).colour(g[None], self.starts)[0]
-        return more * norm / max(float(spread @ spread), 1e-300)
+        noise = ColouredNoise.of(left, self.starts)
+        spread = noise.colour(g[None], self.starts)[0]
+        return more * norm / max(noise.innovation * float(spread @ spread), 1e-300)
 
     def left(self, at: Onset) -> Array:
         """(n,) weighted residual that an onset leaves, all other parameters moved by dp."""

@@ -76,9 +76,9 @@ def _records(found: Diagnosis) -> dict[str, Any]:
 def _finding(f: Finding, corrected: Parameters) -> dict[str, Any]:
     def value(symbol: str) -> dict[str, Any]:
         e = corrected.estimates[f.effect.key(symbol)]
-        more: dict[str, Any] = {"at_bound": True} if e.at_bound else {}
-        more |= {} if e.within is None else {"interval": [*e.within]}
-        return {"value": e.value, "unit": e.unit, "stderr": e.stderr, **more}
+        bound = {"at_bound": True} if e.at_bound else {}
+        ends = {"interval": list(e.within)} if e.within else {}
+        return {"value": e.value, "unit": e.unit, "stderr": e.stderr, **bound, **ends}
 
     out: dict[str, Any] = {
         "effect": f.effect.name,

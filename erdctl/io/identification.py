@@ -35,7 +35,7 @@ def parameters_of(
                 )
             if e.identified:
                 value = found.two_step[name]
-                estimates[name] = replace(e, value=value, stderr=None, at_bound=False)
+                estimates[name] = replace(e, value=value, stderr=None, at_bound=False, within=None)
     fits = {
         "joint": {
             "rms": found.fit.rms,

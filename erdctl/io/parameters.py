@@ -24,7 +24,7 @@ class Value(msgspec.Struct, omit_defaults=True):
 
     A parameter that the data do not identify has value null, the `reason`, and in `assumed` what a
     simulation uses in its place. One that a fit pressed against its bound has `at_bound` and no
-    standard error. `interval` holds it with 95 % where a standard error does not do.
+    standard error. `interval` is the 95 % one where it is not value +- 1.96 stderr.
     """
 
     value: float | None
@@ -160,9 +160,9 @@ def _estimate(given: Value | float, quantity: Quantity, full: str, name: str) ->
         if number is not None and not math.isfinite(number):
             raise InputProblem(f"{what}{full} is not a finite number", file=name)
     value, assumed = (None if v is None else quantity.snapped(v) for v in (value, assumed))
-    within = None
-    if given.interval is not None:
-        within = (given.interval[0] * factor, given.interval[1] * factor)
+    ends = given.interval
+    if ends is not None and not (math.isfinite(ends[0]) and ends[0] <= ends[1] < math.inf):
+        raise InputProblem(f"the interval of {full} is no pair of rising numbers", file=name)
     used = assumed if value is None else value
     if used is not None and not quantity.admits(used):
         raise InputProblem(
@@ -171,7 +171,8 @@ def _estimate(given: Value | float, quantity: Quantity, full: str, name: str) ->
         )
     return Estimate(
         value=value, unit=quantity.unit, stderr=stderr, assumed=assumed, reason=given.reason,
-        at_bound=given.at_bound, within=within,
+        at_bound=given.at_bound,
+        within=None if ends is None else (ends[0] * factor, ends[1] * factor),
     )  # fmt: skip
 
 

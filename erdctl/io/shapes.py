@@ -22,7 +22,7 @@ from erdctl.io.undetected import UndetectedDocument
 class Measured(TypedDict):
     """An estimate with its standard error, which is null where there is none, as at a bound.
 
-    `interval` holds it with 95 % where a standard error does not do.
+    interval : 95 %, where it is not value +- 1.96 stderr: one-sided at a bound, or skew
     """
 
     value: float | None

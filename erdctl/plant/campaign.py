@@ -88,14 +88,15 @@ def draw_campaign(random: Random) -> Campaign:
     return _fill(random, rating, rate, low, high, samples / count, count)
 
 
-def draw_short(random: Random, samples: int = 8000, count: int = 6) -> Campaign:
-    """A campaign of few samples, as short as a look at noise may be, at 100 to 250 Hz."""
-    rate = float(random.choice([100.0, 200.0, 250.0]))
-    low = float(np.exp(random.uniform(np.log(0.3), np.log(0.6))))
-    high = min(rate / random.uniform(30, 60), float(random.uniform(3.0, 6.0)))
+def draw_short(random: Random, *, samples: int = 8_000, count: int = 10) -> Campaign:
+    """A campaign of few samples, for questions that need many draws and no long logs."""
+    rate = float(random.choice((100.0, 200.0, 250.0)))
+    mean = max(samples / count, SHORTEST * rate)
+    low = max(float(np.exp(random.uniform(np.log(0.3), np.log(0.6)))), 2.0 * rate / mean)
+    high = max(rate / random.uniform(50, 80), 2.0 * low)
     stroke = float(np.exp(random.uniform(np.log(0.008), np.log(0.06))))
     rating = Rating(stroke, 2 * np.pi * float(np.sqrt(low * high)) * stroke)
-    return _fill(random, rating, rate, low, high, samples / count, count)
+    return _fill(random, rating, rate, low, high, mean, count)
 
 
 def draw_other(random: Random, campaign: Campaign, *, count: int = 6) -> Campaign:

@@ -128,3 +128,29 @@ def draw_gains(random: Random, count: int, scatter: float) -> tuple[float, ...]:
     """Gain of the force in each record: 1 but for a relative scatter."""
     z = np.clip(random.standard_normal(count), -2.0, 2.0)
     return tuple(float(g) for g in np.exp(scatter * z))
+
+
+DISTURBANCES = ("white", "ar1", "growing", "scatter")
+
+
+def disturbed(random: Random, force: Array, lengths: Sequence[int], rms: float, kind: str) -> Array:
+    """(n,) a clean force [N] as a rig records it.
+
+    kind : "white" noise of rms [N]; "ar1", the same with a memory; "growing", white from half of
+        rms at no force to twice rms at the largest; "scatter", white, and each record with a gain
+        that scatters by 1 % and a zero that scatters by rms
+    """
+    white = random.standard_normal(len(force))
+    if kind == "ar1":
+        rho = float(random.uniform(0.8, 0.97))
+        return force + rms * np.concatenate([coloured(random, n, "ar1", rho) for n in lengths])
+    if kind == "growing":
+        size = np.abs(force) / float(np.abs(force).max())
+        return np.asarray(force + rms * (0.5 + 1.5 * size) * white)
+    if kind == "scatter":
+        gain = 1.0 + 0.01 * random.standard_normal(len(lengths))
+        zero = rms * random.standard_normal(len(lengths))
+        return np.asarray(np.repeat(gain, lengths) * force + np.repeat(zero, lengths) + rms * white)
+    if kind != "white":
+        raise ValueError(f"kind is {kind!r}, expected one of {', '.join(DISTURBANCES)}")
+    return np.asarray(force + rms * white)

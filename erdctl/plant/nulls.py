@@ -34,7 +34,7 @@ def draw_null(seed: int, name: str | None = None) -> Null:
     name = name or tuple(KINDS)[seed % len(KINDS)]
     if name not in KINDS:
         raise ValueError(f"no such kind of noise: {name}; there are {', '.join(KINDS)}")
-    campaign = draw_short(stream(seed, "campaign"))
+    campaign = draw_short(stream(seed, "campaign"), count=6)
     over = rides(campaign)
     plant = draw_base(stream(seed, "damper"), campaign)
     force = forces(plant, over)

@@ -11,6 +11,7 @@ from erdctl.plant.plant import Plant
 
 Random = np.random.Generator
 Shape = Mapping[str, float]
+Law = tuple[Plant, dict[str, float]]
 
 
 @dataclass(frozen=True)
@@ -42,6 +43,9 @@ class Twin:
     part : of the force ("gas", "viscous", "yielding" or "") without which it cannot be seen
     low, start, high : strengths between which the wanted level is sought; low is all but nothing
     build : plant, s, drawn shape, scales -> plant
+    law : a plant with the effect -> the nearest whose law is the one usually fitted, and its
+        parameters by the field's symbols ("compression.T_d" for one of the paper's that the law
+        changes); None where this twin's law is always another
     shows : fields of the plant that state its parameters, and their SI units: "physics.gap",
         "channel.skew", or "own.n" for a parameter that the twin's own file brings
     shape : name -> lowest and highest of a uniform draw
@@ -58,6 +62,7 @@ class Twin:
     high: float
     build: Callable[[Plant, float, Shape, Scales], Plant]
     shows: Mapping[str, str]
+    law: Callable[[Plant], Law] | None = None
     part: str = ""
     shape: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     hidden: bool = False

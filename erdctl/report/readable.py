@@ -84,19 +84,25 @@ def estimate(
 ) -> str:
     """A value with its standard error and unit, as a sentence holds it.
 
-    within : 95 % interval in place of the error
+    within : the 95 % interval, of which only one side is said at a bound
     >>> estimate(0.002, "m", 1.2e-5), estimate(0.0, "N/m", at_bound=True)
     ('2 +- 0.012 mm', '0 N/m (at its bound)')
     >>> estimate(13.21, "s", within=(13.205, 13.215))
     '13.21 (13.205 to 13.215) s'
+    >>> estimate(0.0, "N/m", at_bound=True, within=(0.0, 77.0))
+    '< 77 N/m (at its bound)'
     """
     if value is None:
         return "not identified"
     factor, shown = scaled(unit, value)
-    if within is not None:
+    if within is not None and not at_bound:
         low, high = (number(end * factor, 5) for end in within)
         return f"{number(value * factor)} ({low} to {high}) {_after(shown)}".rstrip()
     error = "" if stderr is None or at_bound else f" +- {number(stderr * factor, 2)}"
+    if at_bound and within is not None and within[0] < within[1]:
+        side, end = ("<", within[1]) if value <= within[0] else (">", within[0])
+        factor, shown = scaled(unit, end)
+        return f"{side} {number(end * factor, 2)} {_after(shown)}".rstrip() + f" ({AT_BOUND})"
     text = f"{number(value * factor)}{error} {_after(shown)}".rstrip()
     return f"{text} ({AT_BOUND})" if at_bound else text
 

@@ -6,11 +6,15 @@ Piston within x -+ gap/2; gap = s times the stroke.
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     return plant.with_physics(gap=s * by.x)
+
+
+def _law(plant: Plant) -> Law:
+    return plant, {"g": plant.physics.gap}
 
 
 TWIN = Twin(
@@ -20,5 +24,6 @@ TWIN = Twin(
     start=0.01,
     high=0.5,
     build=_build,
+    law=_law,
     shows={"physics.gap": "m"},
 )

@@ -7,12 +7,20 @@ over a ramp.
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     ramp = max(q["ramp"], 0.0) * by.shortest
     return plant.with_physics(electrical=1.0 - s, onset=q["onset"] * by.shortest, ramp=ramp)
+
+
+def _law(plant: Plant) -> Law:
+    return plant, {
+        "f": plant.physics.electrical,
+        "t_0": plant.physics.onset,
+        "t_r": plant.physics.ramp,
+    }
 
 
 TWIN = Twin(
@@ -23,6 +31,7 @@ TWIN = Twin(
     start=0.2,
     high=0.98,
     build=_build,
+    law=_law,
     shows={"physics.electrical": "1", "physics.onset": "s", "physics.ramp": "s"},
     shape={"onset": (0.2, 0.75), "ramp": (-0.25, 0.25)},
     hidden=True,

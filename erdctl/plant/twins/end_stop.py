@@ -7,7 +7,7 @@ one at one end only, and some lose energy in the contact: k d (1 + loss dd/dt).
 from __future__ import annotations
 
 from erdctl.plant.plant import FOREVER, Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
@@ -25,6 +25,17 @@ def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     )
 
 
+def _law(plant: Plant) -> Law:
+    high, low = plant.physics.stop_high, -plant.physics.stop_low
+    high, low = (min(high, low) if end == FOREVER else end for end in (high, low))
+    return plant.with_physics(stop_high=high, stop_low=-low, stop_loss=0.0), {
+        "x_stop": high,
+        "x_r": low,
+        "k_c": plant.physics.stop_rate,
+        "k_r": plant.physics.stop_rate,
+    }
+
+
 TWIN = Twin(
     name="end_stop",
     family="stop",
@@ -32,6 +43,7 @@ TWIN = Twin(
     start=0.3,
     high=60.0,
     build=_build,
+    law=_law,
     shows={
         "physics.stop_high": "m",
         "physics.stop_low": "m",

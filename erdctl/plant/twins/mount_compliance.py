@@ -6,11 +6,15 @@ Deflects by s times the stroke under the largest force.
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     return plant.with_physics(mount=s * by.x / by.force)
+
+
+def _law(plant: Plant) -> Law:
+    return plant, {"s_m": plant.physics.mount}
 
 
 TWIN = Twin(
@@ -20,6 +24,7 @@ TWIN = Twin(
     start=0.005,
     high=0.5,
     build=_build,
+    law=_law,
     shows={"physics.mount": "m/N"},
     soft=True,
     equivalents=("fluid_compressibility",),

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
@@ -22,6 +22,15 @@ def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     )
 
 
+def _law(plant: Plant) -> Law:
+    return plant, {
+        "b_1": plant.physics.taper,
+        "b_2": plant.physics.groove,
+        "e_1": 0.0,
+        "e_2": 0.0,
+    }
+
+
 TWIN = Twin(
     name="position_dependent_damping",
     family="bore",
@@ -30,6 +39,7 @@ TWIN = Twin(
     start=0.3,
     high=5.0,
     build=_build,
+    law=_law,
     shows={"physics.taper": "1/m", "physics.groove": "1/m2"},
     shape={"form": (0.0, 2 * math.pi)},
 )

@@ -14,7 +14,7 @@ import numpy as np
 
 from erdctl.plant.hooks import Array, FineGrid, Hooks, Values
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 def _yielding(grid: FineGrid, p: Values) -> Array:
@@ -31,6 +31,11 @@ def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     return plant.with_own(HOOKS, n=s, v_0=0.5 * by.v, v_k=q["knee"] * s * by.v)
 
 
+def _law(plant: Plant) -> Law:
+    n = dict(plant.own[-1].values)["n"]
+    return plant.with_own(HOOKS, n=n, v_0=0.1, v_k=1e-9), {"n": n}  # without a knee
+
+
 TWIN = Twin(
     name="power_law_yield",
     family="yield law",
@@ -39,6 +44,7 @@ TWIN = Twin(
     start=0.2,
     high=1.0,
     build=_build,
+    law=_law,
     shows={"own.n": "1", "own.v_0": "m/s", "own.v_k": "m/s"},
     shape={"knee": (0.005, 0.03)},
     rigid=True,

@@ -6,11 +6,15 @@ Dahl's friction: s times the damper's force, after bending by a part of the stro
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     return plant.with_physics(F_p=s * by.force, x_p=q["x_p"] * by.x)
+
+
+def _law(plant: Plant) -> Law:
+    return plant, {"F_c": plant.physics.F_p, "x_d": plant.physics.x_p}
 
 
 TWIN = Twin(
@@ -20,6 +24,7 @@ TWIN = Twin(
     start=0.1,
     high=5.0,
     build=_build,
+    law=_law,
     shows={"physics.F_p": "N", "physics.x_p": "m"},
     shape={"x_p": (0.03, 0.25)},
 )

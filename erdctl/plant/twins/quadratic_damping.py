@@ -6,11 +6,15 @@ s times the damper's force at the top speed.
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     return plant.with_physics(turbulent=s * by.force / by.v**2)
+
+
+def _law(plant: Plant) -> Law:
+    return plant, {"c_2": plant.physics.turbulent}
 
 
 TWIN = Twin(
@@ -20,5 +24,6 @@ TWIN = Twin(
     start=0.3,
     high=20.0,
     build=_build,
+    law=_law,
     shows={"physics.turbulent": "N s2/m2"},
 )

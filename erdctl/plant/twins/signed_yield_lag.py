@@ -7,7 +7,7 @@ as drawn.
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
@@ -18,6 +18,14 @@ def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     ).with_physics(signed=1.0)
 
 
+def _law(plant: Plant) -> Law:
+    return plant._replace(release=plant.release._replace(T_d=plant.compression.T_d)), {
+        "T_s": plant.compression.T_d,
+        "compression.T_d": 0.0,
+        "release.T_d": 0.0,
+    }
+
+
 TWIN = Twin(
     name="signed_yield_lag",
     family="sign law",
@@ -26,5 +34,6 @@ TWIN = Twin(
     start=0.03,
     high=0.25,
     build=_build,
+    law=_law,
     shows={"compression.T_d": "s", "release.T_d": "s"},
 )

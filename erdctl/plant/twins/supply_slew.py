@@ -6,11 +6,15 @@ The supply needs s seconds from 0 to the highest duty.
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     return plant.with_physics(slew=s / by.duty)
+
+
+def _law(plant: Plant) -> Law:
+    return plant, {"T_full": plant.physics.slew}
 
 
 TWIN = Twin(
@@ -21,5 +25,6 @@ TWIN = Twin(
     start=0.1,
     high=3.0,
     build=_build,
+    law=_law,
     shows={"physics.slew": "s"},
 )

@@ -7,7 +7,7 @@ record would lose s nepers of yield force without cooling.
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
@@ -20,6 +20,14 @@ def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     )
 
 
+def _law(plant: Plant) -> Law:
+    return plant, {
+        "a_v": plant.physics.thin * plant.physics.heating,
+        "a_y": plant.physics.weaken * plant.physics.heating,
+        "tau": 1.0 / plant.physics.cooling,
+    }
+
+
 TWIN = Twin(
     name="thermal_fade",
     family="slow loss",
@@ -27,6 +35,7 @@ TWIN = Twin(
     start=0.4,
     high=8.0,
     build=_build,
+    law=_law,
     shows={
         "physics.heating": "K/J",
         "physics.cooling": "1/s",

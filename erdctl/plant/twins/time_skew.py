@@ -9,13 +9,17 @@ from __future__ import annotations
 import math
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     late = 1.0 if q["early"] < 0.75 else -1.0
     skew = min(s * 2 * math.pi * by.x / by.v, 0.1)
     return plant.with_channel(skew=late * round(skew / by.tick) * by.tick)
+
+
+def _law(plant: Plant) -> Law:
+    return plant, {"tau": plant.channel.skew}
 
 
 TWIN = Twin(
@@ -25,6 +29,7 @@ TWIN = Twin(
     start=0.003,
     high=0.3,
     build=_build,
+    law=_law,
     shows={"channel.skew": "s"},
     shape={"early": (0.0, 1.0)},
 )
