@@ -11,12 +11,12 @@ import numpy as np
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import untestable
 from erdctl.bench.rig import Rig, look
-from erdctl.bench.strokes import strokes
 from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Array, Recording
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import Comparison, compare
+from erdctl.diagnose.conditions import one_condition
 from erdctl.diagnose.detectable import Detectable, detectable
 from erdctl.diagnose.discriminating_drive import DiscriminatingDrive, discriminating_drive
 from erdctl.diagnose.executor import executor
@@ -192,21 +192,6 @@ def diagnose(
         undetected=undetected,
         rig=rig,
     )
-
-
-def one_condition(recording: Recording) -> bool:
-    """Whether a log has one duty and one speed: the same stroke again and again.
-
-    Then the force is known along one loop of deflection and speed, on which laws differ less than
-    their parameters can make up for.
-    """
-    if float(np.ptp(recording.duty)) >= thresholds.ONE_DUTY:
-        return False
-    found = strokes(recording)
-    if not len(found):
-        return True
-    speed = found.highest(np.abs(recording.xdot))
-    return float(np.ptp(speed)) < thresholds.ONE_SPEED * float(speed.max())
 
 
 def _matters(problem: Problem, selection: Selection, lack_of_fit: LackOfFit) -> bool:

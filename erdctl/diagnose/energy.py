@@ -83,7 +83,7 @@ def energy_test(problem: Problem, worse: Array, better: Array) -> EnergyTest:
     slope = float(u.sum()) / power
     rest = worse - slope * d
     noise = ColouredNoise.of(rest * np.sqrt(weight), starts)
-    flat = float(np.sum(noise.colour((weight * d)[None], starts) ** 2))
+    flat = noise.innovation * float(np.sum(noise.colour((weight * d)[None], starts) ** 2))
     uneven = float(np.sum(np.bincount(problem.stretch, weight * d * rest) ** 2))
     variance = max(flat, uneven)
     record = np.repeat(np.arange(len(starts) - 1), np.diff(starts))

@@ -9,8 +9,9 @@ from typing import Any
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import Bench
 from erdctl.diagnose import thresholds
+from erdctl.diagnose.conditions import one_condition
 from erdctl.diagnose.detectable import Detectable
-from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict, one_condition
+from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict
 from erdctl.diagnose.residual.predictability import LackOfFit
 
 

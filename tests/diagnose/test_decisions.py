@@ -10,7 +10,8 @@ import trajectories
 from rig import campaign, noisy, recording
 
 from erdctl.core.recording import Recording, concatenate
-from erdctl.diagnose.diagnosis import Verdict, diagnose, one_condition
+from erdctl.diagnose.conditions import one_condition
+from erdctl.diagnose.diagnosis import Verdict, diagnose
 from erdctl.diagnose.wording import remaining_text
 from erdctl.effects import get
 from erdctl.io.diagnosis import to_json
