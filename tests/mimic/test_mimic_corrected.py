@@ -18,7 +18,7 @@ from erdctl.model.composed import Model
 from erdctl.model.effect import Effect, Stage
 from erdctl.model.faults import parse_fault
 from erdctl.model.parameters import Estimate, Parameters
-from erdctl.model.slots import ChannelSlot
+from erdctl.model.slots import ChannelSlot, MotionSlot
 
 CATALOGUE = catalogue()
 every = pytest.mark.parametrize("effect", CATALOGUE, ids=lambda e: e.name)
@@ -137,7 +137,9 @@ def test_the_channel_of_the_force_is_not_made_up_for() -> None:
         alone, found = plan(), plan(effect)
         assert np.array_equal(found.duty, alone.duty)
         assert [r.compensated for r in found.reaches] == [r.compensated for r in alone.reaches]
-        assert not np.allclose(found.expected, alone.expected)
+        # The velocity of a drive is without noise, so nothing of its channel is left to be seen.
+        seen = not isinstance(effect.slot, MotionSlot)
+        assert seen != np.allclose(found.expected, alone.expected)
         whole = parameters(effect)
         assert np.array_equal(found.expected, whole.model.force(_signals(found.duty), whole.values))
 
