@@ -59,11 +59,8 @@ def forecast(
     if noise is None:
         floor = force_noise(recording)
         noise = 0.0 if floor is None else floor.rms
-    thin = thinned(recording, thresholds.FORECAST_SAMPLES)
-    # Of fewer samples than a search looks at white noise averages out less: it is made that much
-    # less.
-    searched = min(len(recording), thresholds.SEARCH_SAMPLES)
-    less = noise * float(np.sqrt(len(thin) / max(searched, len(thin))))
+    # On the samples that a search would look at: what acts within a step depends on the step.
+    thin = thinned(recording, thresholds.SEARCH_SAMPLES)
     signals = Signals.of(thin)
     progress("forecast", part_of("the model", 1, 1))
     if parameters is None:
@@ -71,7 +68,7 @@ def forecast(
     else:
         model, values = parameters.model, parameters.values
     random = np.random.default_rng(seed)
-    force = model.force(signals, values) + less * random.standard_normal(len(thin))
+    force = model.force(signals, values) + noise * random.standard_normal(len(thin))
     problem = prepare(replace(thin, force=force))
     best = fit_hypothesis(problem, model.effects, [values], thresholds.STEPS_AGAIN)
     survey = Survey(thin, problem.block.signals)

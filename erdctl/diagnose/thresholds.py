@@ -344,7 +344,3 @@ SIZE_SURE = 1.5
 # Effects that were not named of which the words say from which size they would have been seen.
 # Origin: what a reader takes in; the rest is in the document.
 UNDETECTED_SAID = 3
-
-# Samples on which it is forecast what a log would show.
-# Origin: budget.
-FORECAST_SAMPLES = 6_000
