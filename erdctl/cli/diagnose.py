@@ -103,8 +103,8 @@ def command(
     A lack-of-fit test of the residual then decides the verdict. adequate: the model given is
     enough. explained: with the effects found, the residual is noise. unexplained: a misfit is left
     that no effect of the catalogue explains; the diagnosis says where it is and what it resembles.
-    cannot_tell: effects were found, but the log has one duty and one speed, at which others would
-    do as well; the drives that would tell them apart are named.
+    So is a log of one duty and one speed in which effects were found, since others would do as well
+    there; the drives that would tell them apart are named.
     Look-alikes, which these data cannot tell apart, are listed with a drive on which they differ.
 
     The JSON holds the corrected parameter file under corrected.params (schema: erdctl schema

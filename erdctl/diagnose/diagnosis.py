@@ -39,16 +39,11 @@ from erdctl.score.nrmse import Normalise, Validation, validate
 
 
 class Verdict(StrEnum):
-    """The answer in one word.
-
-    CANNOT_TELL: something is left out, but at one duty and one speed several effects would explain
-    it alike, and so would other values of the paper's parameters that the log does not determine.
-    """
+    """The answer in one word."""
 
     ADEQUATE = "adequate"
     EXPLAINED = "explained"
     UNEXPLAINED = "unexplained"
-    CANNOT_TELL = "cannot_tell"
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +69,8 @@ class Finding:
 class Diagnosis:
     """What was found; see the contract for the meaning of the verdicts.
 
+    cannot_tell : whether something is left out, but at one duty and one speed, where several
+        effects, and other values of the paper's parameters, would explain it alike
     baseline : scores of the given parameters as they are, or else of the paper's model refitted
     refitted : scores of that model fitted to this recording
     corrected, carried : scores of the best model without and with the record effects, which
@@ -85,6 +82,7 @@ class Diagnosis:
     """
 
     verdict: Verdict
+    cannot_tell: bool
     noise_rms: float
     problem: Problem
     selection: Selection
@@ -148,12 +146,11 @@ def diagnose(
     lack_of_fit = lack_of_fit_test(best.problem, best.residual, seed)
     noise = lack_of_fit.noise_rms
     left = lack_of_fit.significant and _matters(problem, selection, lack_of_fit)
-    if left or rig.blocking:
+    cannot_tell = bool(selection.named) and one_condition(recording)
+    if left or rig.blocking or cannot_tell:
         verdict = Verdict.UNEXPLAINED
-    elif not selection.named:
-        verdict = Verdict.ADEQUATE
     else:
-        verdict = Verdict.CANNOT_TELL if one_condition(recording) else Verdict.EXPLAINED
+        verdict = Verdict.EXPLAINED if selection.named else Verdict.ADEQUATE
     findings = _findings(problem, selection)
     energy = (best.residual - selection.base.residual) ** 2
     if left:
@@ -170,6 +167,7 @@ def diagnose(
     undetected = _undetected(thin, searched.best, selection.best, candidates, missing, progress)
     return Diagnosis(
         verdict=verdict,
+        cannot_tell=cannot_tell,
         noise_rms=noise,
         problem=problem,
         selection=selection,

@@ -41,7 +41,7 @@ LEAST_RECORDS = 3
 
 # Range of the duty, and of the strokes' highest speeds over their largest, within which a log has
 # one duty and one speed.
-# Decides: `cannot_tell`.
+# Decides: whether one log can tell what is left out.
 # Origin: the step of a duty that `bench.identifiability` asks for; a speed that a bench holds.
 ONE_DUTY, ONE_SPEED = 0.02, 0.1
 

@@ -43,7 +43,7 @@ def remaining_text(found: Diagnosis) -> str:
             "nothing was searched, because the recording itself is at fault:"
             f" {'; '.join(f.text for f in found.rig.blocking)}"
         )
-    if found.verdict is Verdict.CANNOT_TELL:
+    if found.cannot_tell:
         bench = Bench.of(Survey(found.problem.recording, found.problem.block.signals))
         return (
             "the log has one duty and one speed, at which other effects, and other values of the"

@@ -12,7 +12,7 @@ from erdctl.diagnose.diagnosis import Diagnosis, Finding
 from erdctl.diagnose.residual.localisation import Region
 from erdctl.diagnose.wording import finding_text, record_values, remaining_text
 from erdctl.io.parameters import to_document
-from erdctl.io.undetected import undetected
+from erdctl.io.undetected import limits, undetected
 from erdctl.model.parameters import Parameters
 from erdctl.score.nrmse import Validation
 
@@ -31,6 +31,7 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
     return {
         "schema": SCHEMA,
         "verdict": found.verdict.value,
+        "cannot_tell": found.cannot_tell,
         "noise_rms": found.noise_rms,
         "baseline": {
             **_scores(found.baseline),
@@ -63,6 +64,7 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
         "rig": found.rig.to_json(),
         "not_testable": found.untestable,
         "undetected": undetected(found.undetected),
+        "limits": limits(found.undetected),
         "provenance": origin,
     }
 

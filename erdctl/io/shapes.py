@@ -16,7 +16,7 @@ from erdctl.io.labels import LabelsDocument
 from erdctl.io.manifest import PwmManifest
 from erdctl.io.parameters import ParameterFile
 from erdctl.io.rig import RigFaultDocument
-from erdctl.io.undetected import UndetectedDocument
+from erdctl.io.undetected import Limit, UndetectedDocument
 
 
 class Measured(TypedDict):
@@ -144,10 +144,14 @@ class Unseen(TypedDict):
 
 
 class DiagnosisFile(TypedDict):
-    """A diagnosis; verdict : adequate, explained, unexplained or cannot_tell."""
+    """A diagnosis; verdict : adequate, explained or unexplained.
+
+    cannot_tell : whether it is unexplained because one duty and one speed cannot tell what it is
+    """
 
     schema: str
     verdict: str
+    cannot_tell: NotRequired[bool]
     noise_rms: float
     baseline: Baseline
     refitted: NotRequired[Scores]
@@ -161,6 +165,7 @@ class DiagnosisFile(TypedDict):
     rig: NotRequired[list[RigFaultDocument]]
     not_testable: dict[str, str]
     undetected: NotRequired[list[UndetectedDocument]]
+    limits: NotRequired[dict[str, Limit]]
     provenance: dict[str, Any]
 
 

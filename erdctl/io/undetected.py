@@ -37,6 +37,24 @@ class UndetectedDocument(TypedDict):
     reason: str | None
 
 
+class Limit(TypedDict):
+    """From which size an effect that was not named would have been seen."""
+
+    parameter: str
+    value: float
+    unit: str
+
+
+def limits(found: Sequence[Detectable]) -> dict[str, Limit]:
+    """The sizes alone, by effect; none for those that no size would show."""
+    return {
+        d.effect.name: {
+            "parameter": d.quantity.symbol, "value": d.size, "unit": d.quantity.unit,
+        }
+        for d in found if d.size is not None
+    }  # fmt: skip
+
+
 def undetected(found: Sequence[Detectable]) -> list[UndetectedDocument]:
     """One entry for each effect."""
     return [

@@ -35,7 +35,7 @@ from erdctl.report.page.words import (
 from erdctl.report.readable import headline, percent_of, with_unit
 from erdctl.report.undetected import HEADER, undetected_rows
 
-MOOD = {"adequate": "good", "explained": "mid", "unexplained": "bad", "cannot_tell": "mid"}
+MOOD = {"adequate": "good", "explained": "mid", "unexplained": "bad"}
 
 
 def diagnosis_page(
@@ -136,7 +136,7 @@ def _answers(doc: Json, name: str, peak: float) -> Json:
             head = f"{start} holds: the residual is measurement noise."
         case "explained":
             head = f"{start} does not hold; {joined(named)} {many} what it misses."
-        case "cannot_tell":
+        case _ if doc.get("cannot_tell"):
             head = f"{start} does not hold, but one duty and one speed cannot tell what it misses."
         case _ if named:
             head = (
