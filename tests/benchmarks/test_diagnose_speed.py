@@ -98,9 +98,7 @@ def test_whole_catalogue(tmp_path: Path) -> None:
     ):
         print(f"{what:44}{c.wall:9.1f}{c.cpu:9.1f}{c.mib:7.0f}")
     print(f"diagnose over one fit of the paper's model {single.cpu / plain.cpu:10.1f}")
-    print(
-        f"{GROWTH} times the samples over once              {growth:10.2f}  at most {2 * MARGIN:.2f}"
-    )
+    print(f"{GROWTH} times the samples over once {growth:23.2f}  at most {2 * MARGIN:.2f}")
     print("found:", document["verdict"], [f["effect"] for f in document["findings"]])
     assert document["findings"]
     assert single.mib < MOST_MIB
