@@ -12,6 +12,7 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -338,9 +339,12 @@ def test_a_signal_leaves_no_file_and_no_process(name: str, tmp_path: Path) -> No
     script.write_text(SLOW)
     folder = tmp_path / "out"
     folder.mkdir()
+    # A shell's background job, and what `nohup` began, hand on signals as ignored.
+    heard = partial(signal.signal, getattr(signal, name), signal.SIG_DFL)
     process = subprocess.Popen(
         [sys.executable, str(script), str(folder / "a.csv")],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+        preexec_fn=heard,
     )  # fmt: skip
     assert process.stdout is not None
     worker = int(process.stdout.readline().split()[1])

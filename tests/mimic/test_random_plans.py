@@ -79,6 +79,6 @@ def test_random_plans_keep_every_limit(batch: int, tmp_path: Path) -> None:
         plan = random_plan(seed)
         try:
             judge(plan, written(plan, tmp_path))
-        except Exception as error:
+        except Exception as error:  # whatever it is, raised again with the plan that shows it
             error.add_note(f"seed {seed}: {plan.options}, {[str(f) for f in plan.faults]}")
             raise
