@@ -20,7 +20,8 @@ def amount_of(effect: Effect) -> Quantity:
     >>> amount_of(get("end_stop")).symbol, amount_of(get("cavitation")).symbol
     ('k_c', 'x_v')
     """
-    on = [q for q in effect.quantities if q.start != q.off]
+    shapes = dict(effect.earlier)  # of a form that came later: they add to what is there
+    on = [q for q in effect.quantities if q.start != q.off and q.symbol not in shapes]
     return next((q for q in on if not q.linear), (on or list(effect.quantities))[0])
 
 

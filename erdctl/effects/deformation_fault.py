@@ -39,7 +39,7 @@ EFFECT = Effect(
     stage=Stage.FAULT,
     slot=ScaleSlot(deformation_fault),
     title="a deformed duct takes a part of the viscous and the yield force",
-    equation="F = gas + f [viscous + yield], f = 1 until t_0",
+    equation="F = gas + f [viscous + yield], f = 1 until t_0 and its value from t_0 + t_r",
     said="{f:%} of the viscous and the yield force left from {t_0} on",
     alters=(("viscous", "f {}"), ("yield", "f {}")),
     source="the ER damper paper, Eq. 23",

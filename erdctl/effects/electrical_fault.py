@@ -39,7 +39,7 @@ EFFECT = Effect(
     stage=Stage.FAULT,
     slot=ScaleSlot(electrical_fault),
     title="a fault of the supply takes a part of the yield force",
-    equation="F = gas + viscous + f yield, f = 1 until t_0",
+    equation="F = gas + viscous + f yield, f = 1 until t_0 and its value from t_0 + t_r",
     said="{f:%} of the yield force left from {t_0} on",
     alters=(("yield", "f {}"),),
     source="the ER damper paper, Eq. 22",

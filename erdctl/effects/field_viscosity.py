@@ -60,7 +60,7 @@ EFFECT = Effect(
     alters=(("viscous", "(1 + r u) {}"),),
     source="Spencer, Dyke, Sain and Carlson, J. Engineering Mechanics 123 (1997) 230-238",
     validity="speeds and duty levels that vary apart from each other",
-    requires=(Requirement.FIELD, Requirement.SPEEDS),
+    requires=(Requirement.FIELD, Requirement.LEVELS, Requirement.SPEEDS),
     shows=Variable.DUTY,
     quantities=(
         Quantity(

@@ -39,7 +39,7 @@ EFFECT = Effect(
     stage=Stage.FAULT,
     slot=ScaleSlot(oil_leakage),
     title="leakage of the fluid takes a part of all forces",
-    equation="F = f [gas + viscous + yield], f = 1 until t_0",
+    equation="F = f [gas + viscous + yield], f = 1 until t_0 and its value from t_0 + t_r",
     said="{f:%} of all forces left from {t_0} on",
     alters=(("gas", "f {}"), ("viscous", "f {}"), ("yield", "f {}")),
     source="the ER damper paper, Eq. 20",

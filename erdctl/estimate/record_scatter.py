@@ -103,6 +103,8 @@ def _variances(
     w, v = np.linalg.eigh(left / np.outer(scale, scale))
     v = (v / scale[:, None])[:, w > DETERMINED * w[-1]]
     q, noise = v.T @ q, v.T @ noise @ v
+    if not np.trace(noise) > 0.0:
+        return np.zeros(KINDS), np.zeros((KINDS, KINDS))  # a force without noise: no scatter either
     size = np.sqrt(np.maximum(np.diag(noise), 1e-12 * np.trace(noise) / max(len(noise), 1)))
     e, u = np.linalg.eigh(noise / np.outer(size, size))
     u = u * size[:, None]

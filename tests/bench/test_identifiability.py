@@ -24,7 +24,7 @@ from erdctl.model.effect import Requirement, Stage
 
 RATE = 100.0
 CATALOGUE = catalogue()
-FIELD = {e.name for e in CATALOGUE if e.stage is Stage.FIELD}
+FIELD = {e.name for e in CATALOGUE if e.stage is Stage.FIELD or Requirement.LEVELS in e.requires}
 
 
 def clock(seconds: float) -> Array:

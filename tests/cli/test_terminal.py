@@ -123,5 +123,9 @@ def test_shell_completion_of_all(words: str) -> None:
     from erdctl.io.shapes import SCHEMAS
     from erdctl.report import pictures
 
-    known = {"effects": {*names()}, "schema": {*SCHEMAS, "proof"}, "plot": {*pictures.names()}}
+    known = {
+        "effects": {*names()},
+        "schema": {*SCHEMAS, "proof", "proof-on"},
+        "plot": {*pictures.names()},
+    }
     assert completed(words) == known[words.split()[0]]
