@@ -209,7 +209,7 @@ def _show(found: Diagnosis) -> None:
     from math import nan
 
     from erdctl.diagnose.corrected import parameters
-    from erdctl.diagnose.wording import finding_text, record_values, remaining_text
+    from erdctl.diagnose.wording import finding_text, record_values, remaining_text, unseen_text
     from erdctl.model.corrected_equation import corrected_equation
     from erdctl.report.readable import estimate, headline, largest, number, percent_of, with_unit
     from erdctl.report.text import say, table
@@ -261,6 +261,8 @@ def _show(found: Diagnosis) -> None:
     if found.findings:
         for line in corrected_equation([f.effect for f in found.findings]):
             say(line, "corrected")
+    for unseen in found.unseen:
+        say(unseen_text(unseen), "unseen")
     for region in found.mismatch:
         say(region.text, "where")
     say(remaining_text(found), "remains")

@@ -13,8 +13,8 @@ from erdctl.bench.identifiability import untestable
 from erdctl.bench.rig import Rig, look
 from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
-from erdctl.core.recording import Array, Recording
-from erdctl.diagnose import thresholds
+from erdctl.core.recording import Recording
+from erdctl.diagnose import scores, thresholds
 from erdctl.diagnose.comparison import Comparison, compare
 from erdctl.diagnose.conditions import one_condition
 from erdctl.diagnose.detectable import Detectable, detectable
@@ -27,15 +27,16 @@ from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying, er
 from erdctl.diagnose.residual.localisation import Region, locate, record_region, since_onset
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
-from erdctl.diagnose.search import Selection, refit, search
+from erdctl.diagnose.search import Selection, on_all, refit, search
 from erdctl.diagnose.thin import thinned
+from erdctl.diagnose.unseen import Unseen, kept_aside, left_out, predicted
 from erdctl.estimate.covariance import Fit
 from erdctl.estimate.last_step import assess
 from erdctl.estimate.onsets import onset_intervals, placed
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
 from erdctl.model.simulate import simulate
-from erdctl.score.nrmse import Normalise, Validation, validate
+from erdctl.score.nrmse import Validation
 
 
 class Verdict(StrEnum):
@@ -77,6 +78,8 @@ class Diagnosis:
         are the same where none is carried
     cross_validated : scores of the model to answer for and of the best, each sample by a fit
         without its group, beyond the record effects
+    unseen : errors by what was left out, that which neither fit nor search has seen first
+    withdrawn : effects that the search chose, and that predict what it has not seen the worse
     undetected : what was not named, and the size from which these data would have shown it
     rig : what is wrong with the recording; if all of it is, nothing was searched
     """
@@ -95,6 +98,8 @@ class Diagnosis:
     corrected: Validation
     carried: Validation
     cross_validated: tuple[Validation, Validation]
+    unseen: tuple[Unseen, ...]
+    withdrawn: tuple[Effect, ...]
     record_effects: RecordEffects | None
     lack_of_fit: LackOfFit
     resemblance: Resemblance | None
@@ -130,17 +135,27 @@ def diagnose(
     survey = Survey(recording, problem.block.signals)
     if given is not None:
         simulate(given, recording)  # one that diverges is refused before the search, not judged
-        lacking = untestable(survey, given.model.effects)
-        problem = with_given(problem, given, lacking)
+        problem = with_given(problem, given, untestable(survey, given.model.effects))
         candidates = [e for e in candidates if e not in given.model.effects]
     if rig.blocking:
         candidates = []  # what a wrong sign or unit does is no physics
     missing = untestable(survey, candidates)
     testable = [e for e in candidates if e.name not in missing]
-    thin = thinned(problem, thresholds.SEARCH_SAMPLES)
-    with executor((thin, problem), jobs, progress) as workers:
+    aside = kept_aside(recording, testable)
+    seen = problem.of([r for r in range(len(recording.names)) if r not in aside])
+    thin = thinned(seen, thresholds.SEARCH_SAMPLES)
+    with executor((thin, seen, problem), jobs, progress) as workers:
         searched = search(thin, testable, most, workers, seed, given)
-        selection = refit(problem, searched, workers)
+        selection = refit(seen, searched, workers)
+        unseen = list(left_out(selection.base, selection.best))
+        if aside:
+            unseen.insert(0, predicted(problem.of(aside), selection.base, selection.best))
+        withdrawn = selection.named if unseen[0].never_seen and unseen[0].worse else ()
+        if withdrawn:
+            selection = selection.nothing
+        findings = _findings(seen, selection)
+        if aside:
+            selection = on_all(problem, selection, workers)
     best = selection.best
     progress("lack of fit", part_of("regression of the residual", 1, 1))
     lack_of_fit = lack_of_fit_test(best.problem, best.residual, seed)
@@ -151,7 +166,6 @@ def diagnose(
         verdict = Verdict.UNEXPLAINED
     else:
         verdict = Verdict.EXPLAINED if selection.named else Verdict.ADEQUATE
-    findings = _findings(problem, selection)
     energy = (best.residual - selection.base.residual) ** 2
     if left:
         energy += lack_of_fit.excess
@@ -162,7 +176,7 @@ def diagnose(
         mismatch = since_onset(best.problem, first, best.values, energy)
         mismatch += locate(best.problem, energy)[: thresholds.REGIONS - len(mismatch)]
         mismatch += [alone] if alone else []
-    refitted = _validate(problem, selection.base)
+    refitted = scores.shared(problem, selection.base)
     fit, record_effects = fit_errors(problem, best)
     undetected = _undetected(thin, searched.best, selection.best, candidates, missing, progress)
     return Diagnosis(
@@ -176,13 +190,15 @@ def diagnose(
         findings=findings,
         mismatch=tuple(mismatch),
         given=given,
-        baseline=refitted if given is None else _as_given(problem, given),
+        baseline=refitted if given is None else scores.as_given(problem, given),
         refitted=refitted,
-        corrected=_validate(problem, best),
-        carried=_carried(problem, best),
+        corrected=scores.shared(problem, best),
+        carried=scores.carried(problem, best),
+        unseen=tuple(unseen),
+        withdrawn=withdrawn,
         cross_validated=(
-            _cross_validated(best.problem, selection.base),
-            _cross_validated(best.problem, best),
+            scores.cross_validated(best.problem, selection.base),
+            scores.cross_validated(best.problem, best),
         ),
         lack_of_fit=lack_of_fit,
         resemblance=resemblance(best.problem, lack_of_fit.predicted) if left else None,
@@ -285,29 +301,3 @@ def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEff
         problem.free, block, model, fit.values, fit.free, record_effects
     )
     return replace(fit, covariance=covariance), record_effects
-
-
-def _as_given(problem: Problem, given: Parameters) -> Validation:
-    force = given.model.force(problem.block.signals, given.values)
-    return validate(problem.recording, force, Normalise.RANGE)
-
-
-def _validate(problem: Problem, hypothesis: Hypothesis) -> Validation:
-    if hypothesis.record_effects is None:
-        return _carried(problem, hypothesis)
-    force = hypothesis.model.force(problem.block.signals, hypothesis.values)
-    return validate(problem.recording, force, Normalise.RANGE)
-
-
-def _carried(problem: Problem, hypothesis: Hypothesis) -> Validation:
-    modelled: Array = problem.block.force - hypothesis.residual
-    return validate(problem.recording, modelled, Normalise.RANGE)
-
-
-def _cross_validated(problem: Problem, hypothesis: Hypothesis) -> Validation:
-    """Scores on what the fit left out, of the samples that a problem gives weight."""
-    r, rows = problem.recording, np.flatnonzero(problem.block.weight)
-    ends = np.searchsorted(rows, r.starts)
-    names = [name for name, size in zip(r.names, np.diff(ends), strict=True) if size]
-    kept = r.take(rows, np.unique(ends), names)
-    return validate(kept, (problem.block.force - hypothesis.cross_validated)[rows], Normalise.RANGE)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from erdctl.core.recording import Array
+from erdctl.core.recording import Array, Index
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem, mask_doubtful
 from erdctl.diagnose.record_effects import RecordEffects, estimate
@@ -169,10 +169,13 @@ def _fitted(
 
 def over_records(hypothesis: Hypothesis) -> Hypothesis:
     """The same fit, cross-validated with whole records left out in turn."""
-    problem = hypothesis.problem
-    starts = problem.block.signals.starts
-    record = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
-    again = replace(hypothesis, problem=replace(problem, group=record))
+    starts = hypothesis.problem.block.signals.starts
+    return by_partition(hypothesis, np.repeat(np.arange(len(starts) - 1), np.diff(starts)))
+
+
+def by_partition(hypothesis: Hypothesis, part: Index) -> Hypothesis:
+    """The same fit, cross-validated with each part (n,) of the samples left out in turn."""
+    again = replace(hypothesis, problem=replace(hypothesis.problem, group=part))
     return replace(again, cross_validated=_cross_validated(again))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -51,6 +51,13 @@ class Problem:
     def weight_of(self) -> Array:
         """(g,) total weight of each group."""
         return np.bincount(self.group, self.block.weight, self.count).astype(np.float64)
+
+    def of(self, records: Sequence[int]) -> Problem:
+        """The problem of some of the records; what is held of all stays held."""
+        if len(records) == len(self.recording.names):
+            return self
+        part = prepare(self.recording.select(records), self.free)
+        return replace(part, held=self.held, needs=self.needs)
 
     def per_group(self, values: Array) -> Array:
         """(g,) weighted sum of (n,) values in each group."""

@@ -7,7 +7,7 @@ hypothesis replaces another only if it is better by more than chance.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from erdctl.core.progress import part_of
 from erdctl.diagnose import thresholds
@@ -51,6 +51,11 @@ class Selection:
     def named(self) -> tuple[Effect, ...]:
         """The chosen effects."""
         return tuple(e for e in self.best.effects if e not in self.base.effects)
+
+    @property
+    def nothing(self) -> Selection:
+        """The same search with nothing named."""
+        return replace(self, best=self.base, without={}, look_alikes={})
 
 
 def search(
@@ -117,6 +122,16 @@ def refit(problem: Problem, found: Selection, executor: Executor) -> Selection:
     without = {n: explored[key_of(best.effects) - {n}] for n in names}
     alike = {n: found.look_alikes[n] for n in names}
     return Selection(base, best, found.singles, without, alike)
+
+
+def on_all(problem: Problem, found: Selection, executor: Executor) -> Selection:
+    """The chosen model and its base fitted to more data than chose them; no choice rests on it."""
+    tasks = [
+        Task("all records", h.effects, (h.values,), thresholds.STEPS_AGAIN)
+        for h in ((found.base, found.best) if found.named else (found.base,))
+    ]
+    fits = executor.fit_compatible(problem, tasks)
+    return replace(found, base=fits[0], best=fits[-1])
 
 
 def _forward_selection(

@@ -19,6 +19,17 @@ CV_GROUPS = 24
 # Origin: longer than the memory of the noise of load cells and amplifiers seen so far (0.1 s).
 STRETCH = 0.8
 
+# Factor by which effective stroke or speed of records of two kinds of motion differ, the same for
+# a level of the duty; kinds that a log must have to be left out by them.
+# Decides: which records are left out together.
+# Origin: what is meant to be one motion or one level differs by a few per cent on a rig.
+KIND_FACTOR, KIND_DUTY, MOTION_KINDS, CONTROL_KINDS = 1.25, 0.02, 2, 3
+
+# Records of a log from which on some are kept aside, and one of how many.
+# Decides: whether a figure is of records that neither fit nor search has seen.
+# Origin: none; fewer left would cost the search more than a twelfth of its statistics.
+ASIDE_FROM, ASIDE_OF = 12, 6
+
 # Ridge of the jackknife, as a part of the weight of all data.
 # Decides: how far a parameter moves that a left-out group alone determines.
 # Origin: none; without it the step goes to infinity.

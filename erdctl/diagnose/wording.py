@@ -13,6 +13,7 @@ from erdctl.diagnose.conditions import one_condition
 from erdctl.diagnose.detectable import Detectable
 from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict
 from erdctl.diagnose.residual.predictability import LackOfFit
+from erdctl.diagnose.unseen import Left, Unseen
 
 
 def finding_text(finding: Finding) -> str:
@@ -35,6 +36,22 @@ def finding_text(finding: Finding) -> str:
     return text
 
 
+def unseen_text(u: Unseen) -> str:
+    """An error on what was left out, in words that say in which sense."""
+    fell = f"NRMSE {u.before:.4f}, corrected {u.after:.4f}"
+    match u.left:
+        case Left.ASIDE:
+            which = f"{len(u.names)} records like others, that neither fit nor search has seen"
+            return f"on {which} ({', '.join(u.names)}): {fell}"
+        case Left.MOTIONS:
+            which = f"each of {u.parts} kinds of motion"
+        case Left.DUTIES:
+            which = f"each of {u.parts} levels of duty"
+        case Left.GROUPS:
+            which = f"each of {u.parts} groups, records or parts of them,"
+    return f"on {which} left out of the fit in turn, but not of the search: {fell}"
+
+
 def remaining_text(found: Diagnosis) -> str:
     """What is left, in words."""
     left = found.lack_of_fit
@@ -54,6 +71,7 @@ def remaining_text(found: Diagnosis) -> str:
     if found.verdict is not Verdict.UNEXPLAINED:
         rms = f"{found.carried.overall.rms:.3g} N rms"
         rest = f"what remains, {rms}, is noise as far as these data tell{_hum(left)}"
+        rest += _withdrawn(found)
         rest += "; the log has one duty and one speed, and says nothing of others" * one_condition(
             found.problem.recording
         )
@@ -76,8 +94,16 @@ def remaining_text(found: Diagnosis) -> str:
     resembles = found.resemblance
     if resembles is not None:
         words += f"; it is most like {resembles.form} (correlation {resembles.correlation:+.2f})"
-    words += _hum(left)
+    words += _hum(left) + _withdrawn(found)
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
+
+
+def _withdrawn(found: Diagnosis) -> str:
+    names = ", ".join(e.name for e in found.withdrawn)
+    return names and (
+        f"; the search had chosen {names}, which predict the records kept aside worse than the"
+        " model without them, and so are not named"
+    )
 
 
 def _hum(left: LackOfFit) -> str:

@@ -10,7 +10,8 @@ from msgspec import to_builtins
 from erdctl.diagnose.corrected import baseline, parameters
 from erdctl.diagnose.diagnosis import Diagnosis, Finding
 from erdctl.diagnose.residual.localisation import Region
-from erdctl.diagnose.wording import finding_text, record_values, remaining_text
+from erdctl.diagnose.unseen import Unseen
+from erdctl.diagnose.wording import finding_text, record_values, remaining_text, unseen_text
 from erdctl.io.parameters import to_document
 from erdctl.io.undetected import limits, undetected
 from erdctl.model.parameters import Parameters
@@ -54,6 +55,8 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
                 for k, v in zip(("before", "after"), found.cross_validated, strict=True)
             },
         },
+        "unseen": [_unseen(u) for u in found.unseen],
+        **({} if not found.withdrawn else {"withdrawn": [e.name for e in found.withdrawn]}),
         "remaining": {
             "rms": found.carried.overall.rms,
             "over_noise": found.carried.overall.rms / found.noise_rms if found.noise_rms else 1.0,
@@ -66,6 +69,18 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
         "undetected": undetected(found.undetected),
         "limits": limits(found.undetected),
         "provenance": origin,
+    }
+
+
+def _unseen(u: Unseen) -> dict[str, Any]:
+    return {
+        "left_out": u.left.value,
+        "parts": u.parts,
+        "records": list(u.names),
+        "seen_by_search": not u.never_seen,
+        "nrmse_before": u.before,
+        "nrmse_after": u.after,
+        "text": unseen_text(u),
     }
 
 

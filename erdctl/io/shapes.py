@@ -143,6 +143,21 @@ class Unseen(TypedDict):
     after: Scores
 
 
+class LeftOut(TypedDict):
+    """NRMSE on what was left out of a fit; left_out : what, in so many parts.
+
+    records : that neither fit nor search has seen;  seen_by_search : whether the choice rests on it
+    """
+
+    left_out: str
+    parts: int
+    records: list[str]
+    seen_by_search: bool
+    nrmse_before: float
+    nrmse_after: float
+    text: str
+
+
 class DiagnosisFile(TypedDict):
     """A diagnosis; verdict : adequate, explained or unexplained.
 
@@ -159,6 +174,8 @@ class DiagnosisFile(TypedDict):
     findings: list[FindingDocument]
     corrected: Corrected
     heldout: NotRequired[Unseen]
+    unseen: NotRequired[list[LeftOut]]
+    withdrawn: NotRequired[list[str]]
     remaining: Remaining
     records: NotRequired[list[PerRecord]]
     with_records: NotRequired[Scores]

@@ -82,6 +82,7 @@ def diagnosis_page(
         notes=notes_of(doc),
         records=record_table(doc.get("records")),
         heldout=heldout_table(doc, peak_of(recording.force)),
+        unseen=[_sentence(u["text"]) for u in doc.get("unseen", [])],
         undetected_header=HEADER,
         untestable=[[k, v] for k, v in doc["not_testable"].items()],
         undetected=undetected_rows(doc.get("undetected", [])),

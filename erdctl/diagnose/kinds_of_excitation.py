@@ -1,0 +1,57 @@
+"""Records of one kind of excitation, which are left out of a fit together.
+
+A law that only fits the excitations at hand predicts a record well by the others of its kind, and
+fails at the next stroke, frequency or level of control. What is left out together shows that.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from erdctl.core.recording import Array, Index, Recording
+from erdctl.diagnose import thresholds
+
+
+def excitation(recording: Recording) -> Array:
+    """(r, 4) of each record: log of effective stroke and speed, mean and spread of the duty.
+
+    Differences are then relative ones of the motion, and ones of the duty.
+    """
+    sizes = [[float(np.std(v[s])) for v in (recording.x, recording.xdot)] for s in recording.slices]
+    duty = [
+        [float(recording.duty[s].mean()), float(recording.duty[s].std())] for s in recording.slices
+    ]
+    return np.hstack([np.log(np.maximum(sizes, 1e-12)), duty])
+
+
+def kinds_of_motion(recording: Recording) -> Index | None:
+    """(n,) kind of motion of each sample; None if every record is of its own kind, or all of one.
+
+    Of one kind are records whose effective stroke and speed differ by less than a factor of
+    KIND_FACTOR, or that are joined by others in between.
+    """
+    from scipy.cluster.hierarchy import fcluster, linkage
+
+    at = excitation(recording)[:, :2]
+    if len(at) < 2:
+        return None
+    apart = np.log(thresholds.KIND_FACTOR)
+    found = fcluster(linkage(at, "single", "chebyshev"), apart, "distance")
+    return _along(recording, np.asarray(found - 1, dtype=np.intp), thresholds.MOTION_KINDS)
+
+
+def levels_of_duty(recording: Recording) -> Index | None:
+    """(n,) steady duty of each sample's record, numbered; None if a record has several."""
+    duty = [recording.duty[s] for s in recording.slices]
+    if any(np.ptp(d) > thresholds.KIND_DUTY for d in duty):
+        return None
+    levels = np.round([float(d.mean()) / thresholds.KIND_DUTY for d in duty])
+    found = np.unique(levels, return_inverse=True)[1]
+    return _along(recording, np.asarray(found, dtype=np.intp), thresholds.CONTROL_KINDS)
+
+
+def _along(recording: Recording, kinds: Index, least: int) -> Index | None:
+    count = len(set(kinds.tolist()))
+    if not least <= count < len(kinds):
+        return None
+    return np.repeat(kinds, np.diff(recording.starts))

@@ -1,0 +1,134 @@
+"""Data that a model has not seen, and how: kept from fit and search, or from the fit alone.
+
+A search that chose among hundreds of hypotheses by what they predict of left-out groups has seen
+these groups, though no fit has. So where there are records enough some are kept aside until all
+has been decided, and predicted once. Of the others each kind of motion, and each level of control,
+is left out of the fit in turn: what fits only the excitations at hand fails there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+import numpy as np
+
+from erdctl.bench.excitation import Survey
+from erdctl.bench.identifiability import unmet, untestable
+from erdctl.core.recording import Array, Recording
+from erdctl.diagnose import thresholds
+from erdctl.diagnose.comparison import compare
+from erdctl.diagnose.hypothesis import Hypothesis, by_partition
+from erdctl.diagnose.kinds_of_excitation import excitation, kinds_of_motion, levels_of_duty
+from erdctl.diagnose.problem import Problem, mask_doubtful
+from erdctl.model.effect import Effect
+
+
+class Left(StrEnum):
+    """What was left out."""
+
+    ASIDE = "records kept aside"
+    MOTIONS = "kinds of motion"
+    DUTIES = "levels of duty"
+    GROUPS = "groups"
+
+
+@dataclass(frozen=True)
+class Unseen:
+    """Errors on what was left out of a fit.
+
+    left : what;  parts : number of fits, each without one of them
+    names : of the records that were kept aside, otherwise none
+    before, after : NRMSE over the range of the force, of the model to answer for and corrected
+    """
+
+    left: Left
+    parts: int
+    names: tuple[str, ...]
+    before: float
+    after: float
+
+    @property
+    def never_seen(self) -> bool:
+        """Whether the choice of effects does not rest on these data, either."""
+        return self.left is Left.ASIDE
+
+    @property
+    def worse(self) -> bool:
+        """Whether the correction predicts them worse than the model that it corrects."""
+        return self.after > self.before
+
+
+def kept_aside(recording: Recording, candidates: Sequence[Effect]) -> tuple[int, ...]:
+    """Numbers of records that neither fit nor search is to see; none where there are too few.
+
+    The ones most like another record, so that the rest still holds every kind of excitation; none
+    of the slowest, widest, longest or else extreme, and none if the rest could show less.
+    """
+    count = len(recording.names)
+    if count < thresholds.ASIDE_FROM:
+        return ()
+    at, most = excitation(recording), count // thresholds.ASIDE_OF
+    apart = np.abs(at[:, None] - at[None]).max(axis=2)
+    np.fill_diagonal(apart, np.inf)
+    extreme = _extreme(recording, at)
+    chosen: list[int] = []
+    for r in np.argsort(apart.min(axis=1), kind="stable").tolist():
+        others = apart[r].copy()
+        others[chosen] = np.inf
+        if r not in extreme and np.isfinite(others).any() and len(chosen) < most:
+            alone = others.min() > apart[r].min()  # what it is most like is aside already
+            chosen += [] if alone else [r]
+    rest = recording.select([r for r in range(count) if r not in chosen])
+    shows = [
+        (set(unmet(log)), set(untestable(Survey.of(log), candidates))) for log in (recording, rest)
+    ]
+    return tuple(sorted(chosen)) if shows[0] == shows[1] else ()
+
+
+def _extreme(recording: Recording, at: Array) -> set[int]:
+    """Records at either end of a measure of the excitation, or at which a channel has its ends."""
+    channels = [recording.x, recording.xdot, recording.duty, recording.t]
+    channels += [] if recording.temperature is None else [recording.temperature]
+    ends = [*at.T, *(-at.T)]
+    for c in channels:
+        ends += [np.array([float(c[s].max()) for s in recording.slices])]
+        ends += [np.array([-float(c[s].min()) for s in recording.slices])]
+    return {int(np.argmax(e)) for e in ends if np.ptp(e) > 0.0}
+
+
+def predicted(problem: Problem, base: Hypothesis, best: Hypothesis) -> Unseen:
+    """Two models on records that neither their fits nor the search has seen."""
+    before, after = (_on(problem, h) for h in (base, best))
+    return _unseen(Left.ASIDE, 1, problem.recording.names, before, after)
+
+
+def _on(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
+    """A hypothesis on data of which no sample was in its fit."""
+    model, values = hypothesis.model, hypothesis.values
+    residual = problem.block.force - model.force(problem.block.signals, values)
+    fitted = replace(hypothesis.fitted, residual=residual)
+    return Hypothesis(mask_doubtful(problem, model, values), fitted, residual)
+
+
+def left_out(base: Hypothesis, best: Hypothesis) -> Iterator[Unseen]:
+    """The same of all that is left out of the fit in turn; the search has seen it."""
+    recording = best.problem.recording
+    for left, part in (
+        (Left.MOTIONS, kinds_of_motion(recording)),
+        (Left.DUTIES, levels_of_duty(recording)),
+    ):
+        if part is not None:
+            before, after = by_partition(base, part), by_partition(best, part)
+            yield _unseen(left, int(part.max()) + 1, (), before, after)
+    yield _unseen(Left.GROUPS, best.problem.count, (), base, best)
+
+
+def _unseen(
+    left: Left, parts: int, names: tuple[str, ...], before: Hypothesis, after: Hypothesis
+) -> Unseen:
+    found = compare(after.problem, before, after)
+    scale = float(np.ptp(after.problem.block.force))
+    errors = (float(np.sqrt(square)) / scale for square in (found.before, found.after))
+    return Unseen(left, parts, names, *errors)
