@@ -135,7 +135,7 @@ class PerRecord(TypedDict):
     offset: NotRequired[Measured]
 
 
-class Unseen(TypedDict):
+class HeldoutScores(TypedDict):
     """Scores on groups left out of the fit, before and after the correction."""
 
     groups: int
@@ -173,7 +173,7 @@ class DiagnosisFile(TypedDict):
     mismatch: list[Mismatch]
     findings: list[FindingDocument]
     corrected: Corrected
-    heldout: NotRequired[Unseen]
+    heldout: NotRequired[HeldoutScores]
     unseen: NotRequired[list[LeftOut]]
     withdrawn: NotRequired[list[str]]
     remaining: Remaining
