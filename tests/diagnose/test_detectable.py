@@ -9,7 +9,7 @@ import pytest
 from rig import TRUTH, campaign, noisy
 
 from erdctl.core.errors import UsageProblem
-from erdctl.core.recording import Recording
+from erdctl.core.recording import Array, Recording
 from erdctl.diagnose.detectable import ABSORBED, TAKEN, Detectable, Injection, amount_of
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
 from erdctl.diagnose.forecast import forecast
@@ -38,10 +38,15 @@ def with_effect(found: Diagnosis, name: str, times: float) -> Recording:
     assert d.values is not None
     assert r.force is not None
     on, best = amount_of(d.effect), found.selection.best
-    values = {**d.values, on.symbol: on.off + times * (d.values[on.symbol] - on.off)}
-    full = best.values | {d.effect.key(s): v for s, v in values.items()}
     signals = found.problem.block.signals
-    added = Model((d.effect,)).force(signals, full) - best.model.force(signals, best.values)
+
+    def force(part: float) -> Array:
+        values = {**d.values, on.symbol: on.off + part * (d.values[on.symbol] - on.off)}
+        full = best.values | {d.effect.key(s): v for s, v in values.items()}
+        return Model((d.effect,)).force(signals, full)
+
+    # Less a trace of it: what is simulated another way as soon as it is on is no size.
+    added = force(times) - force(1e-6)
     return replace(r, force=r.force + added)
 
 
