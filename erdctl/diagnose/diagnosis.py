@@ -158,7 +158,7 @@ def diagnose(
             selection = on_all(problem, selection, workers)
     best = selection.best
     progress("lack of fit", part_of("regression of the residual", 1, 1))
-    lack_of_fit = lack_of_fit_test(best.problem, best.residual, seed)
+    lack_of_fit = selection.left or lack_of_fit_test(best.problem, best.residual, seed)
     noise = lack_of_fit.noise_rms
     left = lack_of_fit.significant and _matters(problem, selection, lack_of_fit)
     cannot_tell = bool(selection.named) and one_condition(recording)

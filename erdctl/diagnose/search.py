@@ -6,7 +6,7 @@ hypothesis replaces another only if it is better by more than chance.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from erdctl.core.progress import part_of
@@ -39,6 +39,7 @@ class Selection:
     singles : the base with every effect alone, the best first
     without : for each chosen effect, the best model that lacks it
     look_alikes : for each chosen effect, those that would do as well in its place, best first
+    left : what `best` leaves, if that was tested
     """
 
     base: Hypothesis
@@ -46,6 +47,7 @@ class Selection:
     singles: tuple[Hypothesis, ...]
     without: Mapping[str, Hypothesis]
     look_alikes: Mapping[str, tuple[tuple[str, Hypothesis], ...]]
+    left: LackOfFit | None = None
 
     @property
     def named(self) -> tuple[Effect, ...]:
@@ -55,7 +57,7 @@ class Selection:
     @property
     def nothing(self) -> Selection:
         """The same search with nothing named."""
-        return replace(self, best=self.base, without={}, look_alikes={})
+        return replace(self, best=self.base, without={}, look_alikes={}, left=None)
 
 
 def search(
@@ -69,8 +71,9 @@ def search(
     """Search for the effects, at most `most`, by which the recording differs from a given model."""
     base = _base(problem, given, executor)
     x = Exploration(problem, base, Explored([base]), executor)
-    best, lack_of_fit, singles = _forward_selection(x, base, candidates, most, seed)
-    if lack_of_fit.significant:
+    best, left, singles = _forward_selection(x, base, candidates, most, seed)
+    tested = best
+    if left.significant:
         alone = best
         joint = [joint_task(problem, base, effects) for effects in companion_sets(candidates)]
         for hypothesis in executor.fit(problem, joint):
@@ -78,8 +81,9 @@ def search(
                 best = hypothesis
                 x.explored.keep(hypothesis)
         if best is not alone:
-            left = most - len(x.added(best))
-            best, _, _ = _forward_selection(x, best, candidates, left, seed)
+            more = most - len(x.added(best))
+            best, left, _ = _forward_selection(x, best, candidates, more, seed)
+            tested = best
     best = eliminate(x, best)
     best = second_pass(x, best, most)
     best = as_good_as_explored(x, best)
@@ -94,7 +98,10 @@ def search(
             best = first
         alike[name] = tuple(found[: thresholds.LOOK_ALIKES_LISTED])
     without = dict(zip((e.name for e in x.added(best)), without_each(x, best), strict=True))
-    return Selection(x.explored[key_of(base.effects)], best, tuple(singles), without, alike)
+    return Selection(
+        x.explored[key_of(base.effects)], best, tuple(singles), without, alike,
+        left if best is tested else None,
+    )  # fmt: skip
 
 
 def refit(problem: Problem, found: Selection, executor: Executor) -> Selection:
@@ -104,14 +111,10 @@ def refit(problem: Problem, found: Selection, executor: Executor) -> Selection:
     carry over to records that were left out.
     """
     again = {key_of(h.effects): h for h in (found.base, found.best, *found.without.values())}
-    tasks = [
-        Task(
-            "all samples", h.effects, (h.values,), thresholds.STEPS_AGAIN,
-            record_effects=h.record_effects,
-        )
-        for h in again.values()
-    ]  # fmt: skip
-    explored = Explored(executor.fit_compatible(problem, tasks))
+    if len(found.best.residual) == len(problem.block.force):  # all samples were searched
+        explored = Explored(again.values())
+    else:
+        explored = _on_all_samples(problem, again.values(), executor)
     explored.restarts.update((key, key_of(found.best.effects)) for key in again)
     base = explored[key_of(found.base.effects)]
     x = Exploration(problem, base, explored, executor)
@@ -121,7 +124,21 @@ def refit(problem: Problem, found: Selection, executor: Executor) -> Selection:
     names = [e.name for e in x.added(best)]
     without = {n: explored[key_of(best.effects) - {n}] for n in names}
     alike = {n: found.look_alikes[n] for n in names}
-    return Selection(base, best, found.singles, without, alike)
+    left = found.left if best is found.best else None
+    return Selection(base, best, found.singles, without, alike, left)
+
+
+def _on_all_samples(
+    problem: Problem, hypotheses: Iterable[Hypothesis], executor: Executor
+) -> Explored:
+    tasks = [
+        Task(
+            "all samples", h.effects, (h.values,), thresholds.STEPS_AGAIN,
+            record_effects=h.record_effects,
+        )
+        for h in hypotheses
+    ]  # fmt: skip
+    return Explored(executor.fit_compatible(problem, tasks))
 
 
 def on_all(problem: Problem, found: Selection, executor: Executor) -> Selection:
@@ -131,7 +148,7 @@ def on_all(problem: Problem, found: Selection, executor: Executor) -> Selection:
         for h in ((found.base, found.best) if found.named else (found.base,))
     ]
     fits = executor.fit_compatible(problem, tasks)
-    return replace(found, base=fits[0], best=fits[-1])
+    return replace(found, base=fits[0], best=fits[-1], left=None)
 
 
 def _forward_selection(
