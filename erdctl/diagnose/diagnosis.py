@@ -176,8 +176,10 @@ def diagnose(
         mismatch = since_onset(best.problem, first, best.values, energy)
         mismatch += locate(best.problem, energy)[: thresholds.REGIONS - len(mismatch)]
         mismatch += [alone] if alone else []
-    refitted = scores.shared(problem, selection.base)
+    base = selection.base
+    refitted = scores.of(problem, base.model, base.values)
     fit, record_effects = fit_errors(problem, best)
+    corrected = scores.of(problem, fit.model, fit.values)
     undetected = _undetected(thin, searched.best, selection.best, candidates, missing, progress)
     return Diagnosis(
         verdict=verdict,
@@ -190,10 +192,10 @@ def diagnose(
         findings=findings,
         mismatch=tuple(mismatch),
         given=given,
-        baseline=refitted if given is None else scores.as_given(problem, given),
+        baseline=refitted if given is None else scores.of(problem, given.model, given.values),
         refitted=refitted,
-        corrected=scores.shared(problem, best),
-        carried=scores.carried(problem, best),
+        corrected=corrected,
+        carried=corrected if record_effects is None else scores.carried(problem, best),
         unseen=tuple(unseen),
         withdrawn=withdrawn,
         cross_validated=(

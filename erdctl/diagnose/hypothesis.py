@@ -167,6 +167,12 @@ def _fitted(
     return replace(found, residual=residual, cost=cost if np.isfinite(cost) else np.inf)
 
 
+def fitted_from(problem: Problem, hypothesis: Hypothesis, steps: int) -> Array:
+    """(n,) residual of a hypothesis's model fitted to another problem of the same records [N]."""
+    found = _fitted(problem, hypothesis.model, hypothesis.values, steps, hypothesis.record_effects)
+    return found.residual
+
+
 def over_records(hypothesis: Hypothesis) -> Hypothesis:
     """The same fit, cross-validated with whole records left out in turn."""
     starts = hypothesis.problem.block.signals.starts

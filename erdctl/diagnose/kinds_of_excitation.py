@@ -28,7 +28,8 @@ def kinds_of_motion(recording: Recording) -> Index | None:
     """(n,) kind of motion of each sample; None if every record is of its own kind, or all of one.
 
     Of one kind are records whose effective stroke and speed differ by less than a factor of
-    KIND_FACTOR, or that are joined by others in between.
+    KIND_FACTOR, or that are joined by others in between; where that makes more than MOST_KINDS, so
+    many, each as narrow as can be.
     """
     from scipy.cluster.hierarchy import fcluster, linkage
 
@@ -36,7 +37,10 @@ def kinds_of_motion(recording: Recording) -> Index | None:
     if len(at) < 2:
         return None
     apart = np.log(thresholds.KIND_FACTOR)
-    found = fcluster(linkage(at, "single", "chebyshev"), apart, "distance")
+    tree = linkage(at, "single", "chebyshev")
+    found = fcluster(tree, apart, "distance")
+    if found.max() > thresholds.MOST_KINDS:
+        found = fcluster(linkage(at, "complete", "chebyshev"), thresholds.MOST_KINDS, "maxclust")
     return _along(recording, np.asarray(found - 1, dtype=np.intp), thresholds.MOTION_KINDS)
 
 

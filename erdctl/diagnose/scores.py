@@ -7,22 +7,14 @@ import numpy as np
 from erdctl.core.recording import Array
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
-from erdctl.model.parameters import Parameters
+from erdctl.model.composed import Model
+from erdctl.model.slots import Values
 from erdctl.score.nrmse import Normalise, Validation, validate
 
 
-def as_given(problem: Problem, given: Parameters) -> Validation:
-    """Of given parameters as they are."""
-    force = given.model.force(problem.block.signals, given.values)
-    return validate(problem.recording, force, Normalise.RANGE)
-
-
-def shared(problem: Problem, hypothesis: Hypothesis) -> Validation:
-    """Of a model without its record effects."""
-    if hypothesis.record_effects is None:
-        return carried(problem, hypothesis)
-    force = hypothesis.model.force(problem.block.signals, hypothesis.values)
-    return validate(problem.recording, force, Normalise.RANGE)
+def of(problem: Problem, model: Model, values: Values) -> Validation:
+    """Of a model with given values, without record effects."""
+    return validate(problem.recording, model.force(problem.block.signals, values), Normalise.RANGE)
 
 
 def carried(problem: Problem, hypothesis: Hypothesis) -> Validation:

@@ -18,6 +18,7 @@ from erdctl.diagnose.backward_step import (
     second_pass,
     without_each,
 )
+from erdctl.diagnose.carry_over import to_other_motions
 from erdctl.diagnose.companion_effects import companion_sets, joint_task
 from erdctl.diagnose.comparison import compare, critical_of, ranked
 from erdctl.diagnose.executor import Executor, Task
@@ -87,6 +88,7 @@ def search(
     best = eliminate(x, best)
     best = second_pass(x, best, most)
     best = as_good_as_explored(x, best)
+    best = to_other_motions(x, best)
     alike: dict[str, tuple[tuple[str, Hypothesis], ...]] = {}
     for effect in x.added(best):
         found = look_alikes(x, best, effect, candidates, singles)

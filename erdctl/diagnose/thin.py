@@ -37,7 +37,9 @@ def thinned(problem: Problem, most: int) -> Problem:
     even = row % np.array([min(apart, _apart(s, r)) for r in range(len(s.starts) - 1)])[record] == 0
     whole, left = _stretches(problem, record, most // 2)
     fine = max(1, int(thresholds.FINE_STEP / s.typical_step))
-    rows = np.flatnonzero(even | (whole & (row % fine == 0)) | _at_duty_steps(s, record))
+    at = _at_duty_steps(s, record)
+    at[_turns(problem, record)] = True  # a channel that averages has each of them for long
+    rows = np.flatnonzero(even | (whole & (row % fine == 0)) | at)
     starts = np.searchsorted(rows, s.starts)
     weight = np.where(left, 0.0, problem.block.weight)[rows]
     recording = problem.recording.take(rows, starts, problem.recording.names)
@@ -54,11 +56,7 @@ def thinned(problem: Problem, most: int) -> Problem:
 def _stretches(problem: Problem, record: Index, most: int) -> tuple[Mask, Mask]:
     """(n,) what lies in a stretch that is kept, of about `most` samples in all, and in another."""
     s, rng = problem.block.signals, np.random.default_rng(0)
-    sure = np.flatnonzero(~problem.unsure)
-    turned = (s.compressing[sure[1:]] != s.compressing[sure[:-1]]) & (
-        record[sure[1:]] == record[sure[:-1]]
-    )
-    turns = np.stack([sure[:-1][turned], sure[1:][turned]])
+    turns = _turns(problem, record)
     steps = np.flatnonzero(_stepped(s, record)) + 1
     events = [turns, np.stack([steps - 1, steps])]
     step = s.typical_step
@@ -80,6 +78,15 @@ def _stretches(problem: Problem, record: Index, most: int) -> tuple[Mask, Mask]:
         whole |= marked(e[:, kept])
         left |= marked(e[:, ~kept])
     return whole, left
+
+
+def _turns(problem: Problem, record: Index) -> Index:
+    """(2, k) the last sure sample before each turn of the motion, and the first one after it."""
+    s = problem.block.signals
+    sure = np.flatnonzero(~problem.unsure)
+    before, after = sure[:-1], sure[1:]
+    turned = (s.compressing[after] != s.compressing[before]) & (record[after] == record[before])
+    return np.stack([before[turned], after[turned]])
 
 
 def _marked(s: Signals, record: Index, first: Index, last: Index, of: Index) -> Mask:

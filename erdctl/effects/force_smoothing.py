@@ -123,11 +123,19 @@ def _weights(clock: Array, times: Array) -> Weights:
 
 
 def _cycles(s: Signals) -> Array:
-    """(r,) cycle of the motion of each record [s]; 0 if it has none, as nothing turns then."""
+    """(r,) cycle of the motion of each record [s]; 0 if it has none, as nothing turns then.
+
+    Means are over time: samples may lie closer where the motion turns.
+    """
     first, count = s.starts[:-1], np.diff(s.starts)
-    mean = np.repeat(np.add.reduceat(s.x, first) / count, count)
-    travel = np.add.reduceat((s.x - mean) ** 2, first)
-    speed = np.add.reduceat(s.xdot**2, first)
+    dt = 0.5 * (s.step + np.concatenate([[0.0], s.step[:-1]]))
+
+    def sums(values: Array) -> Array:
+        return np.add.reduceat(dt * values, first)
+
+    lasting = sums(np.ones_like(dt))
+    mean = np.repeat(sums(s.x) / np.where(lasting > 0, lasting, np.inf), count)
+    travel, speed = sums((s.x - mean) ** 2), sums(s.xdot**2)
     return 2.0 * np.pi * np.sqrt(travel / np.where(speed > 0, speed, np.inf))
 
 

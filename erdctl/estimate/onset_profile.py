@@ -29,6 +29,7 @@ ZOOMS = 5
 BLOCKS = 256
 RAMPS = (0, 1, 2, 3, 5, 8, 12, 18, 27, 40, 60, 79)  # cells of the first grid that a ramp may last
 LOSSES = (0.02, 0.06, 0.12, 0.2, 0.35, 0.5, 0.7, 0.9, 1.0)  # 1 - f that are tried first
+ROUNDED = 1e-6  # of a step
 RIDGE = 1e-9  # of the normal equations' diagonal
 # Likelihood ratio of a ramp against a step below which it is a step: 1 % of chi-square with 2.
 A_RAMP = 9.21
@@ -65,7 +66,9 @@ class Profile:
         self.t, self.q = acted[self.order], len(whole)
         self.X = np.concatenate([whole, failing])[:, self.order]
         self.middle = 0.5 * float(self.t[0] + self.t[-1])
-        between = np.unique(self.t)
+        # Times that differ by rounding are one: the sums over so short a ramp would be rounding.
+        apart = np.diff(self.t, prepend=-np.inf) > ROUNDED * self.step
+        between = self.t[apart]
         self.edges = 0.5 * (between[1:] + between[:-1])
         # Sums of all samples from some of them on, so that one onset costs what lies in its ramp.
         self.marks = np.unique(np.linspace(0, len(self.t), BLOCKS + 1).astype(np.intp))
@@ -265,8 +268,11 @@ class Profile:
     def _schur(self, G: Array) -> Array:
         """(m,) square that is left of the last row beyond the others, from Grams (m, p+1, p+1)."""
         N, right = self._normal(G)
-        least: Array = G[:, -1, -1] - np.sum(np.linalg.solve(N, right) * right, axis=(1, 2))
-        return least
+        whole = G[:, -1, -1]
+        least: Array = whole - np.sum(np.linalg.solve(N, right) * right, axis=(1, 2))
+        return np.where(
+            least >= 0.0, least, whole
+        )  # a square below 0 is rounding, and says nothing
 
     def _moves(self, G: Array) -> Array:
         """(p,) dp of one Gram matrix."""
