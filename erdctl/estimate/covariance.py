@@ -22,6 +22,7 @@ class Fit:
     rms : weighted residual [N];  samples : number of samples with weight
     flat : groups of free parameters along which the data do not change the cost at all
     intervals : 95 %, of parameters that the cost is no parabola of, or that lie at a bound
+    level_errors : (k, r) of what each record has of its own, where a fit has that
     """
 
     model: Model
@@ -35,6 +36,7 @@ class Fit:
     converged: bool
     flat: tuple[tuple[str, ...], ...] = ()
     intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    level_errors: Array | None = None
 
     @property
     def stderr(self) -> dict[str, float]:

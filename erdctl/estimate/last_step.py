@@ -9,11 +9,13 @@ import numpy as np
 
 from erdctl.core.blocks import Block
 from erdctl.core.recording import Array
+from erdctl.estimate import own_levels
 from erdctl.estimate.autoregressive import ColouredNoise
 from erdctl.estimate.covariance import Fit
 from erdctl.estimate.finer import Finer
 from erdctl.estimate.intervals import with_intervals
 from erdctl.estimate.normal_equations import Normal
+from erdctl.estimate.own_levels import Levels
 from erdctl.estimate.record_scatter import covariance
 from erdctl.estimate.sandwich import by_record, roughness, sum_up, weighed
 from erdctl.model.composed import Model
@@ -34,12 +36,14 @@ def assess(
     evaluations: int = 0,
     converged: bool = True,
     robust: bool = False,
+    levels: Levels | None = None,
     threads: int = 2,
 ) -> Fit:
     """One Gauss-Newton step over all data from a good start, then errors of the estimates.
 
     fixed : parameters that keep their value;  bounded : the same, as they lie at a bound, so that
         one side is left to say something of
+    levels : what each record has of its own, which the blocks are already without
 
     The start may come from a part of the data: one step from there is as good as the full search
     to the order of the standard errors (one-step estimator, Le Cam). The covariance is the
@@ -93,11 +97,16 @@ def assess(
     after = before
     samples = sum(int(np.count_nonzero(b.weight)) for b in blocks)
     rough = roughness(parts, inverse)
+    if levels is None:
+        errors, own = covariance(records, inverse, rough), None
+    else:
+        errors, own = own_levels.covariance(records, levels, rough)
     found = Fit(
         model=model,
         values=dict(values),
         free=free,
-        covariance=covariance(records, inverse, rough),
+        covariance=errors,
+        level_errors=own,
         rms=float(np.sqrt(after / max(samples - len(free), 1))),
         noise=noise,
         samples=samples,
