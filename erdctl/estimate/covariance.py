@@ -51,12 +51,23 @@ class Fit:
         return np.asarray(self.covariance / np.outer(scale, scale))
 
 
+def together(found: Fit) -> dict[str, str]:
+    """Why the data tell some parameters from no value of others, by name."""
+    out = {}
+    for group in found.flat:
+        for name in group:
+            others = ", ".join(n for n in group if n != name) or "nothing"
+            out[name] = f"the data change with it only together with {others}"
+    return out
+
+
 def estimates(found: Fit, reasons: Mapping[str, str]) -> dict[str, Estimate]:
     """Every parameter with its error; those that the data do not identify have a reason instead.
 
     reasons : why, by name
     """
     errors, out = found.stderr, {}
+    reasons = {**together(found), **reasons}
     for name, q in found.model.quantities.items():
         value, reason, error = found.values[name], reasons.get(name), errors.get(name)
         bound = q.bound_at(value, error) if name in errors or name in found.intervals else None

@@ -10,12 +10,11 @@ import numpy as np
 from erdctl.core.blocks import Block
 from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.estimate.covariance import Fit
-from erdctl.estimate.finer import Finer
+from erdctl.estimate.finer import MOST_SAMPLES, Finer
 from erdctl.estimate.linearisation import linearised
 from erdctl.estimate.profile import Linear, interval, others, parabolic
 from erdctl.model.parameters import NORMAL_95
 
-LONGEST = 60_000  # samples; a longer log has its derivatives at many jumps, and no memory for this
 OUTLYING = 2.0  # standard deviations of the noise: no single sample rises beyond 1.96^2
 ROUNDING = 1e-4  # of the force, below which nothing is told apart
 GUESS = 1e-3  # of a value or a start, where there is no error to begin with
@@ -40,7 +39,7 @@ def with_intervals(
         if n.split(".")[0] not in DIRECTIONS and n not in model.linear
         and not any(n in group and group != (n,) for group in found.flat)
     ]  # fmt: skip
-    if not (asked or bounded) or sum(len(b.force) for b in blocks) > LONGEST:
+    if not (asked or bounded) or sum(len(b.force) for b in blocks) > MOST_SAMPLES:
         return found
     root = np.sqrt(np.concatenate([b.weight for b in blocks]))
     measured = np.concatenate([b.force for b in blocks])

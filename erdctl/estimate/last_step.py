@@ -19,7 +19,7 @@ from erdctl.estimate.own_levels import Levels
 from erdctl.estimate.record_scatter import covariance
 from erdctl.estimate.sandwich import by_record, roughness, sum_up, weighed
 from erdctl.model.composed import Model
-from erdctl.model.slots import Values
+from erdctl.model.slots import MotionSlot, Values
 
 STEPS = 3  # of Gauss-Newton in a model with effects, from a fit in the log's own steps
 SETTLED = 1e-5  # part of the cost that a step must gain for another
@@ -57,7 +57,8 @@ def assess(
     free = tuple(n for n in model.quantities if n not in held)
     p, has_effects = len(free), bool(model.effects)
     # The paper's model alone is exact but for turns, and its logs may be long.
-    finer = [Finer.of(b.signals) if has_effects else Finer.none(b.signals) for b in blocks]
+    between = has_effects and not any(slot.of_samples for _, slot in model.of(MotionSlot))
+    finer = [Finer.of(b.signals) if between else Finer.none(b.signals) for b in blocks]
     with ThreadPoolExecutor(threads) as pool:
 
         def residuals(at: Values) -> tuple[list[Block], float, ColouredNoise]:

@@ -16,6 +16,7 @@ from erdctl.core.recording import Array, Recording
 from erdctl.diagnose.diagnosis import fit_errors
 from erdctl.diagnose.hypothesis import fit_hypothesis
 from erdctl.diagnose.problem import prepare
+from erdctl.diagnose.record_effects import NONE_VARY, Varying
 from erdctl.effects import get
 from erdctl.estimate.covariance import estimates
 from erdctl.estimate.identify import identify
@@ -94,19 +95,23 @@ def conceal(effect: str, seed: int, samples: int = SAMPLES) -> Concealed:
     return Concealed(effect, seed, _recording(plant, over, clean), truth, rms)
 
 
-def read(damper: Concealed, kind: str, number: int = 0) -> list[Held]:
-    """What a fit says of a damper whose force is read with some kind of noise."""
+def read(damper: Concealed, kind: str, number: int = 0, *, free: Varying = NONE_VARY) -> list[Held]:
+    """What a fit says of a damper whose force is read with some kind of noise.
+
+    free : what each record may have of its own
+    """
     clean = damper.recording
     assert clean.force is not None
     random = np.random.default_rng([damper.seed, DISTURBANCES.index(kind), number])
     lengths = np.diff(clean.starts).tolist()
     noisy = disturbed(random, clean.force, lengths, damper.rms, kind)
     recording, truth = replace(clean, force=noisy), damper.truth
-    if not damper.effect:
+    if not damper.effect and not free:
         found = dict(identify(recording).joint)
     else:
-        problem = prepare(recording)
-        hypothesis = fit_hypothesis(problem, [get(damper.effect)], [truth])
+        problem = prepare(recording, free)
+        effects = [get(damper.effect)] if damper.effect else []
+        hypothesis = fit_hypothesis(problem, effects, [truth])
         fit, _ = fit_errors(problem, hypothesis)
         found = estimates(fit, {n: need.reason for n, need in problem.needs.items()})
     return [Held(name, truth[name], e) for name, e in found.items() if name in truth]
