@@ -116,7 +116,7 @@ def assess(
         flat=_flat(normal, free),
     )
     return (
-        with_intervals(found, blocks, finer, np.diag(inverse) * rough**2, ends)
+        with_intervals(found, blocks, finer, np.diag(inverse) * rough**2, ends, held)
         if has_effects
         else found
     )

@@ -27,6 +27,8 @@ LIKE = (0.5, 2.0)  # of the rise that a parabola has at a few errors, to count a
 BEYOND = 4.0  # times the rise that ends an interval: no more is looked for
 FARTHEST = 16  # doublings from a tenth of an error
 AROUND, POINTS = 0.01, 21  # part of a value to either side, evenly looked at
+SHORT = 0.7  # of the rise that ends an interval, below which refits look farther out
+NARROWEST = 1e-3  # of a value or a start, the first step of these
 HALVINGS = 5  # of what lies between a value inside and one outside
 
 
@@ -97,6 +99,39 @@ def interval(
                 first = middle
         out.append(first)
     return best, out[0], out[1]
+
+
+def widened(
+    cost: Callable[[float], float], q: Quantity, best: float, low: float, high: float
+) -> tuple[float, float]:
+    """Ends of an interval (low, high) moved to where the cost ends it, where that is farther out.
+
+    cost : over phi, with the others refitted. Where they follow along a bend, to first order they
+        fall behind, and an interval comes out too narrow; it is never too wide by that.
+    """
+    inside = NORMAL_95**2
+    known = {v: cost(v) for v in (best, low, high)}
+    out = []
+    for way, end, bound in ((-1.0, low, q.low), (1.0, high, q.high)):
+        last, past = end, None
+        reach = max(abs(end - best), NARROWEST * max(abs(best), abs(q.start)))
+        while last != bound and known[last] <= min(known.values()) + SHORT * inside:
+            reach *= 2.0
+            at = float(np.clip(best + way * reach, q.low, q.high))
+            known[at] = cost(at)
+            if known[at] > min(known.values()) + inside:
+                past = at
+                break
+            last = at
+        for _ in range(HALVINGS if past is not None else 0):
+            middle = 0.5 * (last + past)
+            known[middle] = cost(middle)
+            if known[middle] <= min(known.values()) + inside:
+                last = middle
+            else:
+                past = middle
+        out.append(last if past is None else past)
+    return out[0], out[1]
 
 
 def _outwards(
