@@ -113,24 +113,24 @@ def widened(
     known = {v: cost(v) for v in (best, low, high)}
     out = []
     for way, end, bound in ((-1.0, low, q.low), (1.0, high, q.high)):
-        last, past = end, None
+        last, past = end, end
         reach = max(abs(end - best), NARROWEST * max(abs(best), abs(q.start)))
         while last != bound and known[last] <= min(known.values()) + SHORT * inside:
             reach *= 2.0
             at = float(np.clip(best + way * reach, q.low, q.high))
             known[at] = cost(at)
+            past = at
             if known[at] > min(known.values()) + inside:
-                past = at
                 break
             last = at
-        for _ in range(HALVINGS if past is not None else 0):
+        for _ in range(HALVINGS if past != last else 0):
             middle = 0.5 * (last + past)
             known[middle] = cost(middle)
             if known[middle] <= min(known.values()) + inside:
                 last = middle
             else:
                 past = middle
-        out.append(last if past is None else past)
+        out.append(past)
     return out[0], out[1]
 
 
