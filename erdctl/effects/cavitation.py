@@ -43,10 +43,12 @@ def cavitation(s: Signals, p: Values) -> dict[str, Array]:
     if x_v == 0.0:
         return {}
     void, gone = _void(s, x_v, p["g"])
-    sample = np.maximum(np.minimum(s.path[0], 2.0 * void), NEGLIGIBLE)
+    sample = np.minimum(s.path[0], 2.0 * void)
     edge, to_go = p["e"] * x_v, void - gone
     over = _area(to_go + 0.5 * sample, edge) - _area(to_go - 0.5 * sample, edge)
-    lost = np.clip(over / sample, 0.0, 1.0)
+    here = np.clip(to_go / max(edge, NEGLIGIBLE), 0.0, 1.0)  # of a sample that does not travel
+    travels = sample > NEGLIGIBLE
+    lost = np.where(travels, np.clip(over / np.where(travels, sample, 1.0), 0.0, 1.0), here)
     left = np.where(s.compressing, 1.0, 1.0 - p["lambda"] * lost)
     return {"viscous": left, "yield": left}
 
