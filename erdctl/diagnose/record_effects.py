@@ -20,7 +20,7 @@ from erdctl.core.recording import Array, Index
 from erdctl.diagnose import thresholds
 from erdctl.estimate.autoregressive import ColouredNoise
 from erdctl.estimate.normal_equations import SINGULAR
-from erdctl.estimate.own_levels import Levels
+from erdctl.estimate.own_levels import OwnLevels
 
 
 @dataclass(frozen=True)
@@ -75,11 +75,11 @@ class RecordEffects:
             bool((np.abs(move) <= thresholds.RECORD_SETTLED * error).all()) for move, error in pairs
         )
 
-    def levels(self, free: Varying) -> Levels:
+    def levels(self, free: Varying) -> OwnLevels:
         """The same as the last step of a fit takes it."""
         kinds = tuple(k for k, is_free in enumerate((free.gain, free.offset)) if is_free)
         values, errors = (self.gain - 1.0, self.offset), (self.gain_error, self.offset_error)
-        return Levels(kinds, *(np.array([of[k] for k in kinds]) for of in (values, errors)))
+        return OwnLevels(kinds, *(np.array([of[k] for k in kinds]) for of in (values, errors)))
 
     def with_errors(self, free: Varying, errors: Array) -> RecordEffects:
         """With the errors (k, r) that they have beside the shared parameters, relative to a gain.

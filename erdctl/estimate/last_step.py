@@ -15,7 +15,7 @@ from erdctl.estimate.covariance import Fit
 from erdctl.estimate.finer import Finer
 from erdctl.estimate.intervals import with_intervals
 from erdctl.estimate.normal_equations import Normal
-from erdctl.estimate.own_levels import Levels
+from erdctl.estimate.own_levels import OwnLevels
 from erdctl.estimate.record_scatter import covariance
 from erdctl.estimate.sandwich import by_record, roughness, sum_up, weighed
 from erdctl.model.composed import Model
@@ -36,7 +36,7 @@ def assess(
     evaluations: int = 0,
     converged: bool = True,
     robust: bool = False,
-    levels: Levels | None = None,
+    levels: OwnLevels | None = None,
     threads: int = 2,
 ) -> Fit:
     """One Gauss-Newton step over all data from a good start, then errors of the estimates.

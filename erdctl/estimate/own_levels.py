@@ -22,7 +22,7 @@ from erdctl.estimate.record_scatter import RecordSums, stretch
 ROUNDS = 50  # of the iteration for a variance, which settles within a few
 
 
-class Levels(NamedTuple):
+class OwnLevels(NamedTuple):
     """What records have of their own, of each kind (gain, zero) that is free: (k,) its column.
 
     value, error : (k, r) deviation from the mean, shrunk by its error, and that by noise; the error
@@ -55,7 +55,9 @@ class Levels(NamedTuple):
         return s2
 
 
-def covariance(records: Sequence[RecordSums], levels: Levels, rough: Array) -> tuple[Array, Array]:
+def covariance(
+    records: Sequence[RecordSums], levels: OwnLevels, rough: Array
+) -> tuple[Array, Array]:
     """(p, p) covariance of the shared parameters, and (k, r) errors of the records' own values.
 
     rough : (p,) factors of the errors by noise, see `erdctl.estimate.sandwich`
@@ -82,7 +84,7 @@ def covariance(records: Sequence[RecordSums], levels: Levels, rough: Array) -> t
     return np.asarray(total * stretch(np.diag(total), doubt)), np.where(levels.known, error, np.inf)
 
 
-def _bordered(sums: Sequence[Array], levels: Levels, p: int) -> Array:
+def _bordered(sums: Sequence[Array], levels: OwnLevels, p: int) -> Array:
     """Products of rows of all parameters; those of one record are 0 in the others."""
     count, many = len(sums), len(levels.kinds)
     out = np.zeros((p + many * count, p + many * count))

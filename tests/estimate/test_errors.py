@@ -13,7 +13,7 @@ from erdctl.core.signals import Signals
 from erdctl.estimate.autoregressive import ColouredNoise
 from erdctl.estimate.finer import Finer
 from erdctl.estimate.identify import identify
-from erdctl.estimate.own_levels import Levels, covariance
+from erdctl.estimate.own_levels import OwnLevels, covariance
 from erdctl.estimate.profile import interval, parabolic, widened
 from erdctl.estimate.record_scatter import RecordSums
 
@@ -111,11 +111,11 @@ def test_errors_beside_zeros_of_records() -> None:
     """By hand: one constant over 4 records of 100 samples, noise 1 N, zeros that scatter by s."""
     rows = np.array([1.0, 3.0, 1.0])  # derivative of the force, force, one
     sums = [RecordSums(100 * np.outer(rows, rows), np.zeros(3), 100 * np.outer(rows, rows))] * 4
-    none = Levels((1,), np.zeros((1, 4)), np.full((1, 4), 0.1))
+    none = OwnLevels((1,), np.zeros((1, 4)), np.full((1, 4), 0.1))
     shared, own = covariance(sums, none, np.ones(1))
     assert shared[0, 0] == pytest.approx(1.0 / 400.0)
     assert own[0] == pytest.approx(np.full(4, np.sqrt((1.0 - 0.25) / 100.0)))
-    zeros = Levels((1,), np.array([[-3.0, -1.0, 1.0, 3.0]]), np.full((1, 4), 1e-6))
+    zeros = OwnLevels((1,), np.array([[-3.0, -1.0, 1.0, 3.0]]), np.full((1, 4), 1e-6))
     shared, _ = covariance(sums, zeros, np.ones(1))
     # s^2 = 20 / 3, that of the mean of four a quarter of it, and Student's t of 3 for 1.96.
     assert np.sqrt(shared[0, 0]) == pytest.approx(
