@@ -100,7 +100,7 @@ def _show(found: Identification, parameters: Parameters) -> None:
         factor, unit = scaled(e.unit, e.used)
         values = (e.value, found.two_step.get(name))
         fit, steps = (number(None if v is None else v * factor, 6) for v in values)
-        error = error_of(e.stderr, factor, at_bound=e.at_bound)
+        error = error_of(e.stderr, factor, at_bound=e.at_bound, value=e.value, within=e.within)
         rows.append([name, unit, fit, error, steps])
     title = f"Identified from {found.fit.samples} samples, residual {found.fit.rms:.4g} N rms"
     table(title, ["parameter", "unit", "joint fit", "std. error", "paper's steps"], rows)

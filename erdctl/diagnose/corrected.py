@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from erdctl.diagnose.diagnosis import Diagnosis
 from erdctl.estimate.covariance import estimates
+from erdctl.estimate.finer import MOST_SAMPLES
 from erdctl.model.parameters import Estimate, Parameters, provenance
 
 
@@ -15,6 +16,17 @@ def parameters(found: Diagnosis) -> Parameters:
         estimates=estimates(found.fit, reasons),
         provenance=provenance(found.problem.recording, found.noise_rms, found.rig.to_json()),
         fits={"method": "diagnose"},
+        warnings=_remarks(found),
+    )
+
+
+def _remarks(found: Diagnosis) -> tuple[str, ...]:
+    samples = len(found.problem.recording)
+    if samples <= MOST_SAMPLES or not found.fit.model.effects:
+        return ()
+    return (
+        f"a log of {samples} samples: the intervals of effects are by the slopes of the force, and"
+        f" by no profile of the cost, which is followed up to {MOST_SAMPLES} samples",
     )
 
 

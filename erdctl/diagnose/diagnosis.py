@@ -23,7 +23,7 @@ from erdctl.diagnose.executor import executor
 from erdctl.diagnose.forward_step import key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem, prepare, with_given
-from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying, errors
+from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying
 from erdctl.diagnose.residual.localisation import Region, locate, record_region, since_onset
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
@@ -290,16 +290,15 @@ def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEff
     shared = block if record_effects is None else record_effects.shared(block)
     held, onsets = set(problem.held), set(placed(model))
     bounded = set(model.quantities).difference(hypothesis.free, held, onsets)
+    levels = None if record_effects is None else record_effects.levels(problem.free)
     fit = assess(
-        model, [shared], hypothesis.values, fixed=held | onsets, bounded=sorted(bounded), threads=1
-    )
+        model, [shared], hypothesis.values, fixed=held | onsets, bounded=sorted(bounded),
+        levels=levels, threads=1,
+    )  # fmt: skip
     if onsets:
         # Found by a search of all times: no curvature says how well.
         found = onset_intervals(model, shared, fit.values, hypothesis.problem.held)
         fit = replace(fit, intervals={**fit.intervals, **found})
-    if record_effects is None:
-        return fit, None
-    covariance, record_effects = errors(
-        problem.free, block, model, fit.values, fit.free, record_effects
-    )
-    return replace(fit, covariance=covariance), record_effects
+    if record_effects is not None and fit.level_errors is not None:
+        record_effects = record_effects.with_errors(problem.free, fit.level_errors)
+    return fit, record_effects

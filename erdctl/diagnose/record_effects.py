@@ -11,19 +11,16 @@ constant forces. Each value is shrunk to the mean by what its error is against t
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
 from erdctl.core.blocks import Block
 from erdctl.core.recording import Array, Index
 from erdctl.diagnose import thresholds
 from erdctl.estimate.autoregressive import ColouredNoise
-from erdctl.estimate.linearisation import jacobian
-from erdctl.estimate.normal_equations import SINGULAR, Normal
-from erdctl.model.composed import Model
-from erdctl.model.slots import Values
+from erdctl.estimate.normal_equations import SINGULAR
+from erdctl.estimate.own_levels import OwnLevels
 
 
 @dataclass(frozen=True)
@@ -77,6 +74,22 @@ class RecordEffects:
         return all(
             bool((np.abs(move) <= thresholds.RECORD_SETTLED * error).all()) for move, error in pairs
         )
+
+    def levels(self, free: Varying) -> OwnLevels:
+        """The same as the last step of a fit takes it."""
+        kinds = tuple(k for k, is_free in enumerate((free.gain, free.offset)) if is_free)
+        values, errors = (self.gain - 1.0, self.offset), (self.gain_error, self.offset_error)
+        return OwnLevels(kinds, *(np.array([of[k] for k in kinds]) for of in (values, errors)))
+
+    def with_errors(self, free: Varying, errors: Array) -> RecordEffects:
+        """With the errors (k, r) that they have beside the shared parameters, relative to a gain.
+
+        What the records share is fitted to their force less offset, over gain.
+        """
+        new = iter(errors * self.gain)
+        unknown = np.full(len(self.gain), np.inf)
+        gain = next(new) if free.gain else unknown
+        return replace(self, gain_error=gain, offset_error=next(new) if free.offset else unknown)
 
 
 def estimate(free: Varying, block: Block, modelled: Array, last: RecordEffects) -> RecordEffects:
@@ -155,77 +168,3 @@ def shrunk(value: Array, error: Array) -> Array:
     tau2 = float(brentq(lambda tau2: spread(tau2)[0] - (len(v) - 1), 0.0, most))
     out[known] = tau2 / (tau2 + square) * (v - spread(tau2)[1])
     return out
-
-
-def errors(
-    free: Varying,
-    block: Block,
-    model: Model,
-    values: Values,
-    names: tuple[str, ...],
-    found: RecordEffects,
-) -> tuple[Array, RecordEffects]:
-    """(p, p) covariance of shared parameters; errors of record effects, each given the others.
-
-    names : the shared parameters that were estimated.  Both under coloured noise; the means over
-    the records are fixed, as `estimate` fixes them.
-    """
-    weight, starts = block.weight, block.signals.starts
-    records, p = len(starts) - 1, len(names)
-    gain, offset = found.along(starts)
-    modelled = model.force(block.signals, values)
-    J = jacobian(model, block.signals, values, names) * gain
-    own = np.array([modelled, np.ones_like(modelled)])[[free.gain, free.offset]]
-    rest = (block.force - offset - gain * modelled) * np.sqrt(weight)
-    noise = ColouredNoise.of(rest, starts, used=weight > 0.0)
-    many = p + len(own) * records
-
-    def bordered(a: Array, b: Array) -> Array:
-        """Products of rows of all parameters, those of a record being 0 elsewhere."""
-        out = np.zeros((many, many))
-        out[:p, :p] = a[:p] @ b[:p].T
-        diagonal = np.arange(records)
-        for i in range(len(own)):
-            here = p + i * records
-            border = _per_record(a[:p] * b[p + i], starts)
-            out[:p, here : here + records] = border
-            out[here : here + records, :p] = border.T
-            for k in range(len(own)):
-                there = p + k * records
-                out[here + diagonal, there + diagonal] = _per_record(a[p + i] * b[p + k], starts)
-        return out
-
-    rows = np.concatenate([J, own])
-    root = rows * np.sqrt(weight)
-    normal = bordered(root, root)
-    coloured = noise.colour(rows * weight, starts) * np.sqrt(noise.innovation)
-    meat = bordered(coloured, coloured)
-    kept = [found.gain_error, found.offset_error]
-    fixed = np.concatenate(
-        [e for e, is_free in zip(kept, (free.gain, free.offset), strict=True) if is_free]
-    )
-    into = _contrasts(p, len(own), np.isfinite(fixed).reshape(len(own), records))
-    inverse = Normal.of(into.T @ normal @ into).pseudo_inverse()
-    covariance = into @ inverse @ (into.T @ meat @ into) @ inverse @ into.T
-    error = np.sqrt(np.maximum(np.diag(covariance)[p:], 0.0))
-    error = np.where(np.isfinite(fixed), error, np.inf).reshape(len(own), records)
-    unknown = np.full(records, np.inf)
-    return covariance[:p, :p], RecordEffects(
-        found.gain,
-        found.offset,
-        error[0] if free.gain else unknown,
-        error[-1] if free.offset else unknown,
-    )
-
-
-def _contrasts(shared: int, kinds: int, known: npt.NDArray[np.bool_]) -> Array:
-    """All parameters from free ones: of each kind those of known records, which add up to 0."""
-    records = known.shape[1]
-    columns = [np.eye(shared + kinds * records)[:, :shared]]
-    for i in range(kinds):
-        at = shared + i * records + np.flatnonzero(known[i])
-        centred = np.eye(len(at)) - 1.0 / max(len(at), 1)
-        basis = np.zeros((shared + kinds * records, max(len(at) - 1, 0)))
-        basis[at] = np.linalg.svd(centred)[0][:, : basis.shape[1]]
-        columns.append(basis)
-    return np.concatenate(columns, axis=1)

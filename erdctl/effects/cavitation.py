@@ -6,8 +6,8 @@
 dx : travel of the piston [m];  V : what of the void release has yet to take up [m], 0 as a record
 begins;  x_v : the largest void [m], x_v >= 0, off at 0
 g : void left by a metre of compression [1];  lambda : part of the force that is lost [1], 0..1
-e : part of x_v over which the force returns [1], 0..1; at 0 within the travel of one sample, so
-that it is continuous in x_v
+e : part of x_v over which the force returns [1], 0..1; all of it as the mean over the travel of one
+sample, so that it is continuous in x_v also at e = 0
 Valid for a void that forms and is taken up whatever the speed.
 Check: x_v = 2 mm, g = 100, lambda = 0.8, e = 0: 1 mm and 3 mm after full compression 0.2 and 1 of
 both forces; g = 0.5, after 2 mm of compression: 0.5 mm and 1.5 mm into release 0.2 and 1.
@@ -44,10 +44,19 @@ def cavitation(s: Signals, p: Values) -> dict[str, Array]:
         return {}
     void, gone = _void(s, x_v, p["g"])
     sample = np.minimum(s.path[0], 2.0 * void)
-    edge = np.maximum(np.maximum(sample, p["e"] * x_v), NEGLIGIBLE)
-    lost = np.clip((void - gone + 0.5 * sample) / edge, 0.0, 1.0)
+    edge, to_go = p["e"] * x_v, void - gone
+    over = _area(to_go + 0.5 * sample, edge) - _area(to_go - 0.5 * sample, edge)
+    here = np.clip(to_go / max(edge, NEGLIGIBLE), 0.0, 1.0)  # of a sample that does not travel
+    travels = sample > NEGLIGIBLE
+    lost = np.where(travels, np.clip(over / np.where(travels, sample, 1.0), 0.0, 1.0), here)
     left = np.where(s.compressing, 1.0, 1.0 - p["lambda"] * lost)
     return {"viscous": left, "yield": left}
+
+
+def _area(void: Array, edge: float) -> Array:
+    """(n,) integral of min(1, V / edge) from no void to these [m]."""
+    ramp = np.clip(void, 0.0, edge)
+    return ramp**2 / (2.0 * edge or 1.0) + np.maximum(void - edge, 0.0)
 
 
 def _void(s: Signals, x_v: float, growth: float) -> tuple[Array, Array]:

@@ -2,7 +2,7 @@
 
     F_ER sign(xdot) -> F_ER tanh(xdot / (v_y v^q))
 
-xdot : (n,) piston speed [m/s];  v : (n,) duty cycle [1], at least 0.01 here
+xdot : (n,) piston speed [m/s];  v : (n,) duty cycle until a sample [1], at least 0.01 here
 v_y : speed of yielding at full duty [m/s], v_y >= 0, off at 0 (sign)
 q : how it goes with the duty [1]: 0 the same at every field, as preyield_viscosity has it, beta for
 a viscosity before yield that no field changes, below 0 for one that rises faster than the yield
@@ -35,7 +35,10 @@ def preyield_field_dependence(s: Signals, p: Values) -> Array:
     """(n,) in place of sign(xdot) [1]."""
     if p["v_y"] == 0.0:
         return s.sign
-    yielding = p["v_y"] * np.maximum(s.duty, FAINT) ** p["q"]
+    # The duty of a sample acts from then on: what is measured there is of the one before.
+    duty = np.concatenate([s.duty[:1], s.duty[:-1]])
+    duty[s.starts[:-1]] = s.duty[s.starts[:-1]]
+    yielding = p["v_y"] * np.maximum(duty, FAINT) ** p["q"]
     smooth: Array = np.tanh(np.abs(s.xdot) / yielding) * s.sign
     return smooth
 

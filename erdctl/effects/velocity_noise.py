@@ -75,7 +75,7 @@ def replaced(s: Signals, rest: Array) -> list[dict[str, float]]:
 EFFECT = Effect(
     name="velocity_noise",
     stage=Stage.SENSOR,
-    slot=MotionSlot(velocity_noise),
+    slot=MotionSlot(velocity_noise, of_samples=True),
     title="the velocity channel is noisy or late by itself",
     equation="xdot_s = (1 - w) xdot + w V[x], V[x] the velocity from slopes of the deflection",
     said="{w:%} of the velocity better taken from the deflection",

@@ -22,6 +22,7 @@ class Fit:
     rms : weighted residual [N];  samples : number of samples with weight
     flat : groups of free parameters along which the data do not change the cost at all
     intervals : 95 %, of parameters that the cost is no parabola of, or that lie at a bound
+    level_errors : (k, r) of what each record has of its own, where a fit has that
     """
 
     model: Model
@@ -35,6 +36,7 @@ class Fit:
     converged: bool
     flat: tuple[tuple[str, ...], ...] = ()
     intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    level_errors: Array | None = None
 
     @property
     def stderr(self) -> dict[str, float]:
@@ -49,12 +51,23 @@ class Fit:
         return np.asarray(self.covariance / np.outer(scale, scale))
 
 
+def together(found: Fit) -> dict[str, str]:
+    """Why the data tell some parameters from no value of others, by name."""
+    out = {}
+    for group in found.flat:
+        for name in group:
+            others = ", ".join(n for n in group if n != name) or "nothing"
+            out[name] = f"the data change with it only together with {others}"
+    return out
+
+
 def estimates(found: Fit, reasons: Mapping[str, str]) -> dict[str, Estimate]:
     """Every parameter with its error; those that the data do not identify have a reason instead.
 
     reasons : why, by name
     """
     errors, out = found.stderr, {}
+    reasons = {**together(found), **reasons}
     for name, q in found.model.quantities.items():
         value, reason, error = found.values[name], reasons.get(name), errors.get(name)
         bound = q.bound_at(value, error) if name in errors or name in found.intervals else None

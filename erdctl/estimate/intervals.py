@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from erdctl.core.blocks import Block
 from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.estimate.covariance import Fit
-from erdctl.estimate.finer import Finer
+from erdctl.estimate.finer import MOST_SAMPLES, Finer
+from erdctl.estimate.least_squares import fit
 from erdctl.estimate.linearisation import linearised
-from erdctl.estimate.profile import Linear, interval, others, parabolic
+from erdctl.estimate.profile import Linear, interval, others, parabolic, widened
 from erdctl.model.parameters import NORMAL_95
+from erdctl.model.slots import Values
 
-LONGEST = 60_000  # samples; a longer log has its derivatives at many jumps, and no memory for this
 OUTLYING = 2.0  # standard deviations of the noise: no single sample rises beyond 1.96^2
 ROUNDING = 1e-4  # of the force, below which nothing is told apart
+REFITS = 12  # evaluations of a search for all other parameters
 GUESS = 1e-3  # of a value or a start, where there is no error to begin with
 
 
@@ -27,11 +29,12 @@ def with_intervals(
     finer: Sequence[Finer],
     plain: Array,
     bounded: Sequence[str] = (),
+    fixed: Iterable[str] = (),
 ) -> Fit:
     """The fit with intervals of effects' parameters that the cost is no parabola of.
 
     plain : (p,) variances that noise of unit variance would make, for where each is told from
-    bounded : parameters at a bound, which are not free
+    bounded : parameters at a bound, which are not free;  fixed : names that keep their value
     Where a profile finds a better value, the fit has it.
     """
     model, free = found.model, found.free
@@ -40,13 +43,11 @@ def with_intervals(
         if n.split(".")[0] not in DIRECTIONS and n not in model.linear
         and not any(n in group and group != (n,) for group in found.flat)
     ]  # fmt: skip
-    if not (asked or bounded) or sum(len(b.force) for b in blocks) > LONGEST:
+    if not (asked or bounded) or sum(len(b.force) for b in blocks) > MOST_SAMPLES:
         return found
-    root = np.sqrt(np.concatenate([b.weight for b in blocks]))
-    measured = np.concatenate([b.force for b in blocks])
-    values, intervals = dict(found.values), {}
-    rows = _rows(found, finer, values) * root
-    limit = farthest(measured - _force(found, finer, values), root, measured)
+    data, values = _Data.of(found, blocks, finer), dict(found.values)
+    intervals: dict[str, tuple[float, float]] = {}
+    rows = data.rows(values)
     robust = np.diag(found.covariance)
     usual = _noise(robust, plain)
     for name in [*asked, *bounded]:
@@ -55,7 +56,7 @@ def with_intervals(
         phi = max(own, usual) if np.isfinite(own) else usual
         if not np.isfinite(phi):
             continue
-        cost = _cost(found, finer, values, name, rest, measured, root, limit, phi)
+        cost = _along(data, values, name, rest, phi)
         error = float(np.sqrt(max(robust[at[0]], 0.0))) if at else 0.0
         if parabolic(cost, q, values[name], error):
             continue
@@ -63,9 +64,12 @@ def with_intervals(
             error if error > 0.0 and np.isfinite(error) else GUESS * max(abs(values[name]), q.start)
         )
         best, low, high = interval(cost, q, values[name], NORMAL_95 * size)
+        if len(blocks) == 1:
+            again = _refitted(data, blocks[0], values, name, rest, phi, fixed)
+            low, high = widened(again, q, best, low, high)
         intervals[name] = (low, high)
         if best != values[name]:
-            values = _taken_up(found, finer, {**values, name: best}, name, rest, measured, root)
+            values = data.taken_up({**values, name: best}, name, rest)
     flat = tuple(g for g in found.flat if g[0] not in intervals)
     return replace(found, values=values, intervals=intervals, flat=flat)
 
@@ -89,43 +93,85 @@ def _noise(robust: Array, plain: Array) -> float:
     return float(np.median(robust[known] / plain[known])) if known.any() else float("nan")
 
 
-def _rows(found: Fit, finer: Sequence[Finer], values: dict[str, float]) -> Array:
-    parts = [linearised(found.model, f, values, found.free, wide=True)[1] for f in finer]
-    return np.concatenate(parts, axis=1)
+@dataclass(frozen=True, eq=False)
+class _Data:
+    """What a fit was to: (n,) measured force [N] and roots of the weights, over all blocks.
+
+    limit : see `farthest`
+    """
+
+    found: Fit
+    finer: Sequence[Finer]
+    measured: Array
+    root: Array
+    limit: float
+
+    @classmethod
+    def of(cls, found: Fit, blocks: Sequence[Block], finer: Sequence[Finer]) -> _Data:
+        root = np.sqrt(np.concatenate([b.weight for b in blocks]))
+        measured = np.concatenate([b.force for b in blocks])
+        out = cls(found, finer, measured, root, np.inf)
+        rest = measured - out.force(found.values)
+        return replace(out, limit=farthest(rest, root, measured))
+
+    def force(self, values: Values) -> Array:
+        """(n,) [N]."""
+        return np.concatenate([f.force(self.found.model, values) for f in self.finer])
+
+    def rows(self, values: Values) -> Array:
+        """(p, n) slopes by the free parameters, weighted."""
+        model, free = self.found.model, self.found.free
+        parts = [linearised(model, f, values, free, wide=True)[1] for f in self.finer]
+        return np.concatenate(parts, axis=1) * self.root
+
+    def left(self, values: Values, rest: Linear) -> float:
+        """Sum of squares beyond what the other parameters can take up from here [N^2]."""
+        residual = self.measured - self.force(values)
+        over = np.abs(residual) > self.limit
+        beyond = float(np.sum((self.root[over] * self.limit) ** 2))
+        return rest.left(np.where(over, 0.0, residual * self.root)) + beyond
+
+    def taken_up(self, values: dict[str, float], name: str, rest: Linear) -> dict[str, float]:
+        """The values with all parameters but one moved to their best for it."""
+        step = rest.normal.solve(rest.rows @ ((self.measured - self.force(values)) * self.root))
+        out = dict(values)
+        for other, move in zip([n for n in self.found.free if n != name], step, strict=True):
+            q = self.found.model.quantities[other]
+            out[other] = float(np.clip(values[other] + move, q.low, q.high))
+        return out
 
 
-def _force(found: Fit, finer: Sequence[Finer], values: dict[str, float]) -> Array:
-    return np.concatenate([f.force(found.model, values) for f in finer])
-
-
-def _cost(
-    found: Fit, finer: Sequence[Finer], values: dict[str, float], name: str, rest: Linear,
-    measured: Array, root: Array, limit: float, phi: float,
-) -> Callable[[float], float]:  # fmt: skip
+def _along(
+    data: _Data, values: dict[str, float], name: str, rest: Linear, phi: float
+) -> Callable[[float], float]:
+    """The cost over phi at values of one parameter, all others following to first order."""
     known: dict[float, float] = {}
 
     def cost(value: float) -> float:
         if value not in known:
-            force = _force(found, finer, {**values, name: value})
-            residual = measured - force
-            over = np.abs(residual) > limit
-            beyond = float(np.sum((root[over] * limit) ** 2))
-            left = rest.left(np.where(over, 0.0, residual * root))
-            known[value] = (left + beyond) / phi
+            known[value] = data.left({**values, name: value}, rest) / phi
         return known[value]
 
     return cost
 
 
-def _taken_up(
-    found: Fit, finer: Sequence[Finer], values: dict[str, float], name: str, rest: Linear,
-    measured: Array, root: Array,
-) -> dict[str, float]:  # fmt: skip
-    """The values with the other parameters moved to a new one's best."""
-    residual = (measured - _force(found, finer, values)) * root
-    step = rest.normal.solve(rest.rows @ residual)
-    out = dict(values)
-    for other, move in zip([n for n in found.free if n != name], step.tolist(), strict=True):
-        q = found.model.quantities[other]
-        out[other] = float(np.clip(values[other] + move, q.low, q.high))
-    return out
+def _refitted(
+    data: _Data, block: Block, values: dict[str, float], name: str, rest: Linear, phi: float,
+    fixed: Iterable[str],
+) -> Callable[[float], float]:  # fmt: skip
+    """The same with all others searched, from where they are at the nearest value.
+
+    The search goes in the log's own steps, and what it leaves is counted between them.
+    """
+    held = {*fixed, name}
+    solved: dict[float, dict[str, float]] = {}
+
+    def cost(value: float) -> float:
+        near = min(solved, key=lambda v: abs(v - value), default=None)
+        start = {**(values if near is None else solved[near]), name: value}
+        found = fit(data.found.model, block, start=start, fixed=held, max_evaluations=REFITS)
+        solved[value] = found.values
+        followed = data.left({**values, name: value}, rest)
+        return min(followed, data.left({**found.values, name: value}, rest)) / phi
+
+    return cost

@@ -9,15 +9,17 @@ import numpy as np
 
 from erdctl.core.blocks import Block
 from erdctl.core.recording import Array
+from erdctl.estimate import own_levels
 from erdctl.estimate.autoregressive import ColouredNoise
 from erdctl.estimate.covariance import Fit
 from erdctl.estimate.finer import Finer
 from erdctl.estimate.intervals import with_intervals
 from erdctl.estimate.normal_equations import Normal
+from erdctl.estimate.own_levels import OwnLevels
 from erdctl.estimate.record_scatter import covariance
 from erdctl.estimate.sandwich import by_record, roughness, sum_up, weighed
 from erdctl.model.composed import Model
-from erdctl.model.slots import Values
+from erdctl.model.slots import MotionSlot, Values
 
 STEPS = 3  # of Gauss-Newton in a model with effects, from a fit in the log's own steps
 SETTLED = 1e-5  # part of the cost that a step must gain for another
@@ -34,12 +36,14 @@ def assess(
     evaluations: int = 0,
     converged: bool = True,
     robust: bool = False,
+    levels: OwnLevels | None = None,
     threads: int = 2,
 ) -> Fit:
     """One Gauss-Newton step over all data from a good start, then errors of the estimates.
 
     fixed : parameters that keep their value;  bounded : the same, as they lie at a bound, so that
         one side is left to say something of
+    levels : what each record has of its own, which the blocks are already without
 
     The start may come from a part of the data: one step from there is as good as the full search
     to the order of the standard errors (one-step estimator, Le Cam). The covariance is the
@@ -53,7 +57,8 @@ def assess(
     free = tuple(n for n in model.quantities if n not in held)
     p, has_effects = len(free), bool(model.effects)
     # The paper's model alone is exact but for turns, and its logs may be long.
-    finer = [Finer.of(b.signals) if has_effects else Finer.none(b.signals) for b in blocks]
+    between = has_effects and not any(slot.of_samples for _, slot in model.of(MotionSlot))
+    finer = [Finer.of(b.signals) if between else Finer.none(b.signals) for b in blocks]
     with ThreadPoolExecutor(threads) as pool:
 
         def residuals(at: Values) -> tuple[list[Block], float, ColouredNoise]:
@@ -93,11 +98,16 @@ def assess(
     after = before
     samples = sum(int(np.count_nonzero(b.weight)) for b in blocks)
     rough = roughness(parts, inverse)
+    if levels is None:
+        errors, own = covariance(records, inverse, rough), None
+    else:
+        errors, own = own_levels.covariance(records, levels, rough)
     found = Fit(
         model=model,
         values=dict(values),
         free=free,
-        covariance=covariance(records, inverse, rough),
+        covariance=errors,
+        level_errors=own,
         rms=float(np.sqrt(after / max(samples - len(free), 1))),
         noise=noise,
         samples=samples,
@@ -106,7 +116,7 @@ def assess(
         flat=_flat(normal, free),
     )
     return (
-        with_intervals(found, blocks, finer, np.diag(inverse) * rough**2, ends)
+        with_intervals(found, blocks, finer, np.diag(inverse) * rough**2, ends, held)
         if has_effects
         else found
     )

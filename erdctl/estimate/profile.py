@@ -25,9 +25,11 @@ from erdctl.model.parameters import NORMAL_95
 
 LIKE = (0.5, 2.0)  # of the rise that a parabola has at a few errors, to count as one
 BEYOND = 4.0  # times the rise that ends an interval: no more is looked for
-FARTHEST = 26  # doublings by a half from a twentieth of an error
-AROUND, POINTS = 0.01, 33  # part of a value to either side, evenly looked at
-HALVINGS = 7  # of what lies between a value inside and one outside
+FARTHEST = 16  # doublings from a tenth of an error
+AROUND, POINTS = 0.01, 21  # part of a value to either side, evenly looked at
+SHORT = 0.7  # of the rise that ends an interval, below which refits look farther out
+NARROWEST = 1e-3  # of a value or a start, the first step of these
+HALVINGS = 5  # of what lies between a value inside and one outside
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +101,39 @@ def interval(
     return best, out[0], out[1]
 
 
+def widened(
+    cost: Callable[[float], float], q: Quantity, best: float, low: float, high: float
+) -> tuple[float, float]:
+    """Ends of an interval (low, high) moved to where the cost ends it, where that is farther out.
+
+    cost : over phi, with the others refitted. Where they follow along a bend, to first order they
+        fall behind, and an interval comes out too narrow; it is never too wide by that.
+    """
+    inside = NORMAL_95**2
+    known = {v: cost(v) for v in (best, low, high)}
+    out = []
+    for way, end, bound in ((-1.0, low, q.low), (1.0, high, q.high)):
+        last, past = end, end
+        reach = max(abs(end - best), NARROWEST * max(abs(best), abs(q.start)))
+        while last != bound and known[last] <= min(known.values()) + SHORT * inside:
+            reach *= 2.0
+            at = float(np.clip(best + way * reach, q.low, q.high))
+            known[at] = cost(at)
+            past = at
+            if known[at] > min(known.values()) + inside:
+                break
+            last = at
+        for _ in range(HALVINGS if past != last else 0):
+            middle = 0.5 * (last + past)
+            known[middle] = cost(middle)
+            if known[middle] <= min(known.values()) + inside:
+                last = middle
+            else:
+                past = middle
+        out.append(past)
+    return out[0], out[1]
+
+
 def _outwards(
     cost: Callable[[float], float],
     q: Quantity,
@@ -107,20 +142,15 @@ def _outwards(
     known: dict[float, float],
 ) -> float:
     """Look at values farther and farther to one side; the last one, a bound if nothing ends it."""
-    reach, passed = 0.05 * step, 0
+    reach, passed = 0.1 * step, 0
     for _ in range(FARTHEST):
         at = float(np.clip(value + reach, q.low, q.high))
         known.setdefault(at, cost(at))
         passed = passed + 1 if known[at] > min(known.values()) + BEYOND * NORMAL_95**2 else 0
-        if passed > 2 or at in (q.low, q.high):
+        if passed > 1 or at in (q.low, q.high):
             return at
-        reach *= 1.5
+        reach *= 2.0
     return q.low if step < 0.0 else q.high
-
-
-def symmetric(low: float, high: float, value: float) -> bool:
-    """Whether an interval may as well be given by a standard error."""
-    return abs((high - value) - (value - low)) <= 0.1 * (high - low)
 
 
 def others(rows: Array, free: Sequence[str], name: str) -> Linear:

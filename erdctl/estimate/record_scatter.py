@@ -64,10 +64,10 @@ def covariance(records: Sequence[RecordSums], inverse: Array, rough: Array) -> A
     total = within + np.einsum("k,kpq->pq", variance, between)
     parts = np.einsum("kpp->pk", between)
     doubt = np.einsum("pk,kl,pl->p", parts, uncertain, parts)
-    return np.asarray(total * _stretch(np.diag(total), doubt))
+    return np.asarray(total * stretch(np.diag(total), doubt))
 
 
-def _stretch(variance: Array, doubt: Array) -> Array:
+def stretch(variance: Array, doubt: Array) -> Array:
     """(p, p) factors of a covariance whose variances (p,) have a variance (p,) too."""
     from scipy.stats import t
 

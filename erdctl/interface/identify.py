@@ -16,9 +16,9 @@ from erdctl.interface.log import BenchLog, LogLike, Place, log_of
 from erdctl.io import documents
 from erdctl.io.identification import parameters_of
 from erdctl.io.parameters import to_document
-from erdctl.model.parameters import Parameters
+from erdctl.model.parameters import Estimate, Parameters
 from erdctl.model.simulate import simulate
-from erdctl.report.readable import AT_BOUND
+from erdctl.report.readable import error_of
 from erdctl.report.subject import Subject
 from erdctl.report.subjects import about
 
@@ -63,7 +63,7 @@ class Identified:
             {
                 "parameter": name, "value": e.value, "stderr": e.stderr, "unit": e.unit,
                 "two_step": steps.get(name), "assumed": e.assumed,
-                "reason": AT_BOUND if e.at_bound else e.reason,
+                "reason": _bound(e) if e.at_bound else e.reason,
             }
             for name, e in self.parameters.estimates.items()
         ]  # fmt: skip
@@ -99,7 +99,7 @@ class Identified:
             f"{name:18} {'not identified' if e.value is None else f'{e.value:.5g}'}"
             + ("" if e.stderr is None else f" +- {e.stderr:.2g}")
             + f" {e.unit}"
-            + (f" ({AT_BOUND})" if e.at_bound else "")
+            + (f" ({_bound(e)})" if e.at_bound else "")
             for name, e in self.parameters.estimates.items()
         ]
         return text(f"Identified: {self._title()}", [*rows, *self.remarks])
@@ -111,6 +111,11 @@ class Identified:
     def _title(self) -> str:
         fit = self.parameters.fits["joint"]
         return f"{fit['samples']} samples, residual {fit['rms']:.4g} N rms"
+
+
+def _bound(e: Estimate) -> str:
+    """That a value lies at its bound, and the side that is left, in SI."""
+    return error_of(None, at_bound=True, value=e.value, within=e.within)
 
 
 def identify(

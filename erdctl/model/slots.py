@@ -124,11 +124,18 @@ class MotionSlot(FunctionSlot[MotionFunction]):
 
     free_play : (p) -> play [m] in the joint of a compliance in series with the whole damper, which
         takes it over from `function`: a play bears no force, so that what is stretched unloads
+    of_samples : it counts by samples of the log, and means another thing between them
     """
 
-    def __init__(self, function: MotionFunction, free_play: NumberFunction | None = None) -> None:
+    def __init__(
+        self,
+        function: MotionFunction,
+        free_play: NumberFunction | None = None,
+        *,
+        of_samples: bool = False,
+    ) -> None:
         super().__init__(function)
-        self.free_play = free_play
+        self.free_play, self.of_samples = free_play, of_samples
 
     def __call__(self, s: Signals, p: Values) -> Signals:
         out = called(self.function, s, p)

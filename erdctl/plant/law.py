@@ -10,7 +10,7 @@ import math
 
 from numba import njit
 
-from erdctl.plant.plant import Outside, Physics, Side
+from erdctl.plant.plant import FOREVER, Outside, Physics, Side
 
 
 @njit(cache=True)
@@ -30,8 +30,20 @@ def gas(x: float, side: Side, p: Physics) -> float:
 
 
 @njit(cache=True)
+def pressed(d: float, v: float, p: Physics) -> float:
+    """Force of one stop by depth and its speed [N]."""
+    if p.stop_depth >= FOREVER:
+        return p.stop_rate * d * max(1.0 + p.stop_loss * v, 0.0)
+    depth = p.stop_depth * (1.0 - math.exp(-d / p.stop_depth))
+    return p.stop_rate * max(d + p.stop_loss * v * depth, 0.0)
+
+
+@njit(cache=True)
 def stops(x: float, v: float, p: Physics) -> float:
     """Contact force of the stops [N]: k d (1 + loss dd/dt), and never a pull.
+
+    The damping may level off, as that of a rubber that is compressed all over: its d is then
+    e (1 - exp(-d / e)).
 
     Check: k = 1000 N/m, loss = 2 s/m, 1 mm deep at 0.25 m/s gives 1000 * 0.001 * 1.5 = 1.5 N.
     >>> p = Physics(stop_high=0.01, stop_rate=1000.0, stop_loss=2.0)
@@ -39,9 +51,9 @@ def stops(x: float, v: float, p: Physics) -> float:
     (1.5, 0.0)
     """
     if x > p.stop_high:
-        return p.stop_rate * (x - p.stop_high) * max(1.0 + p.stop_loss * v, 0.0)
+        return pressed(x - p.stop_high, v, p)
     if x < p.stop_low:
-        return p.stop_rate * (x - p.stop_low) * max(1.0 - p.stop_loss * v, 0.0)
+        return -pressed(p.stop_low - x, -v, p)
     return 0.0
 
 

@@ -32,6 +32,7 @@ class Physics(NamedTuple):
     stop_low: float = -FOREVER  # and the rebound stop [m]
     stop_rate: float = 0.0  # stiffness of the stops [N/m]
     stop_loss: float = 0.0  # of their damping, by depth and speed (Hunt and Crossley) [s/m]
+    stop_depth: float = FOREVER  # over which that levels off, forever in the source [m]
 
     dead_time: float = 0.0  # between duty and voltage [s]
     slew: float = 0.0  # time that the supply needs over its full range [s]
@@ -157,6 +158,10 @@ class Plant(NamedTuple):
         """The same with physics from a twin's own file."""
         kept = tuple(o for o in self.own if o.hooks.name != hooks.name)
         return self._replace(own=(*kept, Own(hooks, tuple(values.items()))))
+
+    def own_values(self, name: str) -> dict[str, float]:
+        """Parameters of the physics from a twin's own file; KeyError if the damper has none."""
+        return dict({o.hooks.name: o.values for o in self.own}[name])
 
 
 def canonical(values: Any) -> Any:

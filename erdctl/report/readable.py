@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from math import isfinite
 
 from erdctl.model.effect import Effect
@@ -67,11 +67,34 @@ def _after(unit: str) -> str:
     return unit.removeprefix("1")
 
 
-def error_of(stderr: float | None, factor: float = 1.0, *, at_bound: bool = False) -> str:
-    """What stands where a standard error would: it, words for a bound, or a dash."""
+def error_of(
+    stderr: float | None,
+    factor: float = 1.0,
+    *,
+    at_bound: bool = False,
+    value: float | None = None,
+    within: Sequence[float] | None = None,
+) -> str:
+    """What stands where a standard error would: it, the 95 % interval, the side left of a bound.
+
+    >>> error_of(0.002), error_of(0.002, 1e3, within=(1e-3, 7e-3))
+    ('0.002', '1 to 7')
+    >>> error_of(None, at_bound=True), error_of(None, at_bound=True, value=0.0, within=(0.0, 77.0))
+    ('at its bound', 'at its bound, < 77')
+    """
     if at_bound:
-        return AT_BOUND
+        side = _one_side(value, within)
+        return AT_BOUND if side is None else f"{AT_BOUND}, {side[0]} {number(side[1] * factor, 2)}"
+    if within is not None:
+        return " to ".join(number(end * factor, 4) for end in within)
     return number(None if stderr is None else stderr * factor, 2)
+
+
+def _one_side(value: float | None, within: Sequence[float] | None) -> tuple[str, float] | None:
+    """Sign and end of the interval of a value at its bound; None where there is none."""
+    if value is None or within is None or not within[0] < within[1]:
+        return None
+    return ("<", within[1]) if value <= within[0] else (">", within[0])
 
 
 def estimate(
@@ -99,8 +122,9 @@ def estimate(
         low, high = (number(end * factor, 5) for end in within)
         return f"{number(value * factor)} ({low} to {high}) {_after(shown)}".rstrip()
     error = "" if stderr is None or at_bound else f" +- {number(stderr * factor, 2)}"
-    if at_bound and within is not None and within[0] < within[1]:
-        side, end = ("<", within[1]) if value <= within[0] else (">", within[0])
+    one_sided = _one_side(value, within) if at_bound else None
+    if one_sided is not None:
+        side, end = one_sided
         factor, shown = scaled(unit, end)
         return f"{side} {number(end * factor, 2)} {_after(shown)}".rstrip() + f" ({AT_BOUND})"
     text = f"{number(value * factor)}{error} {_after(shown)}".rstrip()

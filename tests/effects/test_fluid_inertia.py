@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from made import signals, sine, unit_forces
 
-from erdctl.core.signals import HALF_WINDOW
+from erdctl.core.signals import HALF_CUBIC
 
 
 def test_check_value() -> None:
@@ -29,13 +29,15 @@ def test_uneven_steps_and_records() -> None:
 def test_a_sine_passes_the_window(frequency: float) -> None:
     s = sine(frequency, 0.01, 2.0, 1000.0)
     w = 2 * np.pi * frequency
-    u = w * HALF_WINDOW
-    expected = -(w**2) * s.x * 3 * (np.sin(u) - u * np.cos(u)) / u**3
-    inner = slice(10, -10)
-    assert s.xddot[inner] == pytest.approx(expected[inner], abs=2e-3 * w**2 * 0.01)
+    # What a cubic cannot follow begins with the fifth power: over h the part (w h)^4 / 504.
+    expected = -(w**2) * s.x * (1.0 - (w * HALF_CUBIC) ** 4 / 504.0)
+    inner = slice(20, -20)
+    assert s.xddot[inner] == pytest.approx(expected[inner], abs=2e-4 * w**2 * 0.01)
 
 
 def test_noise_is_averaged() -> None:
     noise = 1e-3 * np.random.default_rng(1).standard_normal(4000)
     slope = signals(noise, step=1e-3).xddot
-    assert slope.std() == pytest.approx(1e-3 / (1e-3 * np.sqrt(770)), rel=0.1)  # sum of k^2
+    u = np.arange(-20, 21)
+    squares = np.linalg.inv([[np.sum(u**2), np.sum(u**4)], [np.sum(u**4), np.sum(u**6)]])
+    assert slope[20:-20].std() == pytest.approx(np.sqrt(squares[0, 0]), rel=0.1)

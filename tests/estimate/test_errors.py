@@ -13,7 +13,9 @@ from erdctl.core.signals import Signals
 from erdctl.estimate.autoregressive import ColouredNoise
 from erdctl.estimate.finer import Finer
 from erdctl.estimate.identify import identify
-from erdctl.estimate.profile import interval, parabolic
+from erdctl.estimate.own_levels import OwnLevels, covariance
+from erdctl.estimate.profile import interval, parabolic, widened
+from erdctl.estimate.record_scatter import RecordSums
 
 ONE = np.array([0, 4000], dtype=np.intp)
 
@@ -93,3 +95,29 @@ def test_profile_at_a_bound_has_one_side() -> None:
     best, low, high = interval(lambda v: (v / 0.1) ** 2, Q, 0.0, 0.01)
     assert (best, low) == (0.0, 0.0)
     assert high == pytest.approx(0.196, abs=5e-3)
+
+
+def test_a_profile_along_a_bend_is_as_wide_as_the_bend() -> None:
+    """Others that follow to first order end it at 2.02; refitted they follow up to 2.5 and 1.6."""
+    found = widened(
+        lambda v: (1.96 * (v - 2.0) / (0.5 if v > 2.0 else 0.4)) ** 2, Q, 2.0, 1.98, 2.02
+    )
+    assert found == (pytest.approx(1.6, abs=0.02), pytest.approx(2.5, abs=0.02))
+    kept = widened(lambda v: (1.96 * (v - 2.0) / 0.02) ** 2, Q, 2.0, 1.98, 2.02)
+    assert kept == (1.98, 2.02)
+
+
+def test_errors_beside_zeros_of_records() -> None:
+    """By hand: one constant over 4 records of 100 samples, noise 1 N, zeros that scatter by s."""
+    rows = np.array([1.0, 3.0, 1.0])  # derivative of the force, force, one
+    sums = [RecordSums(100 * np.outer(rows, rows), np.zeros(3), 100 * np.outer(rows, rows))] * 4
+    none = OwnLevels((1,), np.zeros((1, 4)), np.full((1, 4), 0.1))
+    shared, own = covariance(sums, none, np.ones(1))
+    assert shared[0, 0] == pytest.approx(1.0 / 400.0)
+    assert own[0] == pytest.approx(np.full(4, np.sqrt((1.0 - 0.25) / 100.0)))
+    zeros = OwnLevels((1,), np.array([[-3.0, -1.0, 1.0, 3.0]]), np.full((1, 4), 1e-6))
+    shared, _ = covariance(sums, zeros, np.ones(1))
+    # s^2 = 20 / 3, that of the mean of four a quarter of it, and Student's t of 3 for 1.96.
+    assert np.sqrt(shared[0, 0]) == pytest.approx(
+        3.1824 / 1.96 * np.sqrt(20 / 12 + 1 / 400), rel=2e-3
+    )

@@ -28,11 +28,16 @@ def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
 def _law(plant: Plant) -> Law:
     high, low = plant.physics.stop_high, -plant.physics.stop_low
     high, low = (min(high, low) if end == FOREVER else end for end in (high, low))
-    return plant.with_physics(stop_high=high, stop_low=-low, stop_loss=0.0), {
+    # Both ends, and damping that levels off: of Hunt and Crossley's, which does not, nothing tells
+    # depth and damping apart.
+    depth, loss = 0.1 * high, plant.physics.stop_loss
+    return plant.with_physics(stop_high=high, stop_low=-low, stop_depth=depth), {
         "x_stop": high,
         "x_r": low,
         "k_c": plant.physics.stop_rate,
         "k_r": plant.physics.stop_rate,
+        "theta": loss * depth,
+        "e": depth,
     }
 
 

@@ -14,7 +14,7 @@ from numba import njit
 
 from erdctl.plant.hooks import Array, FineGrid, Hooks, Values
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 @njit(cache=True)
@@ -45,6 +45,12 @@ def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     return plant.with_own(HOOKS, growth=s, top=by.duty, power=q["power"], chains=chains)
 
 
+def _law(plant: Plant) -> Law:
+    p = plant.own_values("field_viscosity")
+    r = p["growth"] * p["top"] ** -p["power"]
+    return plant, {"r": r, "m": p["power"], "T_v": p["chains"]}
+
+
 TWIN = Twin(
     name="field_viscosity",
     family="viscous law",
@@ -53,6 +59,7 @@ TWIN = Twin(
     start=0.5,
     high=30.0,
     build=_build,
+    law=_law,
     shows={"own.growth": "1", "own.top": "1", "own.power": "1", "own.chains": "s"},
     shape={"power": (0.6, 1.6), "chains": (0.5, 1.5)},
     rigid=True,

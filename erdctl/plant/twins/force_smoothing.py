@@ -13,7 +13,7 @@ import numpy as np
 
 from erdctl.plant.hooks import Array, FineGrid, Hooks, Values
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 SHORT = 0.25  # of the second window to the first
 NARROW = 4.0  # steps below which a window is none
@@ -60,6 +60,37 @@ def _cycle(x: Array) -> float:
 HOOKS = Hooks("force_smoothing", recorded=_recorded)
 
 
+def _once(F: Array, grid: FineGrid, p: Values) -> Array:
+    """What is usually fitted: one average, over a part of 2 pi rms(x) / rms(xdot)."""
+    at = slice(grid.start, grid.stop)
+    y, v, n = F[at], grid.v[at], grid.stop - grid.start
+    x, read = grid.x[at][:: grid.every], v[:: grid.every]
+    cycle = 2.0 * np.pi * float(np.std(x)) / float(np.sqrt(np.mean(read**2))) / grid.h
+    k = np.arange(n, dtype=float)
+    half = np.minimum(np.minimum(k, n - 1 - k), 0.5 * p["w"] * cycle)
+    wide = 2.0 * half > NARROW
+    turns = v[1:] * v[:-1] < 0.0
+    before = np.where(turns, v[:-1] / np.where(turns, v[:-1] - v[1:], 1.0), 0.5)
+    once = np.concatenate([[0.0], np.cumsum(before * y[:-1] + (1.0 - before) * y[1:])])
+
+    def integral(u: Array) -> Array:
+        i = np.clip(u.astype(int), 0, n - 2)
+        return np.asarray(once[i] + (u - i) * (once[i + 1] - once[i]))
+
+    k, half = k[wide], half[wide]
+    out = F.copy()
+    out[at][wide] = (integral(k + half) - integral(k - half)) / (2.0 * half)
+    return out
+
+
+USUAL = Hooks("force_smoothing", recorded=_once)
+
+
+def _law(plant: Plant) -> Law:
+    w = plant.own_values("force_smoothing")["window"]
+    return plant.with_own(USUAL, w=w), {"w": w}
+
+
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     return plant.with_own(HOOKS, window=s)
 
@@ -71,5 +102,6 @@ TWIN = Twin(
     start=0.05,
     high=0.4,
     build=_build,
+    law=_law,
     shows={"own.window": "1"},
 )

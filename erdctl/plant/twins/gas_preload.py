@@ -14,7 +14,9 @@ def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
 
 
 def _law(plant: Plant) -> Law:
-    return plant, {"F_0": plant.physics.preload}
+    # Inward no gas pushes: what is fitted as one is not below 0.
+    F_0 = abs(plant.physics.preload)
+    return plant.with_physics(preload=F_0), {"F_0": F_0}
 
 
 TWIN = Twin(

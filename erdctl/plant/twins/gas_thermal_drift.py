@@ -13,7 +13,7 @@ from numba import njit
 
 from erdctl.plant.hooks import Array, FineGrid, Hooks, Values
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 COLD = 293.0  # K
 
@@ -38,6 +38,23 @@ def _force(F: Array, grid: FineGrid, p: Values) -> Array:
 HOOKS = Hooks("gas_thermal_drift", force=_force)
 
 
+def _by_the_fluid(F: Array, grid: FineGrid, p: Values) -> Array:
+    """What is usually fitted: the fluid's work alone becomes heat."""
+    fluid = F - np.where(grid.v > 0.0, p["k_c"], p["k_r"]) * grid.x
+    T = _warmth(fluid, grid.v, grid.h, grid.start, p["heating"], p["cooling"])
+    return np.asarray(F + p["static"] * T / COLD)
+
+
+USUAL = Hooks("gas_thermal_drift", force=_by_the_fluid)
+
+
+def _law(plant: Plant) -> Law:
+    p = plant.own_values("gas_thermal_drift")
+    k_c, k_r = plant.compression.k_nom, plant.release.k_nom
+    truth = {"g": p["static"] * p["heating"] / COLD, "tau_g": 1.0 / p["cooling"]}
+    return plant.with_own(USUAL, **p, k_c=k_c, k_r=k_r), truth
+
+
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     static = q["static"] * by.force
     return plant.with_own(
@@ -53,6 +70,7 @@ TWIN = Twin(
     start=0.1,
     high=5.0,
     build=_build,
+    law=_law,
     shows={"own.static": "N", "own.heating": "K/J", "own.cooling": "1/s"},
     shape={"static": (0.5, 2.0), "cooling": (0.5, 10.0)},
     hidden=True,

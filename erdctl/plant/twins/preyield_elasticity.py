@@ -21,7 +21,7 @@ from numba import njit
 
 from erdctl.plant.hooks import Array, FineGrid, Hooks, Values
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 LENGTHS = 10
 
@@ -51,6 +51,38 @@ def _sign(grid: FineGrid, p: Values) -> Array:
 HOOKS = Hooks("preyield_elasticity", sign=_sign)
 
 
+@njit(cache=True)
+def _rebuilt(Y: Array, x: Array, v: Array, h: float, start: int, x_d: float) -> Array:
+    """(m,) x_d dy/d|x| + y = Y, steady as a record begins."""
+    out = Y.copy()
+    for k in range(start + 1, len(Y)):
+        there, back, goal = x[k] - x[k - 1], 0.0, 0.5 * (Y[k - 1] + Y[k])
+        if v[k - 1] * v[k] < 0.0:
+            far = 0.5 * h * v[k - 1] ** 2 / (v[k - 1] - v[k])
+            there, back, goal = far, there - far, Y[k - 1]
+        at = goal + (out[k - 1] - goal) * np.exp(-abs(there) / x_d)
+        out[k] = at if back == 0.0 else Y[k] + (at - Y[k]) * np.exp(-abs(back) / x_d)
+    return out
+
+
+def _as_a_whole(F: Array, grid: FineGrid, p: Values) -> Array:
+    """What is usually fitted: chains of one length, exponentially (Bouc-Wen)."""
+    up, v = grid.v > 0.0, grid.v
+    rest = np.where(up, p["k_c"], p["k_r"]) * grid.x + np.where(up, p["c_c"], p["c_r"]) * v
+    rebuilt = _rebuilt(F - rest, grid.x, v, grid.h, grid.start, p["x_d"])
+    return np.asarray(rest + rebuilt)
+
+
+USUAL = Hooks("preyield_elasticity", force=_as_a_whole)
+
+
+def _law(plant: Plant) -> Law:
+    x_d = 0.5 * plant.own_values("preyield_elasticity")["x_y"]
+    up, down = plant.compression, plant.release
+    damper = {"k_c": up.k_nom, "k_r": down.k_nom, "c_c": up.c_vis, "c_r": down.c_vis}
+    return plant.with_own(USUAL, x_d=x_d, **damper), {"x_d": x_d}
+
+
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     return plant.with_own(HOOKS, x_y=s * by.x)
 
@@ -63,6 +95,7 @@ TWIN = Twin(
     start=0.03,
     high=1.0,
     build=_build,
+    law=_law,
     shows={"own.x_y": "m"},
     rigid=True,
 )

@@ -12,7 +12,7 @@ import numpy as np
 
 from erdctl.plant.hooks import Array, Hooks, Values
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
 def _velocity(v: Array, record: int, p: Values) -> Array:
@@ -28,6 +28,11 @@ def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
     return plant.with_own(HOOKS, noise=s * by.v, samples=q["samples"], draw=q["draw"])
 
 
+def _law(plant: Plant) -> Law:
+    # The deflection is exact, so that nothing of the velocity's own channel is worth its noise.
+    return plant, {"w": 1.0}
+
+
 # Nobody would log a velocity with more noise: its sign would be lost at every turn.
 TWIN = Twin(
     name="velocity_noise",
@@ -37,6 +42,7 @@ TWIN = Twin(
     start=0.005,
     high=0.01,
     build=_build,
+    law=_law,
     shows={"own.noise": "m/s", "own.samples": "1", "own.draw": "1"},
     shape={"samples": (0.0, 0.5), "draw": (0.0, 1e6)},
 )

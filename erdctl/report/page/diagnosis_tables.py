@@ -9,7 +9,7 @@ from erdctl.model.paper import QUANTITIES
 from erdctl.report.page import data
 from erdctl.report.page.data import Json
 from erdctl.report.page.render import digits
-from erdctl.report.readable import AT_BOUND, largest, percent_of, scaled, with_unit
+from erdctl.report.readable import error_of, largest, percent_of, scaled, with_unit
 
 
 def paper_table(doc: Json) -> Json:
@@ -31,11 +31,17 @@ def paper_table(doc: Json) -> Json:
 def _cell(value: Json, factor: float) -> str:
     if value.get("value") is None:
         return "not identified"
-    if value.get("at_bound"):
-        return AT_BOUND
-    error = value.get("stderr")
+    within, at_bound = value.get("interval"), value.get("at_bound", False)
+    error = error_of(
+        value.get("stderr"), factor, at_bound=at_bound, value=value["value"], within=within
+    )
+    if at_bound:
+        return error
     text = digits(value["value"] * factor)
-    return text + ("" if error is None else f" ± {digits(error * factor, 2)}")
+    if within is not None:
+        return f"{text} ({error})"
+    stderr = value.get("stderr")
+    return text if stderr is None else f"{text} ± {digits(stderr * factor, 2)}"
 
 
 def notes_of(doc: Json) -> list[str]:

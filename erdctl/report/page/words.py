@@ -54,9 +54,15 @@ def peak_of(force: Array) -> float:
 def shown_value(given: dict[str, Any]) -> dict[str, str]:
     """Value, standard error and unit of a document's parameter, as people read them."""
     value = given["value"]
-    factor, unit = scaled(given["unit"], value or 0.0)
+    factor, unit = scaled(given["unit"], value or max(given.get("interval") or (0.0,)))
     return {
         "value": "not identified" if value is None else number(value * factor),
-        "stderr": error_of(given["stderr"], factor, at_bound=given.get("at_bound", False)),
+        "stderr": error_of(
+            given["stderr"],
+            factor,
+            at_bound=given.get("at_bound", False),
+            value=value,
+            within=given.get("interval"),
+        ),
         "unit": unit,
     }
