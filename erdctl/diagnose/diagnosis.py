@@ -24,7 +24,7 @@ from erdctl.diagnose.forward_step import key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem, prepare, with_given
 from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying, errors
-from erdctl.diagnose.residual.localisation import Region, locate, record_region, since_onset
+from erdctl.diagnose.residual.localisation import Region, acting, places, record_region
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
 from erdctl.diagnose.search import Selection, refit, search
@@ -152,15 +152,12 @@ def diagnose(
     else:
         verdict = Verdict.EXPLAINED if selection.named else Verdict.ADEQUATE
     findings = _findings(problem, selection)
-    energy = (best.residual - selection.base.residual) ** 2
-    if left:
-        energy += lack_of_fit.excess
     mismatch: list[Region] = []
     if verdict is not Verdict.ADEQUATE:
-        alone = record_region(best.problem, energy)
-        first = [f.effect for f in findings[:1]]
-        mismatch = since_onset(best.problem, first, best.values, energy)
-        mismatch += locate(best.problem, energy)[: thresholds.REGIONS - len(mismatch)]
+        square = _misfit(selection, lack_of_fit if left else None)
+        acted = [(f.effect, f.where) for f in findings]
+        alone = record_region(best.problem, square)
+        mismatch = places(best.problem, square, acted, best.values, sure=not left)
         mismatch += [alone] if alone else []
     refitted = _validate(problem, selection.base)
     fit, record_effects = fit_errors(problem, best)
@@ -190,6 +187,16 @@ def diagnose(
         undetected=undetected,
         rig=rig,
     )
+
+
+def _misfit(selection: Selection, lack_of_fit: LackOfFit | None) -> Array:
+    """(n,) squared misfit of the base [N^2], without noise: what the best model and the regression
+    of its residual, if that counts, say together, and the variance that has no sign."""
+    missed = selection.base.residual - selection.best.residual
+    if lack_of_fit is None:
+        return missed**2
+    predicted = lack_of_fit.predicted
+    return (missed + predicted) ** 2 + np.maximum(lack_of_fit.excess - predicted**2, 0.0)
 
 
 def _matters(problem: Problem, selection: Selection, lack_of_fit: LackOfFit) -> bool:
@@ -245,10 +252,7 @@ def _findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
         # Where it acts; what acts everywhere is seen where the other parameters fail to absorb it.
         alone = best.model.force(problem.block.signals, {**best.values, **effect.off})
         absent = without.model.force(problem.block.signals, without.values)
-        regions = since_onset(best.problem, [effect], best.values, (with_all - alone) ** 2)
-        regions += [
-            r for f in (alone, absent) for r in locate(best.problem, (with_all - f) ** 2)[:1]
-        ]
+        squares = [(with_all - force) ** 2 for force in (alone, absent)]
         gain = compare(problem, without, best)
         found.append(
             Finding(
@@ -256,7 +260,7 @@ def _findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
                 equivalent=tuple(name for name, _ in selection.look_alikes[effect.name]),
                 test=discriminating_drive(problem, best, selection.look_alikes[effect.name]),
                 gain=gain,
-                where=regions[0] if regions else None,
+                where=acting(best.problem, effect, best.values, squares),
                 before=float(np.sqrt(gain.before)) / scale,
                 after=float(np.sqrt(gain.after)) / scale,
                 runner_up=runner,

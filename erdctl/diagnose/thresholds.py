@@ -311,6 +311,16 @@ IMPULSE_SHARE, IMPULSE_MOSTLY, IMPULSE_QUANTA = 0.1, 0.5, 3.0
 # Origin: none.
 REGION_SHARE, REGION_EXCESS, REGION_CELLS, REGION_WIDEST, REGIONS = 0.5, 0.2, 200, 0.6, 3
 
+# Share less part of the time by which a second interval adds to the first.
+# Decides: whether both ends of a stroke, or both directions, are told apart.
+# Origin: none; three quarters of REGION_EXCESS.
+REGION_SECOND = 0.15
+
+# Intersection over union of two intervals of one variable.
+# Decides: which of them are one place, that is listed once.
+# Origin: none.
+REGION_SAME = 0.5
+
 # Correlation with a simple form of motion and control; fading of one of them [s].
 # Decides: whether a resemblance is reported.
 # Origin: none.

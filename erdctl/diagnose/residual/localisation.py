@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
@@ -25,6 +26,8 @@ UNITS = {
     Variable.ENERGY: (1.0, "J"),
     Variable.RECORD: (1.0, ""),
 }
+
+TWO_SIDED = (Variable.X, Variable.XDOT)  # what has both ends or both directions
 
 
 @dataclass(frozen=True)
@@ -63,7 +66,11 @@ def variables(signals: Signals, force: Array) -> dict[Variable, Array]:
 
 
 def locate(problem: Problem, square: Array) -> list[Region]:
-    """Regions in which a squared misfit (n,) [N^2] gathers, the sharpest first; none if nowhere."""
+    """Regions in which a squared misfit (n,) [N^2] gathers, the sharpest first; none if nowhere.
+
+    Both ends of the stroke, or both directions, are two regions of one variable, one after the
+    other, the one with more of the misfit first.
+    """
     weight = problem.block.weight
     energy = weight * square
     total = float(energy.sum())
@@ -71,10 +78,90 @@ def locate(problem: Problem, square: Array) -> list[Region]:
         return []
     found = []
     for variable, values in variables(problem.block.signals, problem.block.force).items():
-        region = _interval(variable, values, energy / total, weight / weight.sum())
-        if region is not None and region.time < thresholds.REGION_WIDEST:
-            found.append(region)
-    return sorted(found, key=lambda r: r.time - r.share)
+        regions = _intervals(variable, values, energy / total, weight / weight.sum())
+        if regions:
+            found.append(regions)
+    found.sort(key=lambda regions: sum(r.time - r.share for r in regions))
+    return [r for regions in found for r in regions]
+
+
+def acting(
+    problem: Problem, effect: Effect, values: Values, squares: Sequence[Array]
+) -> Region | None:
+    """Where an effect acts: in the variable of its physics if it gathers there, else the sharpest.
+
+    squares : (n,) each, squared forces of the effect [N^2], as it is first and then as far as the
+        other parameters do not absorb it: what acts everywhere alike is seen by that alone
+    """
+    gathered = [r for square in squares for r in locate(problem, square)]
+    own = [r for r in gathered if r.variable is effect.shows]
+    found = [*since_onset(problem, [effect], values, squares[0]), *own, *gathered]
+    return found[0] if found else None
+
+
+def places(
+    problem: Problem,
+    square: Array,
+    effects: Sequence[tuple[Effect, Region | None]] = (),
+    values: Values | None = None,
+    *,
+    sure: bool = True,
+) -> list[Region]:
+    """Where to look for a misfit, the place most worth it first.
+
+    That is where the effect that explains most of it shows by what physics says: from its onset on,
+    or where misfit gathers in its variable, or where it acts if there is no less misfit there than
+    elsewhere. Next where misfit gathers most sharply, then the same of the other effects.
+    square : (n,) squared misfit [N^2];  effects : each with where it acts, the first one first
+    values : of the model with them;  sure : whether they explain it; if not, they come second
+    """
+    gathered = locate(problem, square)
+    own = [_own(problem, square, gathered, effect, region, values) for effect, region in effects]
+    sharpest = [r for r in gathered if r.variable is gathered[0].variable]
+    first = [*own[:1], sharpest] if sure else [sharpest, *own[:1]]
+    listed: list[Region] = []
+    for region in chain(*first, *own[1:], gathered):
+        if not any(_same(region, other) for other in listed):
+            listed.append(region)
+    return listed[: thresholds.REGIONS]
+
+
+def _own(
+    problem: Problem,
+    square: Array,
+    gathered: Sequence[Region],
+    effect: Effect,
+    region: Region | None,
+    values: Values | None,
+) -> list[Region]:
+    """Where a misfit of an effect is to be seen by the effect's physics; [] if nowhere."""
+    onset = since_onset(problem, [effect], values or {}, square)
+    if onset:
+        return onset
+    own = [r for r in gathered if r.variable is effect.shows]
+    if own or region is None or region.variable is not effect.shows:
+        return own
+    within = _measured(problem, region, square)
+    return [within] if within.share >= within.time else []
+
+
+def _same(a: Region, b: Region) -> bool:
+    """Whether two regions are one place to a reader: of one variable, and mostly one interval."""
+    inter = min(a.high, b.high) - max(a.low, b.low)
+    union = max(a.high, b.high) - min(a.low, b.low)
+    return a.variable is b.variable and inter > thresholds.REGION_SAME * union
+
+
+def _measured(problem: Problem, region: Region, square: Array) -> Region:
+    """The same region with its share of another misfit (n,) [N^2]."""
+    value = variables(problem.block.signals, problem.block.force)[region.variable]
+    inside = (value >= region.low) & (value <= region.high)
+    weight = problem.block.weight
+    energy = weight * square
+    share = float(energy[inside].sum() / max(energy.sum(), 1e-300))
+    time = float(weight[inside].sum() / weight.sum())
+    text = describe(region.variable, region.low, region.high, share)
+    return Region(region.variable, region.low, region.high, share, time, text)
 
 
 def since_onset(
@@ -123,12 +210,15 @@ def record_region(problem: Problem, square: Array) -> Region | None:
     return Region(Variable.RECORD, at + 1.0, at + 1.0, share, spent, text)
 
 
-def _interval(variable: Variable, values: Array, energy: Array, time: Array) -> Region | None:
-    """The interval whose share of the energy exceeds its share of the time by most."""
+def _intervals(variable: Variable, values: Array, energy: Array, time: Array) -> list[Region]:
+    """The interval whose share of the energy exceeds its share of the time by most.
+
+    Or two of them, of a variable with two sides, if the second exceeds it by enough as well.
+    """
     finite = np.isfinite(values) & (time > 0)
     v, e, w = values[finite], energy[finite], time[finite]
     if v.size == 0 or v.min() == v.max():
-        return None
+        return []
     order = np.argsort(v, kind="stable")
     v, e, w = v[order], e[order], w[order]
     passed = np.cumsum(w)
@@ -141,17 +231,45 @@ def _interval(variable: Variable, values: Array, energy: Array, time: Array) -> 
     E = np.concatenate([[0.0], np.cumsum(e)])[at]
     W = np.concatenate([[0.0], passed])[at]
     ahead = E - W
+    runs = [_most(ahead)]
+    if variable in TWO_SIDED:
+        two = _two_most(ahead)
+        excess = [sum(ahead[j] - ahead[i] for i, j in found) for found in (runs, two)]
+        if excess[1] - excess[0] >= thresholds.REGION_SECOND:
+            runs = two
+    found = []
+    for i, j in runs:
+        share, spent = float(E[j] - E[i]), float(W[j] - W[i])
+        # Half way to what lies outside: levels of a duty have no width of their own.
+        a, b = int(at[i]), int(at[j])
+        low = float(v[0] if a == 0 else 0.5 * (v[a - 1] + v[a]))
+        high = float(v[-1] if b == len(v) else 0.5 * (v[b - 1] + v[b]))
+        text = describe(variable, low, high, share)
+        found.append(Region(variable, low, high, share, spent, text))
+    share, spent = sum(r.share for r in found), sum(r.time for r in found)
+    points = share >= thresholds.REGION_SHARE and share - spent >= thresholds.REGION_EXCESS
+    if not points or spent >= thresholds.REGION_WIDEST:
+        return []
+    return sorted(found, key=lambda r: r.time - r.share)
+
+
+def _most(ahead: Array) -> tuple[int, int]:
+    """Ends i < j of the run that gains most, ahead[j] - ahead[i]."""
     lowest = np.minimum.accumulate(ahead)
     j = 1 + int(np.argmax(ahead[1:] - lowest[:-1]))
-    i = int(np.argmin(ahead[:j]))
-    share, spent = float(E[j] - E[i]), float(W[j] - W[i])
-    # Half way to what lies outside: levels of a duty have no width of their own.
-    a, b = int(at[i]), int(at[j])
-    low = float(v[0] if a == 0 else 0.5 * (v[a - 1] + v[a]))
-    high = float(v[-1] if b == len(v) else 0.5 * (v[b - 1] + v[b]))
-    if share < thresholds.REGION_SHARE or share - spent < thresholds.REGION_EXCESS:
-        return None
-    return Region(variable, low, high, share, spent, describe(variable, low, high, share))
+    return int(np.argmin(ahead[:j])), j
+
+
+def _two_most(ahead: Array) -> list[tuple[int, int]]:
+    """The two runs apart from each other that gain most together: the best one without its worst
+    part, or the best one and the best of what lies on either side of it."""
+    i, j = _most(ahead)
+    k, m = _most(-ahead[i : j + 1])
+    splits = [[(i, i + k), (i + m, j)]] if k > 0 and i + m < j else []
+    splits += [[(i, j), _most(ahead[: i + 1])]] if i > 0 else []
+    rest = _most(ahead[j:]) if j + 1 < len(ahead) else None
+    splits += [[(i, j), (j + rest[0], j + rest[1])]] if rest else []
+    return max(splits, key=lambda s: sum(ahead[b] - ahead[a] for a, b in s), default=[(i, j)])
 
 
 def describe(variable: Variable, low: float, high: float, share: float) -> str:
