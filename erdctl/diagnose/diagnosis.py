@@ -50,7 +50,7 @@ class Verdict(StrEnum):
 class Finding:
     """One effect that the paper's model left out.
 
-    gain : against the best model without it, on what neither has seen;  where : it acts
+    gain : against the best model without it, on what neither has seen;  acts : where it does
     before, after : NRMSE on groups left out of the fit, without and with it
     test : the drive that would tell it from its equivalents, if it has any
     """
@@ -58,11 +58,16 @@ class Finding:
     effect: Effect
     equivalent: tuple[str, ...]
     gain: Comparison
-    where: Region | None
+    acts: tuple[Region, ...]
     before: float
     after: float
     runner_up: str | None
     test: DiscriminatingDrive | None
+
+    @property
+    def where(self) -> Region | None:
+        """The place at which it acts most."""
+        return self.acts[0] if self.acts else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,7 +160,7 @@ def diagnose(
     mismatch: list[Region] = []
     if verdict is not Verdict.ADEQUATE:
         square = _misfit(selection, lack_of_fit if left else None)
-        acted = [(f.effect, f.where) for f in findings]
+        acted = [(f.effect, f.acts) for f in findings]
         alone = record_region(best.problem, square)
         mismatch = places(best.problem, square, acted, best.values, sure=not left)
         mismatch += [alone] if alone else []
@@ -260,7 +265,7 @@ def _findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
                 equivalent=tuple(name for name, _ in selection.look_alikes[effect.name]),
                 test=discriminating_drive(problem, best, selection.look_alikes[effect.name]),
                 gain=gain,
-                where=acting(best.problem, effect, best.values, squares),
+                acts=tuple(acting(best.problem, effect, best.values, squares)),
                 before=float(np.sqrt(gain.before)) / scale,
                 after=float(np.sqrt(gain.after)) / scale,
                 runner_up=runner,

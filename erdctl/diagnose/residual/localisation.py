@@ -87,22 +87,27 @@ def locate(problem: Problem, square: Array) -> list[Region]:
 
 def acting(
     problem: Problem, effect: Effect, values: Values, squares: Sequence[Array]
-) -> Region | None:
+) -> list[Region]:
     """Where an effect acts: in the variable of its physics if it gathers there, else the sharpest.
+
+    One region, or two of one variable.
 
     squares : (n,) each, squared forces of the effect [N^2], as it is first and then as far as the
         other parameters do not absorb it: what acts everywhere alike is seen by that alone
     """
-    gathered = [r for square in squares for r in locate(problem, square)]
-    own = [r for r in gathered if r.variable is effect.shows]
-    found = [*since_onset(problem, [effect], values, squares[0]), *own, *gathered]
-    return found[0] if found else None
+    onset = since_onset(problem, [effect], values, squares[0])
+    if onset:
+        return onset
+    gathered = [locate(problem, square) for square in squares]
+    own = [[r for r in regions if r.variable is effect.shows] for regions in gathered]
+    sharpest = [[r for r in regions if r.variable is regions[0].variable] for regions in gathered]
+    return next((regions for regions in own + sharpest if regions), [])
 
 
 def places(
     problem: Problem,
     square: Array,
-    effects: Sequence[tuple[Effect, Region | None]] = (),
+    effects: Sequence[tuple[Effect, Sequence[Region]]] = (),
     values: Values | None = None,
     *,
     sure: bool = True,
@@ -116,7 +121,7 @@ def places(
     values : of the model with them;  sure : whether they explain it; if not, they come second
     """
     gathered = locate(problem, square)
-    own = [_own(problem, square, gathered, effect, region, values) for effect, region in effects]
+    own = [_own(problem, square, gathered, effect, acts, values) for effect, acts in effects]
     sharpest = [r for r in gathered if r.variable is gathered[0].variable]
     first = [*own[:1], sharpest] if sure else [sharpest, *own[:1]]
     listed: list[Region] = []
@@ -131,7 +136,7 @@ def _own(
     square: Array,
     gathered: Sequence[Region],
     effect: Effect,
-    region: Region | None,
+    acts: Sequence[Region],
     values: Values | None,
 ) -> list[Region]:
     """Where a misfit of an effect is to be seen by the effect's physics; [] if nowhere."""
@@ -139,10 +144,8 @@ def _own(
     if onset:
         return onset
     own = [r for r in gathered if r.variable is effect.shows]
-    if own or region is None or region.variable is not effect.shows:
-        return own
-    within = _measured(problem, region, square)
-    return [within] if within.share >= within.time else []
+    within = [_measured(problem, r, square) for r in acts if r.variable is effect.shows]
+    return own or [r for r in within if r.share >= r.time]
 
 
 def _same(a: Region, b: Region) -> bool:

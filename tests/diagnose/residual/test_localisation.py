@@ -77,8 +77,7 @@ def test_the_physics_of_what_explains_it_goes_first() -> None:
     assert gathered[0].variable is not Variable.X
     end_stop = get("end_stop")
     acts = acting(problem(), end_stop, {}, [1.0 * (signals().x > 0.015)])
-    assert acts is not None
-    assert acts.variable is Variable.X
+    assert [r.variable for r in acts] == [Variable.X]
     listed = places(problem(), spread(), [(end_stop, acts)])
     assert listed[0].variable is Variable.X
     assert listed[1] == gathered[0]
@@ -97,10 +96,10 @@ def test_where_nothing_gathers_in_its_variable_an_effect_is_where_it_acts() -> N
     assert of(Variable.X, locate(problem(), square)) == []
     end_stop = get("end_stop")
     acts = acting(problem(), end_stop, {}, [1.0 * (x > 0.7 * x.max())])
-    assert acts is not None
-    assert acts.share == pytest.approx(1.0)
+    [acted] = acts
+    assert acted.share == pytest.approx(1.0)
     [listed] = places(problem(), square, [(end_stop, acts)])
-    assert (listed.low, listed.high) == (acts.low, acts.high)
+    assert (listed.low, listed.high) == (acted.low, acted.high)
     assert listed.time < listed.share < 0.5
     assert f"{100 * listed.share:.0f} % of the misfit" in listed.text
     # Not where the misfit is less than elsewhere.
@@ -113,7 +112,7 @@ def test_what_sets_in_at_a_time_acts_from_then_on() -> None:
     values = {leak.key("t_0"): 9.0}
     square = np.where(t < 9.0, 0.2, 0.5)
     acts = acting(problem(), leak, values, [square])
-    assert acts is not None
+    assert len(acts) == 1
     first = places(problem(), square, [(leak, acts)], values)[0]
     assert (first.variable, first.low, first.high) == (Variable.TIME, 9.0, t.max())
 
