@@ -311,10 +311,10 @@ IMPULSE_SHARE, IMPULSE_MOSTLY, IMPULSE_QUANTA = 0.1, 0.5, 3.0
 # Origin: none.
 REGION_SHARE, REGION_EXCESS, REGION_CELLS, REGION_WIDEST, REGIONS = 0.5, 0.2, 200, 0.6, 3
 
-# Share less part of the time by which a second interval adds to the first.
+# Share less part of the time by which an interval on either side is more than one interval.
 # Decides: whether both ends of a stroke, or both directions, are told apart.
-# Origin: none; three quarters of REGION_EXCESS.
-REGION_SECOND = 0.15
+# Origin: half of REGION_EXCESS, so that two sides alike have together what one must have.
+REGION_SECOND = 0.1
 
 # Intersection over union of two intervals of one variable.
 # Decides: which of them are one place, that is listed once.

@@ -216,7 +216,7 @@ def record_region(problem: Problem, square: Array) -> Region | None:
 def _intervals(variable: Variable, values: Array, energy: Array, time: Array) -> list[Region]:
     """The interval whose share of the energy exceeds its share of the time by most.
 
-    Or two of them, of a variable with two sides, if the second exceeds it by enough as well.
+    Or one on either side of rest or of the middle of the stroke, if two are ahead by enough.
     """
     finite = np.isfinite(values) & (time > 0)
     v, e, w = values[finite], energy[finite], time[finite]
@@ -236,9 +236,9 @@ def _intervals(variable: Variable, values: Array, energy: Array, time: Array) ->
     ahead = E - W
     runs = [_most(ahead)]
     if variable in TWO_SIDED:
-        two = _two_most(ahead)
-        excess = [sum(ahead[j] - ahead[i] for i, j in found) for found in (runs, two)]
-        if excess[1] - excess[0] >= thresholds.REGION_SECOND:
+        middle = 0.0 if variable is Variable.XDOT else 0.5 * float(v[0] + v[-1])
+        two = _either_side(ahead, int(np.searchsorted(edges, middle)))
+        if _gain(ahead, two) - _gain(ahead, runs) >= thresholds.REGION_SECOND:
             runs = two
     found = []
     for i, j in runs:
@@ -251,7 +251,7 @@ def _intervals(variable: Variable, values: Array, energy: Array, time: Array) ->
         found.append(Region(variable, low, high, share, spent, text))
     share, spent = sum(r.share for r in found), sum(r.time for r in found)
     points = share >= thresholds.REGION_SHARE and share - spent >= thresholds.REGION_EXCESS
-    if not points or spent >= thresholds.REGION_WIDEST:
+    if not points or any(r.time >= thresholds.REGION_WIDEST for r in found):
         return []
     return sorted(found, key=lambda r: r.time - r.share)
 
@@ -263,16 +263,18 @@ def _most(ahead: Array) -> tuple[int, int]:
     return int(np.argmin(ahead[:j])), j
 
 
-def _two_most(ahead: Array) -> list[tuple[int, int]]:
-    """The two runs apart from each other that gain most together: the best one without its worst
-    part, or the best one and the best of what lies on either side of it."""
-    i, j = _most(ahead)
-    k, m = _most(-ahead[i : j + 1])
-    splits = [[(i, i + k), (i + m, j)]] if k > 0 and i + m < j else []
-    splits += [[(i, j), _most(ahead[: i + 1])]] if i > 0 else []
-    rest = _most(ahead[j:]) if j + 1 < len(ahead) else None
-    splits += [[(i, j), (j + rest[0], j + rest[1])]] if rest else []
-    return max(splits, key=lambda s: sum(ahead[b] - ahead[a] for a, b in s), default=[(i, j)])
+def _either_side(ahead: Array, middle: int) -> list[tuple[int, int]]:
+    """The run that gains most on either side of a place; none on a side that is not there."""
+    lower, upper = ahead[: middle + 1], ahead[middle:]
+    out = [_most(lower)] if len(lower) > 1 else []
+    if len(upper) > 1:
+        i, j = _most(upper)
+        out.append((middle + i, middle + j))
+    return out
+
+
+def _gain(ahead: Array, runs: Sequence[tuple[int, int]]) -> float:
+    return float(sum(ahead[j] - ahead[i] for i, j in runs))
 
 
 def describe(variable: Variable, low: float, high: float, share: float) -> str:
