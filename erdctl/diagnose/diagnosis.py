@@ -159,7 +159,8 @@ def diagnose(
     findings = _findings(problem, selection)
     mismatch: list[Region] = []
     if verdict is not Verdict.ADEQUATE:
-        square = _misfit(selection, lack_of_fit if left else None)
+        missed = selection.base.residual - best.residual  # what both predict, so without noise
+        square = lack_of_fit.square(missed) if left else missed**2
         acted = [(f.effect, f.acts) for f in findings]
         alone = record_region(best.problem, square)
         mismatch = places(best.problem, square, acted, best.values, sure=not left)
@@ -192,16 +193,6 @@ def diagnose(
         undetected=undetected,
         rig=rig,
     )
-
-
-def _misfit(selection: Selection, lack_of_fit: LackOfFit | None) -> Array:
-    """(n,) squared misfit of the base [N^2], without noise: what the best model and the regression
-    of its residual, if that counts, say together, and the variance that has no sign."""
-    missed = selection.base.residual - selection.best.residual
-    if lack_of_fit is None:
-        return missed**2
-    predicted = lack_of_fit.predicted
-    return (missed + predicted) ** 2 + np.maximum(lack_of_fit.excess - predicted**2, 0.0)
 
 
 def _matters(problem: Problem, selection: Selection, lack_of_fit: LackOfFit) -> bool:

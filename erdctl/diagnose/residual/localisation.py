@@ -163,7 +163,7 @@ def _measured(problem: Problem, region: Region, square: Array) -> Region:
     energy = weight * square
     share = float(energy[inside].sum() / max(energy.sum(), 1e-300))
     time = float(weight[inside].sum() / weight.sum())
-    text = describe(region.variable, region.low, region.high, share)
+    text = _said(share, time, describe(region.variable, region.low, region.high))
     return Region(region.variable, region.low, region.high, share, time, text)
 
 
@@ -186,9 +186,7 @@ def since_onset(
             share = float(energy[inside].sum() / max(energy.sum(), 1e-300))
             time = float(weight[inside].sum() / max(weight.sum(), 1e-300))
             low = max(t_0, float(s.t.min()))
-            text = (
-                f"{100 * share:.0f} % of the misfit lies from {low:.4g} s to the end of the records"
-            )
+            text = _said(share, time, f"from {low:.4g} s to the end of the records")
             found.append(Region(Variable.TIME, low, end, share, time, text))
     return found
 
@@ -209,7 +207,7 @@ def record_region(problem: Problem, square: Array) -> Region | None:
     share, spent = float(energy[at]), float(time[at])
     if share < thresholds.REGION_SHARE or share - spent < thresholds.REGION_EXCESS:
         return None
-    text = f"{100 * share:.0f} % of the misfit lies in record '{names[at]}'"
+    text = _said(share, spent, f"in record '{names[at]}'")
     return Region(Variable.RECORD, at + 1.0, at + 1.0, share, spent, text)
 
 
@@ -247,7 +245,7 @@ def _intervals(variable: Variable, values: Array, energy: Array, time: Array) ->
         a, b = int(at[i]), int(at[j])
         low = float(v[0] if a == 0 else 0.5 * (v[a - 1] + v[a]))
         high = float(v[-1] if b == len(v) else 0.5 * (v[b - 1] + v[b]))
-        text = describe(variable, low, high, share)
+        text = _said(share, spent, describe(variable, low, high))
         found.append(Region(variable, low, high, share, spent, text))
     share, spent = sum(r.share for r in found), sum(r.time for r in found)
     points = share >= thresholds.REGION_SHARE and share - spent >= thresholds.REGION_EXCESS
@@ -277,11 +275,14 @@ def _gain(ahead: Array, runs: Sequence[tuple[int, int]]) -> float:
     return float(sum(ahead[j] - ahead[i] for i, j in runs))
 
 
-def describe(variable: Variable, low: float, high: float, share: float) -> str:
-    """A region in an engineer's words."""
+def _said(share: float, time: float, where: str) -> str:
+    return f"{100 * share:.0f} % of the misfit lies {where}, in {100 * time:.0f} % of the time"
+
+
+def describe(variable: Variable, low: float, high: float) -> str:
+    """An interval in an engineer's words."""
     scale, unit = UNITS[variable]
     a, b = low * scale, high * scale
-    percent = f"{100 * share:.0f} % of the misfit"
     match variable:
         case Variable.SINCE_REVERSAL:
             where = f"within {b:.3g} {unit} of a reversal"
@@ -289,10 +290,10 @@ def describe(variable: Variable, low: float, high: float, share: float) -> str:
         case Variable.SINCE_DUTY_STEP:
             where = f"within {b:.3g} {unit} of a duty step"
             where = where if low <= 0.2 * high else f"{a:.3g} to {b:.3g} {unit} after a duty step"
-        case Variable.XDOT if low < 0 < high:
+        case Variable.XDOT if min(-low, high) > 0.2 * max(-low, high):
             where = f"at speeds from {a:.3g} to {b:.3g} {unit}, around reversal"
         case Variable.XDOT:
-            side = "compression" if high > 0 else "release"
+            side = "compression" if high > -low else "release"
             where = f"in {side}, at {a:.3g} to {b:.3g} {unit}"
         case Variable.DUTY:
             where = f"at {a:.3g} to {b:.3g} {unit} duty"
@@ -302,4 +303,4 @@ def describe(variable: Variable, low: float, high: float, share: float) -> str:
             where = f"from {a:.3g} to {b:.3g} {unit} in the records"
         case _:
             where = f"after {a:.3g} to {b:.3g} {unit} of dissipated energy"
-    return f"{percent} lies {where}"
+    return where

@@ -48,6 +48,13 @@ class LackOfFit:
     hum: SpectralLine | None = None
     measures: Mapping[str, float] = field(default_factory=dict)
 
+    def square(self, found: Array) -> Array:
+        """(n,) expected square of the misfit [N^2] of which a model has found a part (n,) [N].
+
+        What is predicted has a sign, and adds to what was found; variance beyond noise has none.
+        """
+        return (found + self.predicted) ** 2 + np.maximum(self.excess - self.predicted**2, 0.0)
+
 
 def lack_of_fit_test(problem: Problem, residual: Array, seed: int = 0) -> LackOfFit:
     """The misfit in a residual (n,) [N]."""

@@ -12,7 +12,8 @@ from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem, prepare
-from erdctl.diagnose.residual.localisation import Region, acting, locate, places
+from erdctl.diagnose.residual.localisation import Region, acting, describe, locate, places
+from erdctl.diagnose.residual.predictability import LackOfFit
 from erdctl.effects import get
 from erdctl.model.effect import Variable
 
@@ -129,3 +130,20 @@ def test_no_place_is_listed_twice() -> None:
 def test_an_even_misfit_has_no_place() -> None:
     assert locate(problem(), np.ones(len(signals()))) == []
     assert places(problem(), np.zeros(len(signals()))) == []
+
+
+def test_a_side_is_said_where_an_interval_hardly_crosses_rest() -> None:
+    assert describe(Variable.XDOT, -0.028, 0.0002).startswith("in release, at -28")
+    assert describe(Variable.XDOT, -0.0002, 0.028).startswith("in compression")
+    assert describe(Variable.XDOT, 0.01, 0.028).startswith("in compression, at 10 to 28 mm/s")
+    assert describe(Variable.XDOT, -0.01, 0.02).endswith("around reversal")
+
+
+def test_what_was_found_and_what_is_predicted_add_up() -> None:
+    """They have signs: where they cancel there was no misfit; variance has none."""
+    predicted, found = np.array([1.0, 2.0, 0.0]), np.array([-1.0, 1.0, 3.0])
+    left = LackOfFit(
+        predicted=predicted, excess=predicted**2 + np.array([0.0, 0.5, 0.0]), noise_rms=1.0,
+        misfit_rms=1.0, significant=True, hint=True, spectral_line=None, impulses=0.0,
+    )  # fmt: skip
+    assert left.square(found).tolist() == [0.0, 9.5, 9.0]
