@@ -163,7 +163,7 @@ def diagnose(
         square = lack_of_fit.square(missed) if left else missed**2
         acted = [(f.effect, f.acts) for f in findings]
         alone = record_region(best.problem, square)
-        mismatch = places(best.problem, square, acted, best.values, sure=not left)
+        mismatch = places(best.problem, square, acted, sure=not left)
         mismatch += [alone] if alone else []
     refitted = _validate(problem, selection.base)
     fit, record_effects = fit_errors(problem, best)

@@ -316,6 +316,17 @@ REGION_SHARE, REGION_EXCESS, REGION_CELLS, REGION_WIDEST, REGIONS = 0.5, 0.2, 20
 # Origin: half of REGION_EXCESS, so that two sides alike have together what one must have.
 REGION_SECOND = 0.1
 
+# Quantiles between which the range of a variable is taken, of which a region may be REGION_WIDEST.
+# Decides: which regions are too wide to point at anything.
+# Origin: none; a few samples at the ends of a transient are no range.
+REGION_RANGE = (0.002, 0.998)
+
+# Share less part of the time of a place that goes first because of the physics that is named there,
+# over that of the sharpest place.
+# Decides: which of the two is listed first.
+# Origin: none.
+REGION_OWN = 0.5
+
 # Intersection over union of two intervals of one variable.
 # Decides: which of them are one place, that is listed once.
 # Origin: none.

@@ -48,7 +48,7 @@ def found(name: str) -> tuple[list[Region], list[Region], tuple[MisfitRegion, ..
     values = {effect.key("t_0"): ONSET} if effect.sets_in else {}
     misfit = refit(s, force, [shape_of(DAMPER)]).rest ** 2
     acts = acting(problem, effect, values, [(force - plain()) ** 2, misfit])
-    listed = places(problem, misfit, [(effect, acts)], values)
+    listed = places(problem, misfit, [(effect, acts)])
     return listed, acts, regions(s, force, force - plain())
 
 
@@ -63,8 +63,9 @@ def true(name: str, region: Region) -> bool:
 @pytest.mark.parametrize("name", STRENGTHS)
 def test_the_first_place_is_in_the_variable_of_the_physics(name: str) -> None:
     listed, acts, _ = found(name)
-    assert listed[0].variable is get(name).shows
     assert acts[0].variable is get(name).shows
+    if name != "cavitation":  # whose misfit is sharper on one side of rest, see below
+        assert listed[0].variable is get(name).shows
 
 
 @pytest.mark.parametrize("name", FAULTS)
@@ -78,9 +79,10 @@ def test_a_fault_is_from_its_onset_on(name: str) -> None:
 def test_a_void_is_after_a_reversal_and_in_release() -> None:
     listed, acts, _ = found("cavitation")
     assert true("cavitation", acts[0])
-    assert listed[0].low < 1 / RATE
-    [side] = [r for r in listed if r.variable is Variable.XDOT]
+    side, after = listed[:2]
+    assert (side.variable, after.variable) == (Variable.XDOT, Variable.SINCE_REVERSAL)
     assert side.high < 0.1 * -side.low
+    assert after.low < 1 / RATE
 
 
 def test_gas_and_stops_are_at_the_ends_of_the_stroke() -> None:

@@ -81,7 +81,7 @@ def locate(problem: Problem, square: Array) -> list[Region]:
         regions = _intervals(variable, values, energy / total, weight / weight.sum())
         if regions:
             found.append(regions)
-    found.sort(key=lambda regions: sum(r.time - r.share for r in regions))
+    found.sort(key=_excess, reverse=True)
     return [r for regions in found for r in regions]
 
 
@@ -91,7 +91,6 @@ def acting(
     """Where an effect acts: in the variable of its physics if it gathers there, else the sharpest.
 
     One region, or two of one variable.
-
     squares : (n,) each, squared forces of the effect [N^2], as it is first and then as far as the
         other parameters do not absorb it: what acts everywhere alike is seen by that alone
     """
@@ -108,7 +107,6 @@ def places(
     problem: Problem,
     square: Array,
     effects: Sequence[tuple[Effect, Sequence[Region]]] = (),
-    values: Values | None = None,
     *,
     sure: bool = True,
 ) -> list[Region]:
@@ -116,16 +114,19 @@ def places(
 
     That is where the effect that explains most of it shows by what physics says: from its onset on,
     or where misfit gathers in its variable, or where it acts if there is no less misfit there than
-    elsewhere. Next where misfit gathers most sharply, then the same of the other effects.
+    elsewhere; unless the misfit gathers far more sharply elsewhere. Next where it gathers most
+    sharply, then the same of the other effects.
     square : (n,) squared misfit [N^2];  effects : each with where it acts, the first one first
-    values : of the model with them;  sure : whether they explain it; if not, they come second
+    sure : whether they explain it; if not, they come second
     """
     gathered = locate(problem, square)
-    own = [_own(problem, square, gathered, effect, acts, values) for effect, acts in effects]
+    own = [_own(problem, square, gathered, effect, acts) for effect, acts in effects]
     sharpest = [r for r in gathered if r.variable is gathered[0].variable]
-    first = [*own[:1], sharpest] if sure else [sharpest, *own[:1]]
+    least = thresholds.REGION_OWN * _excess(sharpest)
+    if not own or not sure or not (effects[0][0].sets_in or _excess(own[0]) >= least):
+        own.insert(0, sharpest)
     listed: list[Region] = []
-    for region in chain(*first, *own[1:], gathered):
+    for region in chain(*own[:1], sharpest, *own[1:], gathered):
         if not any(_same(region, other) for other in listed):
             listed.append(region)
     return listed[: thresholds.REGIONS]
@@ -137,15 +138,30 @@ def _own(
     gathered: Sequence[Region],
     effect: Effect,
     acts: Sequence[Region],
-    values: Values | None,
 ) -> list[Region]:
     """Where a misfit of an effect is to be seen by the effect's physics; [] if nowhere."""
-    onset = since_onset(problem, [effect], values or {}, square)
-    if onset:
-        return onset
     own = [r for r in gathered if r.variable is effect.shows]
     within = [_measured(problem, r, square) for r in acts if r.variable is effect.shows]
+    if effect.sets_in:
+        # A fit to before and after misses the shorter of the two by more, whichever it is.
+        t = problem.block.signals.t
+        return [r for r in within if _points([r], t)] or own
     return own or [r for r in within if r.share >= r.time]
+
+
+def _excess(regions: Sequence[Region]) -> float:
+    """By how much the misfit in some regions exceeds their part of the time."""
+    return sum(r.share - r.time for r in regions)
+
+
+def _points(regions: Sequence[Region], values: Array) -> bool:
+    """Whether regions of a variable (n,) are narrow enough to point at something."""
+    least, most = np.quantile(values, thresholds.REGION_RANGE)
+    widest = thresholds.REGION_WIDEST * float(most - least)
+    return all(
+        r.time < thresholds.REGION_WIDEST and min(r.high, most) - max(r.low, least) <= widest
+        for r in regions
+    )
 
 
 def _same(a: Region, b: Region) -> bool:
@@ -247,9 +263,9 @@ def _intervals(variable: Variable, values: Array, energy: Array, time: Array) ->
         high = float(v[-1] if b == len(v) else 0.5 * (v[b - 1] + v[b]))
         text = _said(share, spent, describe(variable, low, high))
         found.append(Region(variable, low, high, share, spent, text))
-    share, spent = sum(r.share for r in found), sum(r.time for r in found)
-    points = share >= thresholds.REGION_SHARE and share - spent >= thresholds.REGION_EXCESS
-    if not points or any(r.time >= thresholds.REGION_WIDEST for r in found):
+    share = sum(r.share for r in found)
+    gathers = share >= thresholds.REGION_SHARE and _excess(found) >= thresholds.REGION_EXCESS
+    if not gathers or not _points(found, v):
         return []
     return sorted(found, key=lambda r: r.time - r.share)
 

@@ -67,17 +67,17 @@ def test_two_places_need_not_each_hold_half() -> None:
     assert all(r.share < thresholds.REGION_SHARE for r in found)
 
 
-def spread() -> Array:
+def spread(reversals: float = 0.8) -> Array:
     """A misfit that gathers most after reversals, and less so at one end of the stroke."""
     s = signals()
-    return 4.0 * (s.since_reversal < 0.05) + 1.0 * (s.x > 0.5 * s.x.max()) + 0.01
+    return reversals * (s.since_reversal < 0.05) + 1.0 * (s.x > 0.5 * s.x.max()) + 0.01
 
 
 def test_the_physics_of_what_explains_it_goes_first() -> None:
     gathered = locate(problem(), spread())
     assert gathered[0].variable is not Variable.X
     end_stop = get("end_stop")
-    acts = acting(problem(), end_stop, {}, [1.0 * (signals().x > 0.015)])
+    acts = acting(problem(), end_stop, {}, [1.0 * (signals().x > 0.01)])
     assert [r.variable for r in acts] == [Variable.X]
     listed = places(problem(), spread(), [(end_stop, acts)])
     assert listed[0].variable is Variable.X
@@ -87,6 +87,24 @@ def test_the_physics_of_what_explains_it_goes_first() -> None:
     unsure = places(problem(), spread(), [(end_stop, acts)], sure=False)
     assert unsure[:2] == [listed[1], listed[0]]
     assert places(problem(), spread()) == gathered[: thresholds.REGIONS]
+    # Nor where the misfit is far sharper elsewhere.
+    sharp = places(problem(), spread(8.0), [(end_stop, acts)])
+    assert [r.variable for r in sharp[:2]] == [Variable.SINCE_REVERSAL, Variable.X]
+
+
+def test_a_place_that_is_most_of_the_range_is_none() -> None:
+    t, leak = signals().t, get("oil_leakage")
+    square = np.where(t < 3.0, 1.0, 0.1)
+    acts = acting(problem(), leak, {leak.key("t_0"): 3.0}, [1.0 * (t >= 3.0)])
+    assert (acts[0].low, acts[0].high) == (3.0, t.max())  # there it acts, and this is said of it
+    first = places(problem(), square, [(leak, acts)])[0]
+    assert first.variable is Variable.TIME
+    assert first.high == pytest.approx(3.0, abs=0.1)
+    # Little of the time, yet most of what times since a reversal there are.
+    since = signals().since_reversal
+    late = 0.3 * since[np.isfinite(since)].max()
+    assert np.mean(since[np.isfinite(since)] > late) < 0.5
+    assert of(Variable.SINCE_REVERSAL, locate(problem(), 1.0 * (since > late))) == []
 
 
 def test_where_nothing_gathers_in_its_variable_an_effect_is_where_it_acts() -> None:
@@ -114,7 +132,7 @@ def test_what_sets_in_at_a_time_acts_from_then_on() -> None:
     square = np.where(t < 9.0, 0.2, 0.5)
     acts = acting(problem(), leak, values, [square])
     assert len(acts) == 1
-    first = places(problem(), square, [(leak, acts)], values)[0]
+    first = places(problem(), square, [(leak, acts)])[0]
     assert (first.variable, first.low, first.high) == (Variable.TIME, 9.0, t.max())
 
 
