@@ -88,12 +88,11 @@ def lack_of_fit_test(problem: Problem, residual: Array, seed: int = 0) -> LackOf
     line, hum = spectral_lines(problem, rest)
     left = float(np.dot(weight, rest**2)) / total
     excess = predicted**2 + np.maximum(expected - noise, 0.0)
-    if line is not None:
-        excess += line.share * left
-        left *= 1.0 - line.share
+    part = 0.0 if line is None else line.share
     impulses = impulse_share(problem, rest)
-    excess += impulses * left
-    left *= 1.0 - impulses
+    swings = 1.0 - (1.0 - part) * (1.0 - impulses)
+    excess += swings * rest**2  # it is where the rest is large
+    left *= 1.0 - swings
     noise = min(noise, left)
     misfit = max(square - noise, 0.0)
     return LackOfFit(

@@ -13,7 +13,7 @@ from erdctl.core.signals import Signals
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem, prepare
 from erdctl.diagnose.residual.localisation import Region, acting, describe, locate, places
-from erdctl.diagnose.residual.predictability import LackOfFit
+from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.effects import get
 from erdctl.model.effect import Variable
 
@@ -165,3 +165,15 @@ def test_what_was_found_and_what_is_predicted_add_up() -> None:
         misfit_rms=1.0, significant=True, hint=True, spectral_line=None, impulses=0.0,
     )  # fmt: skip
     assert left.square(found).tolist() == [0.0, 9.5, 9.0]
+
+
+def test_a_ripple_is_where_it_swings() -> None:
+    """No regression predicts it, so that its place is where the rest is large."""
+    s = signals()
+    ripple = s.sign * np.sin(2 * np.pi * 23.0 * s.t) * (s.duty > 0.25)
+    noise = 0.2 * np.random.default_rng(3).standard_normal(len(s))
+    left = lack_of_fit_test(problem(), ripple + noise)
+    assert left.spectral_line is not None
+    [place] = of(Variable.DUTY, places(problem(), left.square(np.zeros(len(s)))))
+    assert place.low == pytest.approx(0.25, abs=0.051)
+    assert place.high == s.duty.max()
