@@ -24,7 +24,8 @@ from erdctl.diagnose.forward_step import key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem, prepare, with_given
 from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying, errors
-from erdctl.diagnose.residual.localisation import Region, acting, places, record_region
+from erdctl.diagnose.residual.localisation import Region, record_region
+from erdctl.diagnose.residual.places import acting, places
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
 from erdctl.diagnose.search import Selection, refit, search

@@ -15,7 +15,8 @@ from plant_rig import DAMPER, RATE, hidden, over, plain, samples
 
 from erdctl.core.recording import Recording
 from erdctl.diagnose.problem import prepare
-from erdctl.diagnose.residual.localisation import Region, acting, places
+from erdctl.diagnose.residual.localisation import Region
+from erdctl.diagnose.residual.places import acting, places
 from erdctl.effects import get
 from erdctl.model.effect import Variable
 from erdctl.plant.refit import refit, shape_of

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import chain
 
 import numpy as np
+from numpy.typing import NDArray
 
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
@@ -81,80 +81,16 @@ def locate(problem: Problem, square: Array) -> list[Region]:
         regions = _intervals(variable, values, energy / total, weight / weight.sum())
         if regions:
             found.append(regions)
-    found.sort(key=_excess, reverse=True)
+    found.sort(key=excess, reverse=True)
     return [r for regions in found for r in regions]
 
 
-def acting(
-    problem: Problem, effect: Effect, values: Values, squares: Sequence[Array]
-) -> list[Region]:
-    """Where an effect acts: in the variable of its physics if it gathers there, else the sharpest.
-
-    One region, or two of one variable.
-    squares : (n,) each, squared forces of the effect [N^2], as it is first and then as far as the
-        other parameters do not absorb it: what acts everywhere alike is seen by that alone
-    """
-    onset = since_onset(problem, [effect], values, squares[0])
-    if onset:
-        return onset
-    gathered = [locate(problem, square) for square in squares]
-    own = [[r for r in regions if r.variable is effect.shows] for regions in gathered]
-    sharpest = [[r for r in regions if r.variable is regions[0].variable] for regions in gathered]
-    return next((regions for regions in own + sharpest if regions), [])
-
-
-def places(
-    problem: Problem,
-    square: Array,
-    effects: Sequence[tuple[Effect, Sequence[Region]]] = (),
-    *,
-    sure: bool = True,
-) -> list[Region]:
-    """Where to look for a misfit, the place most worth it first.
-
-    That is where the effect that explains most of it shows by what physics says: from its onset on,
-    or where misfit gathers in its variable, or where it acts if there is no less misfit there than
-    elsewhere; unless the misfit gathers far more sharply elsewhere. Next where it gathers most
-    sharply, then the same of the other effects.
-    square : (n,) squared misfit [N^2];  effects : each with where it acts, the first one first
-    sure : whether they explain it; if not, they come second
-    """
-    gathered = locate(problem, square)
-    own = [_own(problem, square, gathered, effect, acts) for effect, acts in effects]
-    sharpest = [r for r in gathered if r.variable is gathered[0].variable]
-    least = thresholds.REGION_OWN * _excess(sharpest)
-    if not own or not sure or not (effects[0][0].sets_in or _excess(own[0]) >= least):
-        own.insert(0, sharpest)
-    listed: list[Region] = []
-    for region in chain(*own[:1], sharpest, *own[1:], gathered):
-        if not any(_same(region, other) for other in listed):
-            listed.append(region)
-    return listed[: thresholds.REGIONS]
-
-
-def _own(
-    problem: Problem,
-    square: Array,
-    gathered: Sequence[Region],
-    effect: Effect,
-    acts: Sequence[Region],
-) -> list[Region]:
-    """Where a misfit of an effect is to be seen by the effect's physics; [] if nowhere."""
-    own = [r for r in gathered if r.variable is effect.shows]
-    within = [_measured(problem, r, square) for r in acts if r.variable is effect.shows]
-    if effect.sets_in:
-        # A fit to before and after misses the shorter of the two by more, whichever it is.
-        t = problem.block.signals.t
-        return [r for r in within if _points([r], t)] or own
-    return own or [r for r in within if r.share >= r.time]
-
-
-def _excess(regions: Sequence[Region]) -> float:
+def excess(regions: Sequence[Region]) -> float:
     """By how much the misfit in some regions exceeds their part of the time."""
     return sum(r.share - r.time for r in regions)
 
 
-def _points(regions: Sequence[Region], values: Array) -> bool:
+def points(regions: Sequence[Region], values: Array) -> bool:
     """Whether regions of a variable (n,) are narrow enough to point at something."""
     least, most = np.quantile(values, thresholds.REGION_RANGE)
     widest = thresholds.REGION_WIDEST * float(most - least)
@@ -162,25 +98,6 @@ def _points(regions: Sequence[Region], values: Array) -> bool:
         r.time < thresholds.REGION_WIDEST and min(r.high, most) - max(r.low, least) <= widest
         for r in regions
     )
-
-
-def _same(a: Region, b: Region) -> bool:
-    """Whether two regions are one place to a reader: of one variable, and mostly one interval."""
-    inter = min(a.high, b.high) - max(a.low, b.low)
-    union = max(a.high, b.high) - min(a.low, b.low)
-    return a.variable is b.variable and inter > thresholds.REGION_SAME * union
-
-
-def _measured(problem: Problem, region: Region, square: Array) -> Region:
-    """The same region with its share of another misfit (n,) [N^2]."""
-    value = variables(problem.block.signals, problem.block.force)[region.variable]
-    inside = (value >= region.low) & (value <= region.high)
-    weight = problem.block.weight
-    energy = weight * square
-    share = float(energy[inside].sum() / max(energy.sum(), 1e-300))
-    time = float(weight[inside].sum() / weight.sum())
-    text = _said(share, time, describe(region.variable, region.low, region.high))
-    return Region(region.variable, region.low, region.high, share, time, text)
 
 
 def since_onset(
@@ -192,17 +109,16 @@ def since_onset(
         region's part of the time: a model that was fitted to before and after alike misses the
         shorter of the two by more.
     """
-    s, weight = problem.block.signals, problem.block.weight
-    end, energy = float(s.t.max()), weight * square
+    s = problem.block.signals
+    end = float(s.t.max())
     found = []
     for effect in effects:
         t_0 = values[effect.key(START)] if effect.sets_in else end
         if t_0 < end:
             inside = s.t >= t_0
-            share = float(energy[inside].sum() / max(energy.sum(), 1e-300))
-            time = float(weight[inside].sum() / max(weight.sum(), 1e-300))
+            share, time = shares(problem, inside, square)
             low = max(t_0, float(s.t.min()))
-            text = _said(share, time, f"from {low:.4g} s to the end of the records")
+            text = said(share, time, f"from {low:.4g} s to the end of the records")
             found.append(Region(Variable.TIME, low, end, share, time, text))
     return found
 
@@ -223,7 +139,7 @@ def record_region(problem: Problem, square: Array) -> Region | None:
     share, spent = float(energy[at]), float(time[at])
     if share < thresholds.REGION_SHARE or share - spent < thresholds.REGION_EXCESS:
         return None
-    text = _said(share, spent, f"in record '{names[at]}'")
+    text = said(share, spent, f"in record '{names[at]}'")
     return Region(Variable.RECORD, at + 1.0, at + 1.0, share, spent, text)
 
 
@@ -252,7 +168,8 @@ def _intervals(variable: Variable, values: Array, energy: Array, time: Array) ->
     if variable in TWO_SIDED:
         middle = 0.0 if variable is Variable.XDOT else 0.5 * float(v[0] + v[-1])
         two = _either_side(ahead, int(np.searchsorted(edges, middle)))
-        if _gain(ahead, two) - _gain(ahead, runs) >= thresholds.REGION_SECOND:
+        one, both = (sum(ahead[j] - ahead[i] for i, j in found) for found in (runs, two))
+        if both - one >= thresholds.REGION_SECOND:
             runs = two
     found = []
     for i, j in runs:
@@ -261,11 +178,11 @@ def _intervals(variable: Variable, values: Array, energy: Array, time: Array) ->
         a, b = int(at[i]), int(at[j])
         low = float(v[0] if a == 0 else 0.5 * (v[a - 1] + v[a]))
         high = float(v[-1] if b == len(v) else 0.5 * (v[b - 1] + v[b]))
-        text = _said(share, spent, describe(variable, low, high))
+        text = said(share, spent, describe(variable, low, high))
         found.append(Region(variable, low, high, share, spent, text))
     share = sum(r.share for r in found)
-    gathers = share >= thresholds.REGION_SHARE and _excess(found) >= thresholds.REGION_EXCESS
-    if not gathers or not _points(found, v):
+    gathers = share >= thresholds.REGION_SHARE and excess(found) >= thresholds.REGION_EXCESS
+    if not gathers or not points(found, v):
         return []
     return sorted(found, key=lambda r: r.time - r.share)
 
@@ -287,11 +204,16 @@ def _either_side(ahead: Array, middle: int) -> list[tuple[int, int]]:
     return out
 
 
-def _gain(ahead: Array, runs: Sequence[tuple[int, int]]) -> float:
-    return float(sum(ahead[j] - ahead[i] for i, j in runs))
+def shares(problem: Problem, inside: NDArray[np.bool_], square: Array) -> tuple[float, float]:
+    """Share of a squared misfit, and of the time, at some samples (n,)."""
+    weight = problem.block.weight
+    parts = (w[inside].sum() / max(w.sum(), 1e-300) for w in (weight * square, weight))
+    share, time = map(float, parts)
+    return share, time
 
 
-def _said(share: float, time: float, where: str) -> str:
+def said(share: float, time: float, where: str) -> str:
+    """A place in words, with its part of the misfit and of the time."""
     return f"{100 * share:.0f} % of the misfit lies {where}, in {100 * time:.0f} % of the time"
 
 

@@ -12,7 +12,8 @@ from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem, prepare
-from erdctl.diagnose.residual.localisation import Region, acting, describe, locate, places
+from erdctl.diagnose.residual.localisation import Region, describe, locate
+from erdctl.diagnose.residual.places import acting, places
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.effects import get
 from erdctl.model.effect import Variable
