@@ -24,12 +24,13 @@ from erdctl.diagnose.forward_step import key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem, prepare, with_given
 from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying
-from erdctl.diagnose.residual.localisation import Region, locate, record_region, since_onset
+from erdctl.diagnose.residual.localisation import Region, record_region
+from erdctl.diagnose.residual.places import acting, places
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
 from erdctl.diagnose.search import Selection, on_all, refit, search
 from erdctl.diagnose.thin import thinned
-from erdctl.diagnose.unseen import Unseen, kept_aside, left_out, predicted
+from erdctl.diagnose.unseen import Unseen, kept_aside, on_unseen
 from erdctl.estimate.covariance import Fit
 from erdctl.estimate.last_step import assess
 from erdctl.estimate.onsets import onset_intervals, placed
@@ -51,7 +52,7 @@ class Verdict(StrEnum):
 class Finding:
     """One effect that the paper's model left out.
 
-    gain : against the best model without it, on what neither has seen;  where : it acts
+    gain : against the best model without it, on what neither has seen;  acts : where it does
     before, after : NRMSE on groups left out of the fit, without and with it
     test : the drive that would tell it from its equivalents, if it has any
     """
@@ -59,11 +60,16 @@ class Finding:
     effect: Effect
     equivalent: tuple[str, ...]
     gain: Comparison
-    where: Region | None
+    acts: tuple[Region, ...]
     before: float
     after: float
     runner_up: str | None
     test: DiscriminatingDrive | None
+
+    @property
+    def where(self) -> Region | None:
+        """The place at which it acts most."""
+        return self.acts[0] if self.acts else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,12 +153,11 @@ def diagnose(
     with executor((thin, seen, problem), jobs, progress) as workers:
         searched = search(thin, testable, most, workers, seed, given)
         selection = refit(seen, searched, workers)
-        unseen = list(left_out(selection.base, selection.best))
-        if aside:
-            unseen.insert(0, predicted(problem.of(aside), selection.base, selection.best))
+        unseen = on_unseen(problem.of(aside) if aside else None, selection.base, selection.best)
         withdrawn = selection.named if unseen[0].never_seen and unseen[0].worse else ()
         if withdrawn:
             selection = selection.nothing
+            unseen = on_unseen(problem.of(aside), selection.base, selection.best)
         findings = _findings(seen, selection)
         if aside:
             selection = on_all(problem, selection, workers)
@@ -166,15 +171,13 @@ def diagnose(
         verdict = Verdict.UNEXPLAINED
     else:
         verdict = Verdict.EXPLAINED if selection.named else Verdict.ADEQUATE
-    energy = (best.residual - selection.base.residual) ** 2
-    if left:
-        energy += lack_of_fit.excess
     mismatch: list[Region] = []
     if verdict is not Verdict.ADEQUATE:
-        alone = record_region(best.problem, energy)
-        first = [f.effect for f in findings[:1]]
-        mismatch = since_onset(best.problem, first, best.values, energy)
-        mismatch += locate(best.problem, energy)[: thresholds.REGIONS - len(mismatch)]
+        missed = selection.base.residual - best.residual  # what both predict, so without noise
+        square = lack_of_fit.square(missed) if left else missed**2
+        acted = [(f.effect, f.acts) for f in findings]
+        alone = record_region(best.problem, square)
+        mismatch = places(best.problem, square, acted, sure=not left)
         mismatch += [alone] if alone else []
     base = selection.base
     refitted = scores.of(problem, base.model, base.values)
@@ -196,7 +199,7 @@ def diagnose(
         refitted=refitted,
         corrected=corrected,
         carried=corrected if record_effects is None else scores.carried(problem, best),
-        unseen=tuple(unseen),
+        unseen=unseen,
         withdrawn=withdrawn,
         cross_validated=(
             scores.cross_validated(best.problem, selection.base),
@@ -263,10 +266,7 @@ def _findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
         # Where it acts; what acts everywhere is seen where the other parameters fail to absorb it.
         alone = best.model.force(problem.block.signals, {**best.values, **effect.off})
         absent = without.model.force(problem.block.signals, without.values)
-        regions = since_onset(best.problem, [effect], best.values, (with_all - alone) ** 2)
-        regions += [
-            r for f in (alone, absent) for r in locate(best.problem, (with_all - f) ** 2)[:1]
-        ]
+        squares = [(with_all - force) ** 2 for force in (alone, absent)]
         gain = compare(problem, without, best)
         found.append(
             Finding(
@@ -274,7 +274,7 @@ def _findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
                 equivalent=tuple(name for name, _ in selection.look_alikes[effect.name]),
                 test=discriminating_drive(problem, best, selection.look_alikes[effect.name]),
                 gain=gain,
-                where=regions[0] if regions else None,
+                acts=tuple(acting(best.problem, effect, best.values, squares)),
                 before=float(np.sqrt(gain.before)) / scale,
                 after=float(np.sqrt(gain.after)) / scale,
                 runner_up=runner,

@@ -326,6 +326,27 @@ IMPULSE_SHARE, IMPULSE_MOSTLY, IMPULSE_QUANTA = 0.1, 0.5, 3.0
 # Origin: none.
 REGION_SHARE, REGION_EXCESS, REGION_CELLS, REGION_WIDEST, REGIONS = 0.5, 0.2, 200, 0.6, 3
 
+# Share less part of the time by which an interval on either side is more than one interval.
+# Decides: whether both ends of a stroke, or both directions, are told apart.
+# Origin: half of REGION_EXCESS, so that two sides alike have together what one must have.
+REGION_SECOND = 0.1
+
+# Quantiles between which the range of a variable is taken, of which a region may be REGION_WIDEST.
+# Decides: which regions are too wide to point at anything.
+# Origin: none; a few samples at the ends of a transient are no range.
+REGION_RANGE = (0.002, 0.998)
+
+# Share less part of the time of a place that goes first because of the physics that is named there,
+# over that of the sharpest place.
+# Decides: which of the two is listed first.
+# Origin: none.
+REGION_OWN = 0.5
+
+# Intersection over union of two intervals of one variable.
+# Decides: which of them are one place, that is listed once.
+# Origin: none.
+REGION_SAME = 0.5
+
 # Correlation with a simple form of motion and control; fading of one of them [s].
 # Decides: whether a resemblance is reported.
 # Origin: none.

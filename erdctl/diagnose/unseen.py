@@ -98,10 +98,16 @@ def _extreme(recording: Recording, at: Array) -> set[int]:
     return {int(np.argmax(e)) for e in ends if np.ptp(e) > 0.0}
 
 
-def predicted(problem: Problem, base: Hypothesis, best: Hypothesis) -> Unseen:
-    """Two models on records that neither their fits nor the search has seen."""
-    before, after = (_on(problem, h) for h in (base, best))
-    return _unseen(Left.ASIDE, 1, problem.recording.names, before, after)
+def on_unseen(aside: Problem | None, base: Hypothesis, best: Hypothesis) -> tuple[Unseen, ...]:
+    """Errors of two models by what was left out, that which nothing has seen first.
+
+    aside : the problem of the records that neither the fits nor the search has seen, if any are
+    """
+    found = list(_left_out(base, best))
+    if aside is not None:
+        pair = (_on(aside, h) for h in (base, best))
+        found.insert(0, _unseen(Left.ASIDE, 1, aside.recording.names, *pair))
+    return tuple(found)
 
 
 def _on(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
@@ -112,8 +118,8 @@ def _on(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
     return Hypothesis(mask_doubtful(problem, model, values), fitted, residual)
 
 
-def left_out(base: Hypothesis, best: Hypothesis) -> Iterator[Unseen]:
-    """The same of all that is left out of the fit in turn; the search has seen it."""
+def _left_out(base: Hypothesis, best: Hypothesis) -> Iterator[Unseen]:
+    """Of all that is left out of the fit in turn; the search has seen it."""
     recording = best.problem.recording
     for left, part in (
         (Left.MOTIONS, kinds_of_motion(recording)),

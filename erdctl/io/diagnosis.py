@@ -41,7 +41,8 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
         },
         **({} if found.given is None else {"refitted": _scores(found.refitted)}),
         "mismatch": [
-            {"where": _where(r), "share": r.share, "text": r.text} for r in found.mismatch
+            {"where": _where(r), "share": r.share, "time": r.time, "text": r.text}
+            for r in found.mismatch
         ],
         "findings": [_finding(f, corrected) for f in found.findings],
         "corrected": {

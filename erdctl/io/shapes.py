@@ -71,10 +71,14 @@ class Corrected(Scores):
 
 
 class Mismatch(TypedDict):
-    """A region in which misfit gathers; share : part of the misfit energy that lies there."""
+    """A region in which misfit gathers; share : part of the misfit energy that lies there.
+
+    time : part of the samples that lies there
+    """
 
     where: IntervalDocument
     share: float
+    time: NotRequired[float]
     text: str
 
 

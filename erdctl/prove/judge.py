@@ -32,6 +32,7 @@ class Result:
     named : whether the first finding is right, None where nothing of the catalogue is hidden
     matched, spurious, redundant : see `score.Naming`
     located : None where the misfit is everywhere
+    first_place : the first place of the mismatch is one of the misfit or of the effect's own force
     flags : what the plant says makes the case unfair or undecidable
     """
 
@@ -53,6 +54,7 @@ class Result:
     redundant: int
     located: bool | None
     fresh: Errors
+    first_place: bool | None = None
 
 
 @dataclass(frozen=True)
@@ -109,6 +111,10 @@ def scored(
         redundant=match.redundant,
         located=located(places(document), key["regions"]),
         fresh=fresh,
+        first_place=located(
+            places({"mismatch": document["mismatch"][:1], "findings": []}),
+            [*key["regions"], *key["effect_regions"]],
+        ),
     )
 
 

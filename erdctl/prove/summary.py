@@ -34,6 +34,7 @@ class Tally:
     all_found : every hidden effect has its finding
     spurious : findings per case that match nothing hidden
     right : verdict as it should be for what is hidden
+    first_place : the place listed first is a true one, of the misfit or of the effect's own force
     removed : attainable reduction: the error removed, over what the true structure removes; median
     """
 
@@ -47,6 +48,7 @@ class Tally:
     unexplained: Rate
     right: Rate
     located: Rate
+    first_place: Rate
     spurious: float | None
     removed: float | None
     removed_of: int
@@ -140,6 +142,7 @@ def group(label: str, results: Sequence[Result]) -> Tally:
     named = [r.named for r in results if r.named is not None]
     hiding = [r for r in results if r.named is not None]
     places = [r.located for r in results if r.located is not None]
+    first = [r.first_place for r in results if r.first_place is not None]
     parts = [r.fresh.removed for r in hiding if r.level >= STRONG and r.fresh.removed is not None]
 
     def verdicts(verdict: str) -> Rate:
@@ -156,6 +159,7 @@ def group(label: str, results: Sequence[Result]) -> Tally:
         unexplained=verdicts("unexplained"),
         right=Rate(sum(r.verdict == due(r) for r in results), len(results)),
         located=Rate(places.count(True), len(places)),
+        first_place=Rate(first.count(True), len(first)),
         spurious=mean(r.spurious for r in results) if results else None,
         removed=median(parts) if parts else None,
         removed_of=len(parts),

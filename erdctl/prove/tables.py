@@ -36,10 +36,10 @@ def tables(s: Summary) -> Iterator[Table]:
 
 def _every(s: Summary) -> Iterator[Table]:
     single = ["misfit over noise", "cases", "named first", "wrong name", "explained", "located",
-              "spurious per case", "attainable reduction"]  # fmt: skip
+              "first place", "spurious per case", "attainable reduction"]  # fmt: skip
     yield "Single effects, by the misfit of the paper's model over the noise", single, [
         [g.label, str(g.cases), _rate(g.named), _rate(g.wrong), _rate(g.explained),
-         _rate(g.located), _digits(g.spurious, 2), _removed(g)]
+         _rate(g.located), _rate(g.first_place), _digits(g.spurious, 2), _removed(g)]
         for g in s.bands
     ]  # fmt: skip
     yield (
@@ -48,9 +48,9 @@ def _every(s: Summary) -> Iterator[Table]:
         _by_effect(s),
     )
     yield "Pairs of effects", ["", "cases", "both found", "named first", "explained", "located",
-                    "spurious per case", "attainable reduction"], [
+                    "first place", "spurious per case", "attainable reduction"], [
         [g.label, str(g.cases), _rate(g.all_found), _rate(g.named), _rate(g.explained),
-         _rate(g.located), _digits(g.spurious, 2), _removed(g)]
+         _rate(g.located), _rate(g.first_place), _digits(g.spurious, 2), _removed(g)]
         for g in (s.pairs,) if g.cases
     ]  # fmt: skip
     yield (
@@ -59,13 +59,14 @@ def _every(s: Summary) -> Iterator[Table]:
         [[g.label, str(g.cases), _rate(g.adequate)] for g in s.nulls if g.cases],
     )
     yield "Outside the catalogue", [
-        "", "cases", "unexplained", "explained by a wrong name", "adequate", "located"
+        "", "cases", "unexplained", "explained by a wrong name", "adequate", "located",
+        "first place",
     ], [
         [g.label, str(g.cases), _rate(g.unexplained), _rate(g.explained), _rate(g.adequate),
-         _rate(g.located)]
+         _rate(g.located), _rate(g.first_place)]
         for g in (s.unknowns,) if g.cases
     ]  # fmt: skip
-    split = ["", "cases", "named first", "all found", "right verdict", "located",
+    split = ["", "cases", "named first", "all found", "right verdict", "located", "first place",
              "spurious per case"]  # fmt: skip
     for title, groups in (
         ("By kind and motion (measured: xdot from a noisy, quantised x)", s.motions),
@@ -74,7 +75,7 @@ def _every(s: Summary) -> Iterator[Table]:
     ):
         yield title, split, [
             [g.label, str(g.cases), _rate(g.named), _rate(g.all_found), _rate(g.right),
-             _rate(g.located), _digits(g.spurious, 2)]
+             _rate(g.located), _rate(g.first_place), _digits(g.spurious, 2)]
             for g in groups if g.cases
         ]  # fmt: skip
     yield (

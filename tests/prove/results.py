@@ -29,6 +29,7 @@ def key(*effects: tuple[str, float], kind: str = "single", **more: Any) -> dict[
             for name, level in effects
         ],
         "regions": [],
+        "effect_regions": [],
         "force_noise": {"colour": "white"},
         "motion_noise": {"kind": "exact"},
         "flags": [],

@@ -110,7 +110,26 @@ def test_a_single() -> None:
     r = scored(sealed(), said, key(("drift", 1.5), regions=[REGION]), ERRORS)
     assert (r.named, r.matched, r.spurious, r.located) == (True, 1, 0, True)
     assert (r.verdict, r.motion, r.colour) == ("explained", "exact", "white")
+    assert r.first_place is True
     assert places(said) == [Interval("xdot", 0.0, 0.01)]
+
+
+def test_the_first_place_is_one_of_the_misfit_or_of_the_effect() -> None:
+    speed = {"variable": "xdot", "low": -0.01, "high": 0.01}
+    stroke = {"variable": "x", "low": 0.02, "high": 0.03}
+    acts = {"effect_regions": [REGION | stroke]}
+    for listed, more, right in (
+        ([speed, stroke], {}, True),
+        ([stroke, speed], {}, False),
+        ([stroke, speed], acts, True),
+        ([], {}, False),
+    ):
+        truth = key(("rub", 3.0), regions=[REGION], **more)
+        r = scored(sealed(), document("explained", ("rub",), places=listed), truth, ERRORS)
+        assert r.first_place is right
+        assert r.located is bool(listed)  # by any of them, and by the misfit alone
+    nowhere = scored(sealed(), document("explained", ("rub",)), key(("rub", 3.0)), ERRORS)
+    assert nowhere.first_place is None
 
 
 def test_nothing_and_strangers_have_no_name() -> None:

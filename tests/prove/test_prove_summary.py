@@ -16,8 +16,9 @@ from erdctl.prove.tables import line, tables
 
 WRONG = {"findings": (Found("drift"),), "named": False, "matched": 0, "spurious": 1}
 RESULTS: tuple[Result, ...] = (
-    result(1),
-    result(2, **WRONG, located=False, fresh=Errors(5.0, 4.0, 1.0, 100.0)),  # a quarter removed
+    result(1, first_place=True),
+    result(2, **WRONG, located=False, first_place=False,
+           fresh=Errors(5.0, 4.0, 1.0, 100.0)),  # a quarter removed
     result(3, verdict="unexplained", motion="measured", fresh=Errors(5.0, 1.0, 1.0, 100.0)),
     result(4, hidden=(HiddenEffect("rub", 0.5),), level=0.5, verdict="adequate", findings=(),
            named=False, matched=0, located=None),
@@ -39,6 +40,7 @@ def test_bands() -> None:
     assert strong.wrong == Rate(1, 3)
     assert strong.explained == Rate(2, 3)
     assert strong.located == Rate(2, 3)
+    assert strong.first_place == Rate(1, 2)
     assert strong.spurious == 1 / 3
     assert (strong.removed, strong.removed_of) == (0.9, 3)  # of 0.25, 0.9 and 1
     assert (weak.label, weak.named, weak.wrong) == ("0.2 to 1", Rate(0, 1), Rate(0, 1))

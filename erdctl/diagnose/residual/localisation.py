@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
@@ -25,6 +26,8 @@ UNITS = {
     Variable.ENERGY: (1.0, "J"),
     Variable.RECORD: (1.0, ""),
 }
+
+TWO_SIDED = (Variable.X, Variable.XDOT)  # what has both ends or both directions
 
 
 @dataclass(frozen=True)
@@ -63,7 +66,11 @@ def variables(signals: Signals, force: Array) -> dict[Variable, Array]:
 
 
 def locate(problem: Problem, square: Array) -> list[Region]:
-    """Regions in which a squared misfit (n,) [N^2] gathers, the sharpest first; none if nowhere."""
+    """Regions in which a squared misfit (n,) [N^2] gathers, the sharpest first; none if nowhere.
+
+    Both ends of the stroke, or both directions, are two regions of one variable, one after the
+    other, the one with more of the misfit first.
+    """
     weight = problem.block.weight
     energy = weight * square
     total = float(energy.sum())
@@ -71,10 +78,26 @@ def locate(problem: Problem, square: Array) -> list[Region]:
         return []
     found = []
     for variable, values in variables(problem.block.signals, problem.block.force).items():
-        region = _interval(variable, values, energy / total, weight / weight.sum())
-        if region is not None and region.time < thresholds.REGION_WIDEST:
-            found.append(region)
-    return sorted(found, key=lambda r: r.time - r.share)
+        regions = _intervals(variable, values, energy / total, weight / weight.sum())
+        if regions:
+            found.append(regions)
+    found.sort(key=excess, reverse=True)
+    return [r for regions in found for r in regions]
+
+
+def excess(regions: Sequence[Region]) -> float:
+    """By how much the misfit in some regions exceeds their part of the time."""
+    return sum(r.share - r.time for r in regions)
+
+
+def points(regions: Sequence[Region], values: Array) -> bool:
+    """Whether regions of a variable (n,) are narrow enough to point at something."""
+    least, most = np.quantile(values, thresholds.REGION_RANGE)
+    widest = thresholds.REGION_WIDEST * float(most - least)
+    return all(
+        r.time < thresholds.REGION_WIDEST and min(r.high, most) - max(r.low, least) <= widest
+        for r in regions
+    )
 
 
 def since_onset(
@@ -86,19 +109,16 @@ def since_onset(
         region's part of the time: a model that was fitted to before and after alike misses the
         shorter of the two by more.
     """
-    s, weight = problem.block.signals, problem.block.weight
-    end, energy = float(s.t.max()), weight * square
+    s = problem.block.signals
+    end = float(s.t.max())
     found = []
     for effect in effects:
         t_0 = values[effect.key(START)] if effect.sets_in else end
         if t_0 < end:
             inside = s.t >= t_0
-            share = float(energy[inside].sum() / max(energy.sum(), 1e-300))
-            time = float(weight[inside].sum() / max(weight.sum(), 1e-300))
+            share, time = shares(problem, inside, square)
             low = max(t_0, float(s.t.min()))
-            text = (
-                f"{100 * share:.0f} % of the misfit lies from {low:.4g} s to the end of the records"
-            )
+            text = said(share, time, f"from {low:.4g} s to the end of the records")
             found.append(Region(Variable.TIME, low, end, share, time, text))
     return found
 
@@ -119,16 +139,19 @@ def record_region(problem: Problem, square: Array) -> Region | None:
     share, spent = float(energy[at]), float(time[at])
     if share < thresholds.REGION_SHARE or share - spent < thresholds.REGION_EXCESS:
         return None
-    text = f"{100 * share:.0f} % of the misfit lies in record '{names[at]}'"
+    text = said(share, spent, f"in record '{names[at]}'")
     return Region(Variable.RECORD, at + 1.0, at + 1.0, share, spent, text)
 
 
-def _interval(variable: Variable, values: Array, energy: Array, time: Array) -> Region | None:
-    """The interval whose share of the energy exceeds its share of the time by most."""
+def _intervals(variable: Variable, values: Array, energy: Array, time: Array) -> list[Region]:
+    """The interval whose share of the energy exceeds its share of the time by most.
+
+    Or one on either side of rest or of the middle of the stroke, if two are ahead by enough.
+    """
     finite = np.isfinite(values) & (time > 0)
     v, e, w = values[finite], energy[finite], time[finite]
     if v.size == 0 or v.min() == v.max():
-        return None
+        return []
     order = np.argsort(v, kind="stable")
     v, e, w = v[order], e[order], w[order]
     passed = np.cumsum(w)
@@ -141,24 +164,63 @@ def _interval(variable: Variable, values: Array, energy: Array, time: Array) -> 
     E = np.concatenate([[0.0], np.cumsum(e)])[at]
     W = np.concatenate([[0.0], passed])[at]
     ahead = E - W
+    runs = [_most(ahead)]
+    if variable in TWO_SIDED:
+        middle = 0.0 if variable is Variable.XDOT else 0.5 * float(v[0] + v[-1])
+        two = _either_side(ahead, int(np.searchsorted(edges, middle)))
+        one, both = (sum(ahead[j] - ahead[i] for i, j in found) for found in (runs, two))
+        if both - one >= thresholds.REGION_SECOND:
+            runs = two
+    found = []
+    for i, j in runs:
+        share, spent = float(E[j] - E[i]), float(W[j] - W[i])
+        # Half way to what lies outside: levels of a duty have no width of their own.
+        a, b = int(at[i]), int(at[j])
+        low = float(v[0] if a == 0 else 0.5 * (v[a - 1] + v[a]))
+        high = float(v[-1] if b == len(v) else 0.5 * (v[b - 1] + v[b]))
+        text = said(share, spent, describe(variable, low, high))
+        found.append(Region(variable, low, high, share, spent, text))
+    share = sum(r.share for r in found)
+    gathers = share >= thresholds.REGION_SHARE and excess(found) >= thresholds.REGION_EXCESS
+    if not gathers or not points(found, v):
+        return []
+    return sorted(found, key=lambda r: r.time - r.share)
+
+
+def _most(ahead: Array) -> tuple[int, int]:
+    """Ends i < j of the run that gains most, ahead[j] - ahead[i]."""
     lowest = np.minimum.accumulate(ahead)
     j = 1 + int(np.argmax(ahead[1:] - lowest[:-1]))
-    i = int(np.argmin(ahead[:j]))
-    share, spent = float(E[j] - E[i]), float(W[j] - W[i])
-    # Half way to what lies outside: levels of a duty have no width of their own.
-    a, b = int(at[i]), int(at[j])
-    low = float(v[0] if a == 0 else 0.5 * (v[a - 1] + v[a]))
-    high = float(v[-1] if b == len(v) else 0.5 * (v[b - 1] + v[b]))
-    if share < thresholds.REGION_SHARE or share - spent < thresholds.REGION_EXCESS:
-        return None
-    return Region(variable, low, high, share, spent, describe(variable, low, high, share))
+    return int(np.argmin(ahead[:j])), j
 
 
-def describe(variable: Variable, low: float, high: float, share: float) -> str:
-    """A region in an engineer's words."""
+def _either_side(ahead: Array, middle: int) -> list[tuple[int, int]]:
+    """The run that gains most on either side of a place; none on a side that is not there."""
+    lower, upper = ahead[: middle + 1], ahead[middle:]
+    out = [_most(lower)] if len(lower) > 1 else []
+    if len(upper) > 1:
+        i, j = _most(upper)
+        out.append((middle + i, middle + j))
+    return out
+
+
+def shares(problem: Problem, inside: NDArray[np.bool_], square: Array) -> tuple[float, float]:
+    """Share of a squared misfit, and of the time, at some samples (n,)."""
+    weight = problem.block.weight
+    parts = (w[inside].sum() / max(w.sum(), 1e-300) for w in (weight * square, weight))
+    share, time = map(float, parts)
+    return share, time
+
+
+def said(share: float, time: float, where: str) -> str:
+    """A place in words, with its part of the misfit and of the time."""
+    return f"{100 * share:.0f} % of the misfit lies {where}, in {100 * time:.0f} % of the time"
+
+
+def describe(variable: Variable, low: float, high: float) -> str:
+    """An interval in an engineer's words."""
     scale, unit = UNITS[variable]
     a, b = low * scale, high * scale
-    percent = f"{100 * share:.0f} % of the misfit"
     match variable:
         case Variable.SINCE_REVERSAL:
             where = f"within {b:.3g} {unit} of a reversal"
@@ -166,10 +228,10 @@ def describe(variable: Variable, low: float, high: float, share: float) -> str:
         case Variable.SINCE_DUTY_STEP:
             where = f"within {b:.3g} {unit} of a duty step"
             where = where if low <= 0.2 * high else f"{a:.3g} to {b:.3g} {unit} after a duty step"
-        case Variable.XDOT if low < 0 < high:
+        case Variable.XDOT if min(-low, high) > 0.2 * max(-low, high):
             where = f"at speeds from {a:.3g} to {b:.3g} {unit}, around reversal"
         case Variable.XDOT:
-            side = "compression" if high > 0 else "release"
+            side = "compression" if high > -low else "release"
             where = f"in {side}, at {a:.3g} to {b:.3g} {unit}"
         case Variable.DUTY:
             where = f"at {a:.3g} to {b:.3g} {unit} duty"
@@ -179,4 +241,4 @@ def describe(variable: Variable, low: float, high: float, share: float) -> str:
             where = f"from {a:.3g} to {b:.3g} {unit} in the records"
         case _:
             where = f"after {a:.3g} to {b:.3g} {unit} of dissipated energy"
-    return f"{percent} lies {where}"
+    return where

@@ -48,6 +48,13 @@ class LackOfFit:
     hum: SpectralLine | None = None
     measures: Mapping[str, float] = field(default_factory=dict)
 
+    def square(self, found: Array) -> Array:
+        """(n,) expected square of the misfit [N^2] of which a model has found a part (n,) [N].
+
+        What is predicted has a sign, and adds to what was found; variance beyond noise has none.
+        """
+        return (found + self.predicted) ** 2 + np.maximum(self.excess - self.predicted**2, 0.0)
+
 
 def lack_of_fit_test(problem: Problem, residual: Array, seed: int = 0) -> LackOfFit:
     """The misfit in a residual (n,) [N]."""
@@ -81,12 +88,11 @@ def lack_of_fit_test(problem: Problem, residual: Array, seed: int = 0) -> LackOf
     line, hum = spectral_lines(problem, rest)
     left = float(np.dot(weight, rest**2)) / total
     excess = predicted**2 + np.maximum(expected - noise, 0.0)
-    if line is not None:
-        excess += line.share * left
-        left *= 1.0 - line.share
+    part = 0.0 if line is None else line.share
     impulses = impulse_share(problem, rest)
-    excess += impulses * left
-    left *= 1.0 - impulses
+    swings = 1.0 - (1.0 - part) * (1.0 - impulses)
+    excess += swings * rest**2  # it is where the rest is large
+    left *= 1.0 - swings
     noise = min(noise, left)
     misfit = max(square - noise, 0.0)
     return LackOfFit(

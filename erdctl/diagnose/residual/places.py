@@ -1,0 +1,103 @@
+"""Where to look for a misfit: which of the regions in which it gathers is told first."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import chain
+
+from erdctl.core.recording import Array
+from erdctl.diagnose import thresholds
+from erdctl.diagnose.problem import Problem
+from erdctl.diagnose.residual.localisation import (
+    Region,
+    describe,
+    excess,
+    locate,
+    points,
+    said,
+    shares,
+    since_onset,
+    variables,
+)
+from erdctl.model.effect import Effect
+from erdctl.model.slots import Values
+
+
+def acting(
+    problem: Problem, effect: Effect, values: Values, squares: Sequence[Array]
+) -> list[Region]:
+    """Where an effect acts: in the variable of its physics if it gathers there, else the sharpest.
+
+    One region, or two of one variable.
+    squares : (n,) each, squared forces of the effect [N^2], as it is first and then as far as the
+        other parameters do not absorb it: what acts everywhere alike is seen by that alone
+    """
+    onset = since_onset(problem, [effect], values, squares[0])
+    if onset:
+        return onset
+    gathered = [locate(problem, square) for square in squares]
+    own = [[r for r in regions if r.variable is effect.shows] for regions in gathered]
+    sharpest = [[r for r in regions if r.variable is regions[0].variable] for regions in gathered]
+    return next((regions for regions in own + sharpest if regions), [])
+
+
+def places(
+    problem: Problem,
+    square: Array,
+    effects: Sequence[tuple[Effect, Sequence[Region]]] = (),
+    *,
+    sure: bool = True,
+) -> list[Region]:
+    """Where to look for a misfit, the place most worth it first.
+
+    That is where the effect that explains most of it shows by what physics says: from its onset on,
+    or where misfit gathers in its variable, or where it acts if there is no less misfit there than
+    elsewhere; unless the misfit gathers far more sharply elsewhere. Next where it gathers most
+    sharply, then the same of the other effects.
+    square : (n,) squared misfit [N^2];  effects : each with where it acts, the first one first
+    sure : whether they explain it; if not, they come second
+    """
+    gathered = locate(problem, square)
+    own = [_own(problem, square, gathered, effect, acts) for effect, acts in effects]
+    sharpest = [r for r in gathered if r.variable is gathered[0].variable]
+    least = thresholds.REGION_OWN * excess(sharpest)
+    if not own or not sure or not (effects[0][0].sets_in or excess(own[0]) >= least):
+        own.insert(0, sharpest)
+    listed: list[Region] = []
+    for region in chain(*own[:1], sharpest, *own[1:], gathered):
+        if not any(_same(region, other) for other in listed):
+            listed.append(region)
+    return listed[: thresholds.REGIONS]
+
+
+def _own(
+    problem: Problem,
+    square: Array,
+    gathered: Sequence[Region],
+    effect: Effect,
+    acts: Sequence[Region],
+) -> list[Region]:
+    """Where a misfit of an effect is to be seen by the effect's physics; [] if nowhere."""
+    own = [r for r in gathered if r.variable is effect.shows]
+    within = [_measured(problem, r, square) for r in acts if r.variable is effect.shows]
+    if effect.sets_in:
+        # A fit to before and after misses the shorter of the two by more, whichever it is.
+        t = problem.block.signals.t
+        return [r for r in within if points([r], t)] or own
+    return own or [r for r in within if r.share >= r.time]
+
+
+def _same(a: Region, b: Region) -> bool:
+    """Whether two regions are one place to a reader: of one variable, and mostly one interval."""
+    inter = min(a.high, b.high) - max(a.low, b.low)
+    union = max(a.high, b.high) - min(a.low, b.low)
+    return a.variable is b.variable and inter > thresholds.REGION_SAME * union
+
+
+def _measured(problem: Problem, region: Region, square: Array) -> Region:
+    """The same region with its share of another misfit (n,) [N^2]."""
+    value = variables(problem.block.signals, problem.block.force)[region.variable]
+    inside = (value >= region.low) & (value <= region.high)
+    share, time = shares(problem, inside, square)
+    text = said(share, time, describe(region.variable, region.low, region.high))
+    return Region(region.variable, region.low, region.high, share, time, text)

@@ -1,0 +1,180 @@
+"""Where a misfit is looked for, on squared misfits that were put there."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+from rig import campaign
+
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.diagnose import thresholds
+from erdctl.diagnose.problem import Problem, prepare
+from erdctl.diagnose.residual.localisation import Region, describe, locate
+from erdctl.diagnose.residual.places import acting, places
+from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
+from erdctl.effects import get
+from erdctl.model.effect import Variable
+
+
+@cache
+def problem() -> Problem:
+    return prepare(campaign())
+
+
+def signals() -> Signals:
+    return problem().block.signals
+
+
+def of(variable: Variable, found: list[Region]) -> list[Region]:
+    return [r for r in found if r.variable is variable]
+
+
+def test_both_ends_of_the_stroke_are_two_places() -> None:
+    x = signals().x
+    end = 0.7 * np.abs(x).max()
+    high, low = sorted(
+        of(Variable.X, locate(problem(), 1.0 * (np.abs(x) > end))), key=lambda r: -r.low
+    )
+    assert (high.low, high.high) == pytest.approx((end, x.max()), rel=0.05)
+    assert (low.low, low.high) == pytest.approx((x.min(), -end), rel=0.05)
+    assert high.share + low.share == pytest.approx(1.0, abs=0.02)
+    [only] = of(Variable.X, locate(problem(), 1.0 * (x > end)))
+    assert (only.low, only.high) == pytest.approx((end, x.max()), rel=0.05)
+
+
+def test_both_directions_at_high_speed_are_two_places() -> None:
+    v = signals().xdot
+    fast = 0.6 * np.abs(v).max()
+    found = of(Variable.XDOT, locate(problem(), np.maximum(np.abs(v) - fast, 0.0) ** 2))
+    assert len(found) == 2
+    assert min(r.low for r in found) == pytest.approx(v.min())
+    assert max(r.high for r in found) == pytest.approx(v.max())
+    assert all(min(abs(r.low), abs(r.high)) > 0.95 * fast for r in found)
+    [middle] = of(Variable.XDOT, locate(problem(), 1.0 * (np.abs(v) < 0.2 * fast)))
+    assert middle.low < 0.0 < middle.high
+
+
+def test_two_places_need_not_each_hold_half() -> None:
+    """Each end holds less than the share that one place must have alone."""
+    x = signals().x
+    end = 0.7 * np.abs(x).max()
+    square = np.where(np.abs(x) > end, 1.0, 0.0)
+    square[np.abs(x) <= end] = 0.5 * square.sum() / (np.abs(x) <= end).sum()
+    found = of(Variable.X, locate(problem(), square))
+    assert len(found) == 2
+    assert all(r.share < thresholds.REGION_SHARE for r in found)
+
+
+def spread(reversals: float = 0.8) -> Array:
+    """A misfit that gathers most after reversals, and less so at one end of the stroke."""
+    s = signals()
+    return reversals * (s.since_reversal < 0.05) + 1.0 * (s.x > 0.5 * s.x.max()) + 0.01
+
+
+def test_the_physics_of_what_explains_it_goes_first() -> None:
+    gathered = locate(problem(), spread())
+    assert gathered[0].variable is not Variable.X
+    end_stop = get("end_stop")
+    acts = acting(problem(), end_stop, {}, [1.0 * (signals().x > 0.01)])
+    assert [r.variable for r in acts] == [Variable.X]
+    listed = places(problem(), spread(), [(end_stop, acts)])
+    assert listed[0].variable is Variable.X
+    assert listed[1] == gathered[0]
+    assert len(listed) <= thresholds.REGIONS
+    # One that does not explain it all says less than the misfit itself.
+    unsure = places(problem(), spread(), [(end_stop, acts)], sure=False)
+    assert unsure[:2] == [listed[1], listed[0]]
+    assert places(problem(), spread()) == gathered[: thresholds.REGIONS]
+    # Nor where the misfit is far sharper elsewhere.
+    sharp = places(problem(), spread(8.0), [(end_stop, acts)])
+    assert [r.variable for r in sharp[:2]] == [Variable.SINCE_REVERSAL, Variable.X]
+
+
+def test_a_place_that_is_most_of_the_range_is_none() -> None:
+    t, leak = signals().t, get("oil_leakage")
+    square = np.where(t < 3.0, 1.0, 0.1)
+    acts = acting(problem(), leak, {leak.key("t_0"): 3.0}, [1.0 * (t >= 3.0)])
+    assert (acts[0].low, acts[0].high) == (3.0, t.max())  # there it acts, and this is said of it
+    first = places(problem(), square, [(leak, acts)])[0]
+    assert first.variable is Variable.TIME
+    assert first.high == pytest.approx(3.0, abs=0.1)
+    # Little of the time, yet most of what times since a reversal there are.
+    since = signals().since_reversal
+    late = 0.3 * since[np.isfinite(since)].max()
+    assert np.mean(since[np.isfinite(since)] > late) < 0.5
+    assert of(Variable.SINCE_REVERSAL, locate(problem(), 1.0 * (since > late))) == []
+
+
+def test_where_nothing_gathers_in_its_variable_an_effect_is_where_it_acts() -> None:
+    """The first place has its share of the misfit, not of the effect's own force."""
+    x = signals().x
+    # No interval of x holds half of it, but the end has more than its part of the time.
+    square = np.where(x > 0.5 * x.max(), 1.5, 1.0)
+    assert of(Variable.X, locate(problem(), square)) == []
+    end_stop = get("end_stop")
+    acts = acting(problem(), end_stop, {}, [1.0 * (x > 0.7 * x.max())])
+    [acted] = acts
+    assert acted.share == pytest.approx(1.0)
+    [listed] = places(problem(), square, [(end_stop, acts)])
+    assert (listed.low, listed.high) == (acted.low, acted.high)
+    assert listed.time < listed.share < 0.5
+    assert f"{100 * listed.share:.0f} % of the misfit" in listed.text
+    # Not where the misfit is less than elsewhere.
+    assert places(problem(), np.where(x > 0.7 * x.max(), 0.5, 1.0), [(end_stop, acts)]) == []
+
+
+def test_what_sets_in_at_a_time_acts_from_then_on() -> None:
+    t = signals().t
+    leak = get("oil_leakage")
+    values = {leak.key("t_0"): 9.0}
+    square = np.where(t < 9.0, 0.2, 0.5)
+    acts = acting(problem(), leak, values, [square])
+    assert len(acts) == 1
+    first = places(problem(), square, [(leak, acts)])[0]
+    assert (first.variable, first.low, first.high) == (Variable.TIME, 9.0, t.max())
+
+
+def test_no_place_is_listed_twice() -> None:
+    square = spread()
+    preload, rub = get("gas_preload"), get("backlash")
+    acts = [(e, acting(problem(), e, {}, [square])) for e in (preload, rub)]
+    listed = places(problem(), square, acts)
+    assert len({(r.variable, r.low, r.high) for r in listed}) == len(listed)
+    assert len(listed) <= thresholds.REGIONS
+
+
+def test_an_even_misfit_has_no_place() -> None:
+    assert locate(problem(), np.ones(len(signals()))) == []
+    assert places(problem(), np.zeros(len(signals()))) == []
+
+
+def test_a_side_is_said_where_an_interval_hardly_crosses_rest() -> None:
+    assert describe(Variable.XDOT, -0.028, 0.0002).startswith("in release, at -28")
+    assert describe(Variable.XDOT, -0.0002, 0.028).startswith("in compression")
+    assert describe(Variable.XDOT, 0.01, 0.028).startswith("in compression, at 10 to 28 mm/s")
+    assert describe(Variable.XDOT, -0.01, 0.02).endswith("around reversal")
+
+
+def test_what_was_found_and_what_is_predicted_add_up() -> None:
+    """They have signs: where they cancel there was no misfit; variance has none."""
+    predicted, found = np.array([1.0, 2.0, 0.0]), np.array([-1.0, 1.0, 3.0])
+    left = LackOfFit(
+        predicted=predicted, excess=predicted**2 + np.array([0.0, 0.5, 0.0]), noise_rms=1.0,
+        misfit_rms=1.0, significant=True, hint=True, spectral_line=None, impulses=0.0,
+    )  # fmt: skip
+    assert left.square(found).tolist() == [0.0, 9.5, 9.0]
+
+
+def test_a_ripple_is_where_it_swings() -> None:
+    """No regression predicts it, so that its place is where the rest is large."""
+    s = signals()
+    ripple = s.sign * np.sin(2 * np.pi * 23.0 * s.t) * (s.duty > 0.25)
+    noise = 0.2 * np.random.default_rng(3).standard_normal(len(s))
+    left = lack_of_fit_test(problem(), ripple + noise)
+    assert left.spectral_line is not None
+    [place] = of(Variable.DUTY, places(problem(), left.square(np.zeros(len(s)))))
+    assert place.low == pytest.approx(0.25, abs=0.051)
+    assert place.high == s.duty.max()
