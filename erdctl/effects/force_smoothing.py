@@ -3,14 +3,14 @@
     F_rec(t) = 1/W integral of F from t - W/2 to t + W/2,   W = w T,   T = 2 pi rms(x) / rms(xdot)
 
 F, F_rec : (n,) force of the damper, and as recorded [N];  T : cycle of a record's motion [s], its
-period if that is a sine, from x less its mean;  w : window over cycle [1], 0..0.5, off at 0
+period if that is a sine, from x less its mean, both over time;  w : window over cycle [1], 0..0.5, off at 0
 Straight lines between samples, and a jump where the motion turns; towards the ends of a record the
 window shrinks. Every jump at a reversal becomes a ramp that takes the same part of each cycle,
 whatever the stroke, the speed and the force: no law of the damper does that.
 Valid for records that were smoothed one by one, slow tests over longer times than fast ones, before
 they were stored; a window of the same time throughout looks alike where all have one cycle.
 Check: xdot > 0 throughout, samples 1 s apart, F = 0, 4, 8, 0, 0 N, W = 2 s gives 0, 4, 5, 2, 0 N.
->>> x = np.array([1.0, -1.0, 1.0, -1.0, 0.0]) * 1.25**0.5  # rms 1, as that of xdot: T = 2 pi s
+>>> x = np.array([0.0, 1.0, 0.0, -1.0, 0.0]) * 2.0**0.5  # rms 1, as that of xdot: T = 2 pi s
 >>> s = signals(np.ones(5), x=x, step=1.0)
 >>> force_smoothing(np.array([0.0, 4.0, 8.0, 0.0, 0.0]), s, {"w": 1 / np.pi}).round(9).tolist()
 [0.0, 4.0, 5.0, 2.0, 0.0]
