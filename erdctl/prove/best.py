@@ -38,8 +38,11 @@ def best_fit(
     """
     model = Model(tuple(effects))
     rough = prepare(thinned(problem.recording, SEARCH))
-    guesses = [_guesses(rough, e, damper, diagnosed, few=len(effects) > 1) for e in effects]
-    points = [_joined([damper, *point]) for point in product(*guesses)]
+    if len(effects) > 2:
+        points = _one_by_one(rough, effects, damper, diagnosed)
+    else:
+        guesses = [_guesses(rough, e, damper, diagnosed, few=len(effects) > 1) for e in effects]
+        points = [_joined([damper, *point]) for point in product(*guesses)]
     if all(name in diagnosed for name in model.quantities):
         points.append(dict(diagnosed))
     coarse = _ranked(rough, model, points, LOOK)[:KEPT]
@@ -78,6 +81,20 @@ def _guesses(
     if own <= set(diagnosed):
         out.append({n: diagnosed[n] for n in own})
     return out
+
+
+def _one_by_one(
+    problem: Problem, effects: Sequence[Effect], damper: Values, diagnosed: Values
+) -> list[dict[str, float]]:
+    """Starts for a crowd: each effect is added to the best fits of those before it, as all their
+    starts together are too many."""
+    points = [dict(damper)]
+    for count, effect in enumerate(effects, start=1):
+        more = _guesses(problem, effect, damper, diagnosed, few=False)
+        model = Model(tuple(effects[:count]))
+        tried = [_joined([p, g]) for p in points for g in more]
+        points = [r.values for r in _ranked(problem, model, tried, LOOK)[:KEPT]]
+    return points
 
 
 def _ranked(
