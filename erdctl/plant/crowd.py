@@ -19,16 +19,18 @@ Random = np.random.Generator
 STRONG = (4.0, 10.0)  # misfit over noise of the strong one alone
 FAINT = (0.3, 1.5)  # and of each other
 FEWEST, MOST = 2, 4  # faint ones
-SAMPLES = (10_000, 30_000)
-RECORDS = (8, 14)
+SAMPLES = (8_000, 20_000)
+RECORDS = 8, 13
 GAIN = 0.01  # scatter of the force's gain from record to record
 ZERO = 0.004  # and of its zero, over the range of the force: 0.3 N of a model car's 75 N
 
 
 def crowd_campaign(random: Random) -> Campaign:
-    """8 to 14 records of 10,000 to 30,000 samples in all."""
+    """8 to 13 records of 8,000 to 20,000 samples in all."""
     samples = round(float(np.exp(random.uniform(*np.log(SAMPLES)))))
-    return draw_short(random, samples=samples, count=int(random.integers(RECORDS[0], RECORDS[1])))
+    return draw_short(
+        random, samples=samples, count=int(random.integers(RECORDS[0], RECORDS[1] + 1))
+    )
 
 
 def crowd(random: Random, pool: Sequence[Twin]) -> tuple[Twin, ...]:
