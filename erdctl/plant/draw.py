@@ -67,10 +67,10 @@ def draw(
         motion=motion, colour=colour, scatter=scatter,
     )  # fmt: skip
     case, faults = _drawn(plan, concealment)
-    for twin in plan.instead:
+    for hidden in plan.instead:
         if faults == 0.0:
             break
-        other, worse = _drawn(replace(plan, effects=(twin,)), concealment)
+        other, worse = _drawn(replace(plan, effects=hidden), concealment)
         case, faults = min([(case, faults), (other, worse)], key=lambda c: c[1])
     return case
 
@@ -78,8 +78,7 @@ def draw(
 def _drawn(plan: CasePlan, concealment: str | None) -> tuple[Case, float]:
     """The case of a plan that is least at fault, and by how much."""
     seed, over = plan.seed, rides(plan.campaign)
-    # Few samples are quickly made, and another effect shows better than another damper does.
-    tries = 1 if plan.instead else TRIES
+    tries = PATIENCE if plan.instead else TRIES
     variation, best = Variation(), None
     for attempt in range(tries):
         built = build(plan, over, stream(seed, "damper", attempt), variation)

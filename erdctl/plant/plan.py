@@ -54,7 +54,7 @@ class CasePlan:
     """effects : to hide;  levels : wanted for each;  known : which of them can be named.
 
     zeros : of the force in each record, over the range of the force; () where none has any
-    instead : what to hide, one after another, where the campaign cannot show the effect
+    instead : what else to hide, in turn, where the campaign cannot show the first as strong as that
     """
 
     seed: int
@@ -67,7 +67,7 @@ class CasePlan:
     motion_noise: MotionNoise
     gains: tuple[float, ...]
     zeros: tuple[float, ...] = ()
-    instead: tuple[Twin, ...] = ()
+    instead: tuple[tuple[Twin, ...], ...] = ()
 
 
 def stream(seed: int, name: str, *more: int) -> Random:
@@ -190,6 +190,7 @@ def _crowded(
         seed, "crowded", hidden, (True,) * len(hidden), levels, campaign,
         draw_force_noise(stream(seed, "force noise"), colour),
         draw_motion_noise(stream(seed, "motion noise"), campaign, motion), gains, zeros,
+        tuple((*hidden[k:], *hidden[:k]) for k in range(1, len(hidden))),
     )  # fmt: skip
 
 
@@ -206,7 +207,7 @@ def _sparse(
         seed, "sparse", hidden, (True,) * len(hidden), (wanted,) * len(hidden), campaign,
         draw_force_noise(stream(seed, "force noise"), colour),
         draw_motion_noise(stream(seed, "motion noise"), campaign, motion),
-        (1.0,) * len(campaign.records), instead=order[1:],
+        (1.0,) * len(campaign.records), instead=tuple((twin,) for twin in order[1:]),
     )  # fmt: skip
 
 

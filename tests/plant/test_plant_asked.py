@@ -131,13 +131,13 @@ def test_sparse_cases() -> None:
 
 
 def test_what_a_sparse_campaign_cannot_show_is_not_what_it_hides() -> None:
-    """At one duty throughout the supply has no step to be slow at, so the friction is hidden."""
-    pool = ["supply_slew", "coulomb_friction"]
+    """At one duty throughout a saturation is another yield force, so the loss is hidden."""
+    pool = ["field_saturation", "quadratic_damping"]
     one_duty = (
         s for s in range(200)
         if len((p := draw_plan(s, kind="sparse", effects=pool)).campaign.levels) == 1
-        and p.effects[0] is effect("supply_slew")
+        and p.effects[0] is effect("field_saturation")
     )  # fmt: skip
     case = draw(next(one_duty), kind="sparse", effects=pool)
-    assert [t.name for t in case.truth] == ["coulomb_friction"]
+    assert [t.name for t in case.truth] == ["quadratic_damping"]
     assert case.level >= 0.9
