@@ -68,7 +68,7 @@ def test_a_crowd_needs_three_that_go_together() -> None:
 
 def test_a_crowded_case() -> None:
     names = ["coulomb_friction", "quadratic_damping", "fluid_inertia"]
-    case = draw(5, kind="crowded", effects=names, motion="exact")
+    case = draw(8, kind="crowded", effects=names, motion="exact")
     k = key(case)
     assert json.loads(json.dumps(k)) == k
     assert k["strong"] == case.truth[0].name
