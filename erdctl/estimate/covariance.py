@@ -49,6 +49,16 @@ class Fit:
         return np.asarray(self.covariance / np.outer(scale, scale))
 
 
+def confounded(found: Fit) -> dict[str, str]:
+    """Why no value is told of the parameters along whose groups the data do not change."""
+    out = {}
+    for group in found.flat:
+        for name in group:
+            others = ", ".join(n for n in group if n != name) or "nothing"
+            out[name] = f"the data change with it only together with {others}"
+    return out
+
+
 def estimates(found: Fit, reasons: Mapping[str, str]) -> dict[str, Estimate]:
     """Every parameter with its error; those that the data do not identify have a reason instead.
 

@@ -12,7 +12,7 @@ from erdctl.core.blocks import Block, pieces, sample
 from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import DIRECTIONS, Recording
-from erdctl.estimate.covariance import Fit, estimates
+from erdctl.estimate.covariance import Fit, confounded, estimates
 from erdctl.estimate.last_step import assess
 from erdctl.estimate.least_squares import Fitted, fit
 from erdctl.estimate.measurement_noise import measurement_noise
@@ -75,7 +75,7 @@ def identify(
         model, blocks, best.values,
         fixed=held, evaluations=evaluations, converged=best.converged, robust=robust,
     )  # fmt: skip
-    reasons |= _flat(found)
+    reasons |= confounded(found)
     reasons |= _uncertain(found, reasons)
     complete = {**held, **steps}
     rms = None
@@ -137,15 +137,6 @@ def _disagreements(found: Fit, steps: Mapping[str, float], reasons: Mapping[str,
                 " the paper's steps, far beyond the error: the model lacks something or the"
                 " recording is at fault, so trust neither before erdctl diagnose"
             )
-    return out
-
-
-def _flat(found: Fit) -> dict[str, str]:
-    out = {}
-    for group in found.flat:
-        for name in group:
-            others = ", ".join(n for n in group if n != name) or "nothing"
-            out[name] = f"the data change with it only together with {others}"
     return out
 
 
