@@ -78,6 +78,8 @@ class Demand(Generic[S]):
     found : the measure of a log, or of one direction of it;  reason : why it is needed, in words
     drive : a `--drive` that offers it;  spared : what makes it unnecessary
     confounded : without it the data fix the parameter, but only together with another, then held
+    slight : without it the data may hold something of the parameter, so that a fit leaves it free
+        unless it was given a value, but too little to tell one
     """
 
     what: str
@@ -88,6 +90,7 @@ class Demand(Generic[S]):
     reason: str = ""
     spared: Callable[[S], bool] = lambda _: False
     confounded: bool = False
+    slight: bool = False
 
     def check(self, subject: S, bench: Bench) -> Check:
         """The demand, checked on a log."""
@@ -114,10 +117,11 @@ class Check:
 
 @dataclass(frozen=True)
 class Lack:
-    """Why a log cannot show something; confounded : see `Demand`."""
+    """Why a log cannot show something; confounded, slight : see `Demand`."""
 
     reason: str
     confounded: bool = False
+    slight: bool = False
 
 
 @dataclass(frozen=True)
@@ -144,8 +148,11 @@ _FIELD = Demand[Excitation](
 )  # fmt: skip
 _STEPS = Demand[Excitation](
     "change of the duty within a record", "1", 0.02, lambda e: e.steps, lambda b: b.steps,
-    "the duty is constant within every record, so the lag of Eq. 12 cannot be seen;"
-    " record steps of the duty while the piston moves",
+    "the duty is constant within every record, so the lag of Eq. 12 shows at reversals alone, by as"
+    " much as the yield forces of the two directions differ; record steps of the duty while the"
+    " piston moves",
+    # One state serves both directions: held at 0, the lag after a reversal would be a misfit.
+    slight=True,
 )  # fmt: skip
 _STROKE = Demand[Excitation](
     "range of the deflection", "m", 1e-6, lambda e: e.stroke, lambda b: b.sine(),
@@ -216,7 +223,7 @@ def parameters(survey: Survey) -> list[Cover]:
         for symbol, demands in PARAMETERS.items():
             checks = tuple(d.check(excitation, bench) for d in demands)
             first = next((d for d, c in zip(demands, checks, strict=True) if not c.met), None)
-            lack = None if first is None else Lack(first.reason, first.confounded)
+            lack = None if first is None else Lack(first.reason, first.confounded, first.slight)
             out.append(Cover(f"{direction}.{symbol}", checks, lack))
     return out
 
@@ -251,10 +258,10 @@ def held_values(needs: Mapping[str, Lack]) -> dict[str, float]:
     """Values for parameters that the data cannot identify, chosen so that the rest can be fitted.
 
     With one level of duty any beta will do, since sigma takes up the difference; without a field
-    there is no yield force; without control steps there is no lag to see.
+    there is no yield force, and no lag of it.
     """
     return {
         name: 1.0 if name.endswith(".beta") else 0.0
         for name, need in needs.items()
-        if not need.confounded
+        if not (need.confounded or need.slight)
     }

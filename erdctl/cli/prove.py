@@ -37,8 +37,10 @@ def command(
     kind: Annotated[
         str | None,
         typer.Option(
-            metavar="single|pair|null|unknown",
-            help="What is hidden; unknown: what `erdctl effects` does not list.",
+            metavar="single|pair|null|unknown|crowded|sparse",
+            help="What is hidden; unknown: what `erdctl effects` does not list; crowded and sparse,"
+            " drawn only when asked for: one strong effect among faint ones in records that"
+            " scatter, and few short records of one duty or two.",
         ),
     ] = None,
     concealment: Annotated[
@@ -100,6 +102,10 @@ def command(
     with a true one); spurious findings; and the attainable reduction, which is the error removed on
     fresh, noise-free records, over what the true structure, fitted to the same log, removes.
 
+    Of --kind crowded the first name must be that of the strong effect. Of --kind sparse a miss is
+    `explained` by a name that is not hidden, and an interval of a parameter, in a model that is
+    right, without the true value; not to name what such a log cannot tell is none.
+
     --nulls counts false alarms by the kind of noise, and prints how far noise alone moves each
     statistic that decides, beside its threshold.
 
@@ -116,6 +122,7 @@ def command(
       erdctl prove --cases 200 --seed 5000 -o proof.json --report proof.html
       erdctl prove --effects backlash,mount_compliance --level 3 --motion measured
       erdctl prove --kind null --colour pink --cases 40
+      erdctl prove --kind crowded --cases 100 --seed 7000
       erdctl prove --seed 5017 --cases 1 --keep case
       erdctl prove --nulls 90 --seed 9000
       erdctl prove --on bench.parquet --thin 4 -o hidden.json

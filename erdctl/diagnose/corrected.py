@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from erdctl.diagnose.diagnosis import Diagnosis
-from erdctl.estimate.covariance import estimates
+from erdctl.estimate.covariance import estimates, together
 from erdctl.estimate.finer import MOST_SAMPLES
 from erdctl.model.parameters import Estimate, Parameters, provenance
 
 
 def parameters(found: Diagnosis) -> Parameters:
     """The corrected model's parameters, with errors."""
-    reasons = {name: lack.reason for name, lack in found.problem.needs.items()}
+    reasons = together(found.fit)
+    reasons |= {name: lack.reason for name, lack in found.problem.needs.items()}
     return Parameters(
         model=found.fit.model,
         estimates=estimates(found.fit, reasons),

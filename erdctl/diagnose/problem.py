@@ -143,7 +143,7 @@ def with_given(problem: Problem, given: Parameters, untestable: Mapping[str, str
     untestable : effects of the given model that the log cannot show, each with what is missing
     """
     needs = dict(problem.needs)
-    held = {name: given.values[name] for name in problem.held}
+    held = {name: given.values[name] for name, need in needs.items() if not need.confounded}
     for effect in given.model.effects:
         if effect.name in untestable:
             keys = [effect.key(q.symbol) for q in effect.quantities]

@@ -3,7 +3,8 @@
     F_rec(t) = 1/W integral of F from t - W/2 to t + W/2,   W = w T,   T = 2 pi rms(x) / rms(xdot)
 
 F, F_rec : (n,) force of the damper, and as recorded [N];  T : cycle of a record's motion [s], its
-period if that is a sine, from x less its mean, both over time;  w : window over cycle [1], 0..0.5, off at 0
+period if that is a sine, from x less its mean over time;  w : window over cycle [1], 0..0.5, off
+at 0
 Straight lines between samples, and a jump where the motion turns; towards the ends of a record the
 window shrinks. Every jump at a reversal becomes a ramp that takes the same part of each cycle,
 whatever the stroke, the speed and the force: no law of the damper does that.

@@ -89,6 +89,8 @@ def _time_constant(block: Block, known: dict[str, float]) -> dict[str, float]:
     from scipy.optimize import minimize_scalar
 
     near = (block.signals.since_duty_step < AFTER_STEP) & (block.weight > 0)
+    if not near.any():
+        return {}
 
     def cost(log_T: float) -> float:
         values = {**known, **dict.fromkeys(names, float(np.exp(log_T)))}

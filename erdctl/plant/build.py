@@ -38,6 +38,8 @@ class Built:
     """An attempt: what came out for each effect alone, without each, and for all together.
 
     off : log of reached over wanted level, of each effect
+    aims : how many of the effects, the first, an attempt must get right; in a crowd the strong one
+    zeros : of the force channel in each record [N]
     crowding : of each, how many times its level must rise not to live next to reversals only
     """
 
@@ -48,6 +50,8 @@ class Built:
     whole: Outcome
     off: tuple[float, ...]
     crowding: tuple[float, ...]
+    aims: int
+    zeros: tuple[float, ...]
 
 
 def build(plan: CasePlan, over: tuple[Ride, ...], random: Random, variation: Variation) -> Built:
@@ -56,27 +60,32 @@ def build(plan: CasePlan, over: tuple[Ride, ...], random: Random, variation: Var
     samples, plain = joined(over), forces(base, over)
     scales = scales_of(over, plain, samples, plan.campaign.rating.stroke)
     noise = plan.force_noise.scaled(float(np.ptp(plain)), variation.noise)
+    zeros = tuple(z * float(np.ptp(plain)) for z in plan.zeros)
     setting = Setting(over, samples, base, plain, scales, noise.rms)
-    makers, alone, off, crowd = [], [], [], []
+    makers, alone, off = [], [], []
+    crowd: list[float] = []
+    aims = 1 if plan.kind == "crowded" else len(plan.effects)
     factors = variation.levels or (1.0,) * len(plan.effects)
     for effect, level, factor in zip(plan.effects, plan.levels, factors, strict=True):
         maker = _maker(effect, effect.drawn(random), scales)
         wanted = level * factor
         alone_in_base = partial(maker, base)
         found = sought(setting, effect, alone_in_base, wanted)
-        crowd.append(crowding(setting, effect, alone_in_base, found))
+        aimed = len(crowd) < aims
+        crowd.append(crowding(setting, effect, alone_in_base, found) if aimed else 1.0)
         off.append(float(np.log(max(found.level, 1e-9) / wanted)))
         makers.append(maker)
         alone.append(found)
+    rest = tuple(off), tuple(crowd), aims, zeros
     if len(alone) == 1:
-        return Built(setting, noise, tuple(alone), (), alone[0], tuple(off), tuple(crowd))
+        return Built(setting, noise, tuple(alone), (), alone[0], *rest)
     strengths = [a.strength for a in alone]
     whole = _together(setting, makers, strengths)
     without = tuple(
         _together(setting, makers[:k] + makers[k + 1 :], strengths[:k] + strengths[k + 1 :])
         for k in range(len(alone))
     )
-    return Built(setting, noise, tuple(alone), without, whole, tuple(off), tuple(crowd))
+    return Built(setting, noise, tuple(alone), without, whole, *rest)
 
 
 Maker = Callable[[Plant, float], Plant]

@@ -124,7 +124,7 @@ def _fill(
         longest = min(LONGEST, 1.3 * mean / rate)
         duration = float(np.clip(mean / rate * random.uniform(0.7, 1.3), SHORTEST, longest))
         n = max(round(duration * rate), 300)
-        motion = _motion(random, rating, n / rate, low, high, reach_x, reach_v)
+        motion = draw_motion(random, rating, n / rate, low, high, reach_x, reach_v)
         duty = _duty(random, programme, levels, top, n, rate)
         records.append(CampaignRecord(f"r{i + 1:02d}", rate, n, motion, duty))
     return Campaign(rating, rate, low, high, reach_x, reach_v, top, levels, tuple(records))
@@ -136,10 +136,11 @@ MOTIONS = ("sine", "random", "sweep", "triangle")
 MOTION_SHARES = (0.45, 0.25, 0.15, 0.15)
 
 
-def _motion(
+def draw_motion(
     random: Random, rating: Rating, duration: float,
     low: float, high: float, reach_x: float, reach_v: float,
 ) -> Trajectory:  # fmt: skip
+    """A motion of some duration [s] between two frequencies [Hz], within parts of the rating."""
     kind = str(random.choice(MOTIONS, p=MOTION_SHARES))
     most_x = reach_x * rating.stroke * float(random.uniform(0.4, 1.0))
     most_v = reach_v * rating.speed * float(random.uniform(0.4, 1.0))

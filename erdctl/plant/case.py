@@ -19,6 +19,8 @@ class Truth:
     noise against the same damper without it, before the paper's model is refitted
     within : what it adds to the misfit of the whole case, over noise
     equivalent : names that no force channel at the rod tells from it
+    law : what a fit of the law usually taken should find, by the field's symbols; None where the
+    plant's is another
     """
 
     name: str
@@ -30,13 +32,15 @@ class Truth:
     raw: float
     within: float
     equivalent: tuple[str, ...]
+    law: dict[str, float] | None = None
 
 
 @dataclass(frozen=True)
 class Case:
     """Everything that makes the log, and what is to be known about it.
 
-    kind : "single", "pair", "null" or "unknown"
+    kind : "single", "pair", "null", "unknown", "crowded" (of the truth the first is the strong one)
+        or "sparse"
     concealment : "unlabelled", "absorbed" (the refitted paper model looks good on the log, and
         fails on other records) or "not_logged" (a temperature, a fault's onset)
     level, raw : misfit over noise, after the refit and before
@@ -46,6 +50,7 @@ class Case:
     regions : where the misfit lives that the refit leaves, tightest first; () if everywhere
     effect_regions : where force with and without the effects differs
     flags : what makes the case unfair or undecidable
+    zeros : zero of the force channel in each record [N]; () where it is 0 in all
     """
 
     seed: int
@@ -67,3 +72,4 @@ class Case:
     regions: tuple[MisfitRegion, ...]
     effect_regions: tuple[MisfitRegion, ...]
     flags: tuple[str, ...]
+    zeros: tuple[float, ...] = ()

@@ -54,7 +54,9 @@ def draw(
     known : names that a diagnosis can give, its catalogue; None for all that the plant can hide
     effects : names to choose from; all that are known, or all that are not for "unknown"
     level : misfit that the refitted paper model leaves, over the rms of the force noise
-    kind : "single", "pair", "null" (nothing hidden) or "unknown" (not known)
+    kind : "single", "pair", "null" (nothing hidden) or "unknown" (not known); drawn only when asked
+        for: "crowded" (a strong effect among faint ones, records that scatter; `level` is that of
+        the strong one) and "sparse" (few short records, one effect in two thirds of the cases)
     concealment : "absorbed" looks for a damper whose plain fit looks good and fails elsewhere (it
         may find none, and the case says what it is), "not_logged" for a hidden temperature or onset
     motion : "exact", or "measured" for xdot from a noisy, quantised x
@@ -64,9 +66,21 @@ def draw(
         seed, known=known, effects=effects, level=level, kind=kind, concealment=concealment,
         motion=motion, colour=colour, scatter=scatter,
     )  # fmt: skip
-    over = rides(plan.campaign)
+    case, faults = _drawn(plan, concealment)
+    for hidden in plan.instead:
+        if faults == 0.0:
+            break
+        other, worse = _drawn(replace(plan, effects=hidden), concealment)
+        case, faults = min([(case, faults), (other, worse)], key=lambda c: c[1])
+    return case
+
+
+def _drawn(plan: CasePlan, concealment: str | None) -> tuple[Case, float]:
+    """The case of a plan that is least at fault, and by how much."""
+    seed, over = plan.seed, rides(plan.campaign)
+    tries = PATIENCE if plan.instead else TRIES
     variation, best = Variation(), None
-    for attempt in range(TRIES):
+    for attempt in range(tries):
         built = build(plan, over, stream(seed, "damper", attempt), variation)
         for choice in range(CHOICES if concealment == "absorbed" else 1):
             other = draw_other(stream(seed, "fresh", attempt, choice), plan.campaign)
@@ -83,7 +97,7 @@ def draw(
             break
         variation = _next(variation, built, plan.effects, attempt)
     assert best is not None
-    return best[1]
+    return best[1], best[0]
 
 
 def _next(variation: Variation, built: Built, effects: Sequence[Twin], attempt: int) -> Variation:
@@ -92,14 +106,15 @@ def _next(variation: Variation, built: Built, effects: Sequence[Twin], attempt: 
     levels = variation.levels or (1.0,) * len(effects)
     fraction = built.noise.fraction
     crowding = max(built.crowding, default=1.0)
-    weak = [off < -TOLERANCE for off in built.off]
+    aimed = built.off[: built.aims]
+    weak = [off < -TOLERANCE for off in aimed]
     if crowding > 1.0 and not any(weak):
         gain = min(crowding, FRACTIONS[1] / fraction)
         noise *= gain
         weights = replace(weights, yielding=weights.yielding * 0.9 * gain / crowding)
     elif any(weak):
-        noise *= max(0.9 * float(np.exp(min(built.off))), FRACTIONS[0] / fraction)
-        for effect, off in zip(effects, built.off, strict=True):
+        noise *= max(0.9 * float(np.exp(min(aimed))), FRACTIONS[0] / fraction)
+        for effect, off in zip(effects, aimed, strict=False):
             if off < -TOLERANCE:
                 weights = _favoured(weights, effect.part, min(1.5 * float(np.exp(-off)), 6.0))
     # Where one effect of a pair needs less noise and the other more, or nothing else helps.
@@ -111,7 +126,7 @@ def _next(variation: Variation, built: Built, effects: Sequence[Twin], attempt: 
 
 
 def _farthest(built: Built) -> float:
-    return max((abs(off) for off in built.off), default=0.0)
+    return max((abs(off) for off in built.off[: built.aims]), default=0.0)
 
 
 def _favoured(weights: Weights, part: str, factor: float) -> Weights:
@@ -124,9 +139,9 @@ def _favoured(weights: Weights, part: str, factor: float) -> Weights:
 
 def _faults(case: Case, built: Built, concealment: str | None) -> float:
     """0 for a case as wanted; else how far off it is."""
-    if case.kind == "null":
+    if not case.truth:
         return 0.0
-    near = max(case.near, *(alone.near for alone in built.alone))
+    near = max(case.near, *(alone.near for alone in built.alone[: built.aims]))
     off = max(_farthest(built) - TOLERANCE, 0.0) + 4.0 * max(near - MOST_NEAR, 0.0)
     if concealment == "absorbed" and not _absorbed(case.own_nrmse, case.fresh_nrmse):
         off += NOT_AS_ASKED
@@ -168,6 +183,7 @@ def _case(plan: CasePlan, built: Built, other: Campaign) -> Case:
         regions=regions(setting.samples, whole.force, whole.fitted.rest) if plan.effects else (),
         effect_regions=regions(setting.samples, whole.force, whole.force - setting.plain),
         flags=_flags(plan, built),
+        zeros=built.zeros,
     )
 
 
@@ -190,7 +206,16 @@ def _truth(plan: CasePlan, built: Built, k: int) -> Truth:
         raw=alone.raw,
         within=within,
         equivalent=effect.equivalents,
+        law=_law(effect, built.whole.plant),
     )
+
+
+def _law(effect: Twin, plant: Plant) -> dict[str, float] | None:
+    """Parameters of the law usually fitted; None where the plant's is another."""
+    if effect.law is None:
+        return None
+    nearest, parameters = effect.law(plant)
+    return parameters if nearest == plant else None
 
 
 def _value(plant: Plant, name: str, path: str) -> float:

@@ -31,12 +31,13 @@ def log(case: Case) -> pa.Table:
     edges = np.cumsum([0, *lengths])
     rig = stream(case.seed, "rig")
     columns: dict[str, list[Array]] = {name: [] for name in COLUMNS[:-1]}
-    bounds = zip(over, case.gains, edges[:-1], edges[1:], strict=True)
-    for number, (r, gain, a, b) in enumerate(bounds):
+    zeros = case.zeros or (0.0,) * len(over)
+    bounds = zip(over, case.gains, zeros, edges[:-1], edges[1:], strict=True)
+    for number, (r, gain, zero, a, b) in enumerate(bounds):
         t, x, v = r.sampled()
         x, v = case.motion_noise.at(rig, x, v, r.record.rate)
         v = velocity(case.plant.own, v, number)
-        measured = gain * force(case.plant, r) + noise[a:b]
+        measured = gain * force(case.plant, r) + zero + noise[a:b]
         for name, values in zip(columns, (t, x, v, r.duty, measured), strict=True):
             columns[name].append(values)
     return _table(columns, over)
@@ -68,7 +69,7 @@ def key(case: Case) -> dict[str, Any]:
         "concealment": case.concealment,
         "effects": [
             {
-                **asdict(truth),
+                **{n: v for n, v in asdict(truth).items() if n != "law"},
                 "parameters": {
                     name: {"value": value, "unit": unit}
                     for name, (value, unit) in truth.parameters.items()
@@ -90,9 +91,19 @@ def key(case: Case) -> dict[str, Any]:
         "force_noise": asdict(case.force_noise),
         "motion_noise": asdict(case.motion_noise),
         "gains": list(case.gains),
+        **_asked(case),
         "campaign": _campaign(case.campaign),
         "fresh": _campaign(case.fresh),
     }
+
+
+def _asked(case: Case) -> dict[str, Any]:
+    """What only the key of a kind that must be asked for says."""
+    if case.kind == "crowded":
+        return {"strong": case.truth[0].name, "zeros": list(case.zeros)}
+    if case.kind == "sparse":
+        return {"law": case.truth[0].law if case.truth else {}}
+    return {}
 
 
 def _sides(compression: Side, release: Side) -> dict[str, Any]:

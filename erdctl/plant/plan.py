@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from erdctl.plant.campaign import Campaign, draw_campaign
+from erdctl.plant.crowd import crowd, crowd_campaign, crowd_levels, scattered
 from erdctl.plant.noise import (
     COLOURS,
     ForceNoise,
@@ -20,12 +21,14 @@ from erdctl.plant.noise import (
     draw_gains,
     draw_motion_noise,
 )
+from erdctl.plant.sparse import sparse_campaign, sparse_level, sparse_order
 from erdctl.plant.twin import Twin
 from erdctl.plant.twins import every
 
 Random = np.random.Generator
 
 KINDS = ("single", "pair", "null", "unknown")
+ASKED = ("crowded", "sparse")  # drawn only when asked for
 CONCEALMENTS = ("unlabelled", "absorbed", "not_logged")
 KIND_SHARES = (0.6, 0.15, 0.125, 0.125)
 BANDS = ((0.2, 1.0), (1.0, 2.0), (2.0, 10.0))
@@ -41,12 +44,18 @@ STREAMS = (
     "fresh",
     "sound",
     "rig",
+    "crowded",
+    "sparse",
 )
 
 
 @dataclass(frozen=True)
 class CasePlan:
-    """effects : to hide;  levels : wanted for each;  known : which of them can be named."""
+    """effects : to hide;  levels : wanted for each;  known : which of them can be named.
+
+    zeros : of the force in each record, over the range of the force; () where none has any
+    instead : what else to hide, in turn, where the campaign cannot show the first as strong as that
+    """
 
     seed: int
     kind: str
@@ -57,6 +66,8 @@ class CasePlan:
     force_noise: ForceNoise
     motion_noise: MotionNoise
     gains: tuple[float, ...]
+    zeros: tuple[float, ...] = ()
+    instead: tuple[tuple[Twin, ...], ...] = ()
 
 
 def stream(seed: int, name: str, *more: int) -> Random:
@@ -77,7 +88,7 @@ def draw_plan(
     scatter: bool = False,
 ) -> CasePlan:
     """A plan; the arguments are those of `draw`."""
-    _known("kind", kind, KINDS)
+    _known("kind", kind, (*KINDS, *ASKED))
     _known("concealment", concealment, CONCEALMENTS)
     _known("motion", motion, ("exact", "measured"))
     _known("colour", colour, COLOURS)
@@ -93,6 +104,10 @@ def draw_plan(
     chosen = kind or chosen
     _hideable(chosen, effects or (), inside, outside)
     source = outside if chosen == "unknown" else inside
+    if chosen in ASKED:
+        pool = _pool(effects, source, unlogged=concealment == "not_logged")
+        drawn = _crowded if chosen == "crowded" else _sparse
+        return drawn(seed, pool, level, motion, colour, always=effects is not None)
     hidden = _chosen(random, chosen, effects, source, unlogged=concealment == "not_logged")
     levels = tuple(
         _level(random, chosen, concealment) if level is None else float(level) for _ in hidden
@@ -142,9 +157,7 @@ def _chosen(
 ) -> tuple[Twin, ...]:
     if kind == "null":
         return ()
-    pool = [source[n] for n in names or source if source[n].hidden or not unlogged]
-    if not pool:
-        raise ValueError("none of these effects hides a temperature or a fault's onset")
+    pool = _pool(names, source, unlogged=unlogged)
     first = pool[int(random.integers(len(pool)))]
     if kind != "pair":
         return (first,)
@@ -155,6 +168,47 @@ def _chosen(
             "motion that it changes"
         )
     return first, others[int(random.integers(len(others)))]
+
+
+def _pool(names: Sequence[str] | None, source: Twins, *, unlogged: bool) -> list[Twin]:
+    pool = [source[n] for n in names or source if source[n].hidden or not unlogged]
+    if not pool:
+        raise ValueError("none of these effects hides a temperature or a fault's onset")
+    return pool
+
+
+def _crowded(
+    seed: int, pool: Sequence[Twin], level: float | None, motion: str | None, colour: str | None,
+    *, always: bool,
+) -> CasePlan:  # fmt: skip
+    random = stream(seed, "crowded")
+    hidden = crowd(random, pool)
+    levels = crowd_levels(random, len(hidden) - 1, level)
+    campaign = crowd_campaign(stream(seed, "campaign"))
+    gains, zeros = scattered(stream(seed, "gains"), len(campaign.records))
+    return CasePlan(
+        seed, "crowded", hidden, (True,) * len(hidden), levels, campaign,
+        draw_force_noise(stream(seed, "force noise"), colour),
+        draw_motion_noise(stream(seed, "motion noise"), campaign, motion), gains, zeros,
+        tuple((*hidden[k:], *hidden[:k]) for k in range(1, len(hidden))),
+    )  # fmt: skip
+
+
+def _sparse(
+    seed: int, pool: Sequence[Twin], level: float | None, motion: str | None, colour: str | None,
+    *, always: bool,
+) -> CasePlan:  # fmt: skip
+    random = stream(seed, "sparse")
+    order = sparse_order(random, pool, always=always or level is not None)
+    wanted = sparse_level(random) if level is None else level
+    hidden = order[:1]
+    campaign = sparse_campaign(stream(seed, "campaign"))
+    return CasePlan(
+        seed, "sparse", hidden, (True,) * len(hidden), (wanted,) * len(hidden), campaign,
+        draw_force_noise(stream(seed, "force noise"), colour),
+        draw_motion_noise(stream(seed, "motion noise"), campaign, motion),
+        (1.0,) * len(campaign.records), instead=tuple((twin,) for twin in order[1:]),
+    )  # fmt: skip
 
 
 def _level(random: Random, kind: str, concealment: str | None) -> float:

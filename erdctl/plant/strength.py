@@ -75,7 +75,7 @@ def scales_of(over: Sequence[Ride], plain: Array, samples: Joined, stroke: float
         a=max(float(np.abs(r.a[at]).max()) for r, at in zip(over, inside, strict=True)),
         stroke=stroke,
         force=float(np.ptp(plain)) / 2,
-        duty=float(samples.duty.max()),
+        duty=float(samples.duty.max()) or 1.0,
         shortest=min(spans),
         longest=max(spans),
         energy=max(energy),

@@ -19,7 +19,8 @@ class Scales:
     """Sizes of a campaign and of the plain damper in it, which make a strength dimensionless.
 
     x, v, a : largest |x|, |xdot|, |xddot|;  stroke : rated;  force : half its range
-    duty : highest;  shortest, longest : records [s];  energy : most that a record dissipates [J]
+    duty : highest, 1 without control;  shortest, longest : records [s]
+    energy : most that a record dissipates [J]
     tick : step of the simulation [s]
     """
 

@@ -26,6 +26,7 @@ SEARCH = 6_000  # samples of the search; the best starts are then fitted to all
 LOOK = 6  # evaluations that rank a start
 SHARPEN = 60  # evaluations for those that are kept
 KEPT = 3  # starts that are searched to the end
+PLAIN = Model()  # the paper's
 
 
 def best_fit(
@@ -38,8 +39,11 @@ def best_fit(
     """
     model = Model(tuple(effects))
     rough = prepare(thinned(problem.recording, SEARCH))
-    guesses = [_guesses(rough, e, damper, diagnosed, few=len(effects) > 1) for e in effects]
-    points = [_joined([damper, *point]) for point in product(*guesses)]
+    if len(effects) > 2:
+        points = _one_by_one(rough, effects, damper, diagnosed)
+    else:
+        guesses = [_guesses(rough, e, damper, diagnosed, few=len(effects) > 1) for e in effects]
+        points = [_joined([damper, *point]) for point in product(*guesses)]
     if all(name in diagnosed for name in model.quantities):
         points.append(dict(diagnosed))
     coarse = _ranked(rough, model, points, LOOK)[:KEPT]
@@ -66,11 +70,18 @@ def damper_values(key: Mapping[str, Any]) -> dict[str, float]:
 
 
 def _guesses(
-    problem: Problem, effect: Effect, damper: Values, diagnosed: Values, *, few: bool
+    problem: Problem,
+    effect: Effect,
+    damper: Values,
+    diagnosed: Values,
+    *,
+    few: bool,
+    known: Model = PLAIN,
 ) -> list[dict[str, float]]:
-    """Starts for one effect; of a pair only those that do best alone, or there are too many."""
+    """Starts for one effect beyond a known model; of a pair only those that do best alone, or there
+    are too many."""
     own = {effect.key(q.symbol) for q in effect.quantities}
-    rest = problem.block.force - Model().force(problem.block.signals, damper)
+    rest = problem.block.force - known.force(problem.block.signals, damper)
     out = [{effect.key(s): v for s, v in g.items()} for g in starts(effect, problem, rest)]
     if few:
         alone = _ranked(problem, Model((effect,)), [_joined([damper, g]) for g in out], LOOK)
@@ -78,6 +89,20 @@ def _guesses(
     if own <= set(diagnosed):
         out.append({n: diagnosed[n] for n in own})
     return out
+
+
+def _one_by_one(
+    problem: Problem, effects: Sequence[Effect], damper: Values, diagnosed: Values
+) -> list[dict[str, float]]:
+    """Starts for a crowd: each effect is added to the best fit of those before it, as all their
+    starts together are too many."""
+    points = [dict(damper)]
+    for count, effect in enumerate(effects, start=1):
+        known = Model(tuple(effects[: count - 1]))
+        more = _guesses(problem, effect, points[0], diagnosed, few=False, known=known)
+        tried = [_joined([points[0], guess]) for guess in more]
+        points = [r.values for r in _ranked(problem, Model(tuple(effects[:count])), tried, LOOK)]
+    return points[:KEPT]
 
 
 def _ranked(

@@ -16,11 +16,12 @@ from erdctl.effects import catalogue
 from erdctl.io import documents
 from erdctl.io.diagnosis import to_json
 from erdctl.io.logs import read_logs
+from erdctl.io.parameters import parse_parameters
 from erdctl.model.composed import Model
 from erdctl.prove.best import acts, best_fit, damper_values
 from erdctl.prove.case import Sealed, opened
 from erdctl.prove.catalogued import right_names, structure
-from erdctl.prove.score import Errors, Found, HiddenEffect, Interval, located, naming
+from erdctl.prove.score import Errors, Found, HiddenEffect, Interval, Printed, located, naming
 
 
 @dataclass(frozen=True)
@@ -29,11 +30,15 @@ class Result:
 
     colour, motion : of the noise, and "exact" or "measured"
     hidden : what the key says;  verdict, findings : what the diagnosis said without it
-    named : whether the first finding is right, None where nothing of the catalogue is hidden
+    named : whether the first finding is right, None where nothing of the catalogue is hidden; in a
+        crowd, whether it is the strong one
     matched, spurious, redundant : see `score.Naming`
     located : None where the misfit is everywhere
     first_place : the first place of the mismatch is one of the misfit or of the effect's own force
     flags : what the plant says makes the case unfair or undecidable
+    cannot_tell : whether the diagnosis says that these data cannot decide
+    printed : of a sparse case: what the diagnosis prints with an interval, where its model is the
+        true one, so that the plant knows what it should be
     """
 
     number: int
@@ -55,6 +60,8 @@ class Result:
     located: bool | None
     fresh: Errors
     first_place: bool | None = None
+    cannot_tell: bool = False
+    printed: tuple[Printed, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -92,6 +99,10 @@ def scored(
     known = all(e["catalogued"] for e in key["effects"])
     findings = tuple(Found(f["effect"], tuple(f["equivalent"])) for f in document["findings"])
     match = naming(findings, hidden)
+    first = match.first
+    if "strong" in key:
+        strong = [h for h in hidden if h.effect == key["strong"]]
+        first = naming(findings[:1], strong).first
     return Result(
         number=sealed.number,
         seed=sealed.seed,
@@ -105,7 +116,7 @@ def scored(
         hidden=hidden,
         verdict=document["verdict"],
         findings=findings,
-        named=match.first if hidden and known else None,
+        named=first if hidden and known else None,
         matched=match.matched,
         spurious=match.spurious,
         redundant=match.redundant,
@@ -115,6 +126,26 @@ def scored(
             places({"mismatch": document["mismatch"][:1], "findings": []}),
             [*key["regions"], *key["effect_regions"]],
         ),
+        cannot_tell=bool(document.get("cannot_tell")),
+        printed=_printed(document, key),
+    )
+
+
+def _printed(document: Mapping[str, Any], key: Mapping[str, Any]) -> tuple[Printed, ...]:
+    """Parameters with an interval of a model that is the plant's own, effect for effect."""
+    law = key.get("law")
+    if law is None or {f["effect"] for f in document["findings"]} != {
+        e["name"] for e in key["effects"]
+    }:
+        return ()
+    own = {f"{e['name']}.{s}": v for e in key["effects"] for s, v in law.items() if "." not in s}
+    truth = damper_values(key) | own | {s: v for s, v in law.items() if "." in s}
+    params = parse_parameters(documents.encode(document["corrected"]["params"]), "corrected.params")
+    intervals = {name: e.interval for name, e in params.estimates.items()}
+    return tuple(
+        Printed(name, *within, truth[name])
+        for name, within in intervals.items()
+        if within is not None and name in truth
     )
 
 

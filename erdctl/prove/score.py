@@ -41,6 +41,21 @@ class Interval:
 
 
 @dataclass(frozen=True)
+class Printed:
+    """A parameter that a diagnosis prints with a 95 % interval, and what it is in the plant."""
+
+    parameter: str
+    low: float
+    high: float
+    truth: float
+
+    @property
+    def holds(self) -> bool:
+        """Whether the truth lies within."""
+        return self.low <= self.truth <= self.high
+
+
+@dataclass(frozen=True)
 class Errors:
     """Root mean square errors on the fresh records [N], and the range that scales them.
 

@@ -5,53 +5,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from statistics import mean, median
 
+from erdctl.prove.asked import Crowded, Sparse, crowded, sparse
 from erdctl.prove.judge import Failed, Result
 from erdctl.prove.score import BAND_NAMES, band
-
-STRONG = 1.0  # misfit over noise from which the attainable reduction is counted
-
-
-@dataclass(frozen=True)
-class Rate:
-    """So many of so many."""
-
-    hits: int
-    of: int
-
-    @property
-    def share(self) -> float | None:
-        """As a number, None of nothing."""
-        return self.hits / self.of if self.of else None
-
-
-@dataclass(frozen=True)
-class Tally:
-    """Rates of a group of cases; a rate of nothing where a question does not arise.
-
-    named : first finding right;  wrong : first finding wrong
-    all_found : every hidden effect has its finding
-    spurious : findings per case that match nothing hidden
-    right : verdict as it should be for what is hidden
-    first_place : the place listed first is a true one, of the misfit or of the effect's own force
-    removed : attainable reduction: the error removed, over what the true structure removes; median
-    """
-
-    label: str
-    cases: int
-    named: Rate
-    wrong: Rate
-    all_found: Rate
-    adequate: Rate
-    explained: Rate
-    unexplained: Rate
-    right: Rate
-    located: Rate
-    first_place: Rate
-    spurious: float | None
-    removed: float | None
-    removed_of: int
+from erdctl.prove.tally import Rate, Tally, due, explained_wrongly, group
 
 
 @dataclass(frozen=True)
@@ -98,6 +56,8 @@ class Summary:
     confusions: tuple[Confusion, ...]
     misses: tuple[Miss, ...]
     failed: int
+    crowded: Crowded
+    sparse: tuple[Sparse, ...]
 
 
 def summarise(results: Sequence[Result], failed: Sequence[Failed] = ()) -> Summary:
@@ -114,7 +74,7 @@ def summarise(results: Sequence[Result], failed: Sequence[Failed] = ()) -> Summa
         unknowns=group("unknown", [r for r in results if r.kind == "unknown"]),
         motions=tuple(
             g
-            for kind in ("single", "pair", "null", "unknown")
+            for kind in ("single", "pair", "null", "unknown", "crowded", "sparse")
             for g in _split(
                 f"{kind}, ", [r for r in results if r.kind == kind],
                 ("exact", "measured"), lambda r: r.motion,
@@ -134,50 +94,25 @@ def summarise(results: Sequence[Result], failed: Sequence[Failed] = ()) -> Summa
             )
         ),
         failed=len(failed),
+        crowded=crowded([r for r in results if r.kind == "crowded"]),
+        sparse=sparse([r for r in results if r.kind == "sparse"]),
     )  # fmt: skip
-
-
-def group(label: str, results: Sequence[Result]) -> Tally:
-    """Rates of some results."""
-    named = [r.named for r in results if r.named is not None]
-    hiding = [r for r in results if r.named is not None]
-    places = [r.located for r in results if r.located is not None]
-    first = [r.first_place for r in results if r.first_place is not None]
-    parts = [r.fresh.removed for r in hiding if r.level >= STRONG and r.fresh.removed is not None]
-
-    def verdicts(verdict: str) -> Rate:
-        return Rate(sum(r.verdict == verdict for r in results), len(results))
-
-    return Tally(
-        label=label,
-        cases=len(results),
-        named=Rate(named.count(True), len(named)),
-        wrong=Rate(sum(bool(r.findings) and not r.named for r in hiding), len(hiding)),
-        all_found=Rate(sum(r.matched == len(r.hidden) for r in hiding), len(hiding)),
-        adequate=verdicts("adequate"),
-        explained=verdicts("explained"),
-        unexplained=verdicts("unexplained"),
-        right=Rate(sum(r.verdict == due(r) for r in results), len(results)),
-        located=Rate(places.count(True), len(places)),
-        first_place=Rate(first.count(True), len(first)),
-        spurious=mean(r.spurious for r in results) if results else None,
-        removed=median(parts) if parts else None,
-        removed_of=len(parts),
-    )
-
-
-def due(r: Result) -> str:
-    """The verdict that a case deserves."""
-    return {"null": "adequate", "unknown": "unexplained"}.get(r.kind, "explained")
 
 
 def reasons(r: Result) -> tuple[str, ...]:
     """What is wrong with a case; nothing if it came out as it should."""
     out = []
+    if r.kind == "sparse":
+        missed = [p.parameter for p in r.printed if not p.holds]
+        if missed:
+            out.append(f"not within its interval: {', '.join(missed)}")
+        return (("wrong name", *out)) if explained_wrongly(r) else tuple(out)
     if r.named is False:
         out.append("wrong name first" if r.findings else "not named")
     if r.named is not None and r.matched < len(r.hidden) and r.matched:
         out.append(f"{r.matched} of {len(r.hidden)} found")
+    if r.kind == "crowded" and r.fresh.corrected > r.fresh.paper:
+        out.append("worse than the paper's model")
     if r.verdict != due(r):
         out.append(f"verdict {r.verdict}")
     if r.spurious:
@@ -225,7 +160,7 @@ def _confusions(results: Sequence[Result]) -> tuple[Confusion, ...]:
     seeds: dict[tuple[str, str], list[int]] = {}
     for r in results:
         hidden = r.hidden[0].effect if len(r.hidden) == 1 else "nothing"
-        wrong = r.kind != "pair" and bool(r.findings) and not r.named
+        wrong = r.kind not in {"pair", "crowded"} and bool(r.findings) and not r.named
         if wrong:
             seeds.setdefault((hidden, r.findings[0].effect), []).append(r.seed)
     counts = Counter({pair: len(where) for pair, where in seeds.items()})

@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 from erdctl.prove.judge import Failed
 from erdctl.prove.run import Outcome
 from erdctl.prove.score import BAND_NAMES
-from erdctl.prove.summary import Rate, Summary, Tally, hidden_text, said_text
+from erdctl.prove.summary import Summary, hidden_text, said_text
+from erdctl.prove.tally import Rate, Tally
 
 Table = tuple[str, Sequence[str], Sequence[Sequence[str]]]
 
@@ -65,6 +66,22 @@ def _every(s: Summary) -> Iterator[Table]:
         [g.label, str(g.cases), _rate(g.unexplained), _rate(g.explained), _rate(g.adequate),
          _rate(g.located), _rate(g.first_place)]
         for g in (s.unknowns,) if g.cases
+    ]  # fmt: skip
+    yield "Crowded: a strong effect among faint ones, records that scatter", [
+        "", "cases", "strong one first", "spurious per case", "attainable reduction",
+        "95 % of it reached", "worse than the paper's model", "all found", "explained",
+    ], [
+        [g.label, str(g.cases), _rate(g.named), _digits(g.spurious, 2), _removed(g),
+         _rate(s.crowded.mostly), _rate(s.crowded.worse), _rate(g.all_found), _rate(g.explained)]
+        for g in (s.crowded.group,) if g.cases
+    ]  # fmt: skip
+    yield "Sparse: few short records, one duty or two", [
+        "", "cases", "explained and wrong", "explained and right", "cannot tell", "adequate",
+        "unexplained", "intervals that hold the truth",
+    ], [
+        [g.label, str(g.cases), _rate(g.wrong), _rate(g.right), _rate(g.undecided),
+         _rate(g.silent), _rate(g.unexplained), _rate(g.held)]
+        for g in s.sparse
     ]  # fmt: skip
     split = ["", "cases", "named first", "all found", "right verdict", "located", "first place",
              "spurious per case"]  # fmt: skip

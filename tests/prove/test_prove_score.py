@@ -138,3 +138,42 @@ def test_nothing_and_strangers_have_no_name() -> None:
     stranger = key(("stranger", 4.0), kind="unknown", motion_noise={"kind": "savgol"})
     r = scored(sealed(), document("unexplained"), stranger, ERRORS)
     assert (r.named, r.spurious, r.motion) == (None, 0, "measured")
+
+
+def test_in_a_crowd_the_strong_one_has_to_be_first() -> None:
+    crowd = key(("rub", 6.0), ("drift", 0.5), ("mount", 0.4), kind="crowded", strong="rub")
+    faint = scored(sealed(), document("explained", ("drift",), ("rub",)), crowd, ERRORS)
+    assert (faint.named, faint.matched, faint.spurious) == (False, 2, 0)
+    strong = scored(sealed(), document("explained", ("rub",), ("stick",)), crowd, ERRORS)
+    assert (strong.named, strong.matched, strong.spurious) == (True, 1, 1)
+
+
+def test_what_a_sparse_diagnosis_prints_is_held_against_the_plant() -> None:
+    """Only of a model that is the plant's, and with the law's own value of a paper's parameter."""
+    side = {"k_nom": 100.0, "c_vis": 10.0, "T_d": 0.02, "sigma": 5.0, "beta": 1.0}
+    plant = {"damper": {"compression": side, "release": side}}
+    law = {"F_c": 2.0, "compression.c_vis": 12.0}
+    k = key(("coulomb_friction", 4.0), kind="sparse", law=law, **plant)
+
+    def value(value: float, stderr: float | None) -> dict[str, float | str | None]:
+        return {"value": value, "stderr": stderr}
+
+    up = {n: value(v, None) for n, v in side.items()} | {"c_vis": value(11.0, 0.6)}
+    down = {n: value(v, None) for n, v in side.items()} | {"k_nom": value(97.0, 1.0)}
+    friction = value(1.0, None) | {"interval": [0.5, 2.5]}
+    effects = [{"effect": "coulomb_friction", "parameters": {"F_c": friction}}]
+    params = {"schema": "erdctl.parameters/1", "compression": up, "release": down}
+    corrected = {"corrected": {"params": params | {"effects": effects}}}
+    said = document("explained", ("coulomb_friction",)) | corrected
+    printed = scored(sealed(), said, k, ERRORS).printed
+    assert {p.parameter: p.holds for p in printed} == {
+        "compression.c_vis": True,  # 12 is within 11 +- 1.96 0.6
+        "release.k_nom": False,  # 100 is not within 97 +- 1.96
+        "coulomb_friction.F_c": True,  # 2 is within 0.5 to 2.5
+    }
+    other = document("explained", ("stribeck_friction",)) | corrected
+    assert scored(sealed(), other, k, ERRORS).printed == ()
+    unlike = key(("coulomb_friction", 4.0), kind="sparse", law=None, **plant)
+    assert scored(sealed(), said, unlike, ERRORS).printed == ()
+    cannot = scored(sealed(), said | {"cannot_tell": True}, k, ERRORS)
+    assert cannot.cannot_tell

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import msgspec
 from results import result
@@ -10,9 +11,10 @@ from results import result
 from erdctl.prove.case import Wish
 from erdctl.prove.document import SCHEMA, from_json, proof_of, to_json
 from erdctl.prove.judge import Failed, Result
-from erdctl.prove.score import Errors, Found, HiddenEffect
-from erdctl.prove.summary import Rate, reasons, summarise
+from erdctl.prove.score import Errors, Found, HiddenEffect, Printed
+from erdctl.prove.summary import reasons, summarise
 from erdctl.prove.tables import line, tables
+from erdctl.prove.tally import Rate
 
 WRONG = {"findings": (Found("drift"),), "named": False, "matched": 0, "spurious": 1}
 RESULTS: tuple[Result, ...] = (
@@ -84,6 +86,53 @@ def test_confusions_and_misses() -> None:
     assert reasons(RESULTS[0]) == ()
 
 
+def test_crowded_cases() -> None:
+    """The strong one first, spurious a case, the share of what can be removed, and none worse."""
+    crowd = (HiddenEffect("rub", 6.0), HiddenEffect("skew", 0.7), HiddenEffect("play", 0.4))
+    some: dict[str, Any] = {"kind": "crowded", "hidden": crowd}
+    results = [
+        result(1, **some, matched=3),
+        result(2, **some, named=False, matched=2, spurious=1, fresh=Errors(5.0, 5.1, 1.0, 100.0)),
+        result(3, **some, matched=1, fresh=Errors(5.0, 1.1, 1.0, 100.0)),  # 3.9 of 4: 97.5 %
+        result(4),
+    ]
+    c = summarise(results).crowded
+    assert (c.group.cases, c.group.named, c.group.spurious) == (3, Rate(2, 3), 1 / 3)
+    assert (c.group.all_found, c.group.removed) == (Rate(1, 3), 0.9)
+    assert c.mostly == Rate(1, 3)
+    assert c.worse == Rate(1, 3)
+    assert reasons(results[1]) == (
+        "wrong name first", "2 of 3 found", "worse than the paper's model", "1 spurious"
+    )  # fmt: skip
+    assert not summarise(results).confusions  # a crowd has no one name
+
+
+def test_sparse_cases() -> None:
+    """Not to name what cannot be told is no miss; a wrong name that explains is, and so is an
+    interval without the truth."""
+    right, wrong = Printed("k", 1.0, 2.0, 1.5), Printed("c", 1.0, 2.0, 2.1)
+    some: dict[str, Any] = {"kind": "sparse"}
+    none: dict[str, Any] = {**some, "hidden": (), "named": None, "matched": 0, "located": None,
+                            "level": 0.0}  # fmt: skip
+    results = [
+        result(1, **some, printed=(right, right, wrong)),
+        result(2, **some, **WRONG),
+        result(3, **some, **WRONG | {"verdict": "unexplained", "cannot_tell": True}),
+        result(4, **some, verdict="adequate", findings=(), named=False, matched=0),
+        result(5, **none, verdict="adequate", findings=(), printed=(right,)),
+        result(6, **none, verdict="unexplained", findings=()),
+    ]
+    hidden, nothing, every = summarise(results).sparse
+    assert [hidden.cases, nothing.cases, every.cases] == [4, 2, 6]
+    assert (hidden.wrong, hidden.right, hidden.undecided) == (Rate(1, 4), Rate(1, 4), Rate(1, 4))
+    assert (hidden.silent, hidden.unexplained, hidden.held) == (Rate(1, 4), Rate(0, 4), Rate(2, 3))
+    assert (nothing.silent, nothing.unexplained, every.held) == (Rate(1, 2), Rate(1, 2), Rate(3, 4))
+    assert [reasons(r) for r in results] == [
+        ("not within its interval: c",), ("wrong name",), (), (), (), ()
+    ]  # fmt: skip
+    assert summarise(results).whole.right == Rate(5, 6)
+
+
 def test_a_line_names_seed_and_hash_first() -> None:
     assert line(RESULTS[0]) == (
         "seed 1  abababababab  single: rub 3  said: rub  named yes  explained  located yes"
@@ -95,6 +144,9 @@ def test_a_line_names_seed_and_hash_first() -> None:
 def test_every_row_of_a_table_has_its_header() -> None:
     found = list(tables(summarise(RESULTS, FAILED)))
     assert len(found) == 10
+    asked = [result(1, kind="crowded"), result(2, kind="sparse")]
+    found += [t for t in tables(summarise(asked)) if t[0].startswith(("Crowded", "Sparse"))]
+    assert len(found) == 12
     for _, header, rows in found:
         assert {len(header)} == {len(row) for row in rows}
     assert list(tables(summarise([]))) == []

@@ -11,8 +11,9 @@ from pathlib import Path
 from erdctl.prove.case import Wish
 from erdctl.prove.document import proof_of
 from erdctl.prove.run import prove
-from erdctl.prove.summary import Rate, Summary
+from erdctl.prove.summary import Summary
 from erdctl.prove.tables import line
+from erdctl.prove.tally import Rate
 
 # Short campaigns of every kind, looked at before: of white and coloured noise, of exact motion and
 # of xdot from a noisy x, logged and not logged.
