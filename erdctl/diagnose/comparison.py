@@ -57,7 +57,10 @@ class Comparison:
         worth = self.gain > thresholds.LEAST_GAIN and self.size > thresholds.ROUNDING
         worth = worth and self.energy.steady
         many = self.t_stretches > max(thresholds.T_STRETCHES, critical)
-        much = self.energy.significant and self.energy.z > critical
+        # What acts in few places leaves the others as they were; what makes many of them worse for
+        # a large gain in some stands in for something else.
+        elsewhere = self.t_stretches > thresholds.T_ELSEWHERE
+        much = self.energy.significant and self.energy.z > critical and elsewhere
         return worth and ((many and self.t_groups > thresholds.T_GROUPS) or much)
 
     @property

@@ -101,6 +101,11 @@ T_GROUPS = 1.5
 # Origin: measured null, see `erdctl prove --nulls`.
 Z_ENERGY, T_PLACES, LEAST_PLACES = 6.0, 3.0, 1.5
 
+# The t statistic over stretches that a gain large in few places must have.
+# Decides: whether the other places are left as they were.
+# Origin: p = 0.07, as T_GROUPS.
+T_ELSEWHERE = 1.5
+
 # Part of logs whose records are alike and seem not to be.
 # Decides: whether the records differ in a gain by more than noise makes them, so that what they
 # agree on must be shown over them.
