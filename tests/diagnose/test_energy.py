@@ -8,7 +8,8 @@ from rig import campaign, noisy
 from scipy.signal import lfilter
 
 from erdctl.diagnose import thresholds
-from erdctl.diagnose.energy import critical_value, energy_test
+from erdctl.diagnose.comparison import Comparison
+from erdctl.diagnose.energy import Clusters, EnergyTest, critical_value, energy_test
 from erdctl.diagnose.problem import Problem, prepare
 
 
@@ -80,3 +81,13 @@ def test_the_best_of_many_must_show_more() -> None:
     few, many = (critical_value(random.standard_normal((m, 400))) for m in (30, 300))
     assert few == pytest.approx(norm.isf(thresholds.FALSE_ALARMS / 30), rel=0.08)
     assert many == pytest.approx(norm.isf(thresholds.FALSE_ALARMS / 300), rel=0.08)
+
+
+@pytest.mark.parametrize(("elsewhere", "significant"), [(-0.4, False), (2.5, True)])
+def test_a_gain_in_some_places_must_not_cost_the_others(
+    elsewhere: float, significant: bool
+) -> None:
+    """Large where it is, but most stretches are predicted worse: it stands in for something else."""
+    energy = EnergyTest(13.6, 1.0, Clusters(6.0, 16.5), Clusters(3.4, 6.2))
+    found = Comparison(0.16, elsewhere, 0.0, energy, 0.009, 297.5, 248.5, 0.29)
+    assert found.significant is significant

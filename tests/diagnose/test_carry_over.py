@@ -1,0 +1,69 @@
+"""An effect is kept only if it carries over to kinds of motion that the fit has not seen."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trajectories
+from rig import noisy, recording
+
+from erdctl.core.recording import Recording, concatenate
+from erdctl.diagnose.carry_over import left_out_exactly, to_other_motions
+from erdctl.diagnose.executor import executor
+from erdctl.diagnose.forward_step import Exploration, Explored
+from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
+from erdctl.diagnose.kinds_of_excitation import kinds_of_motion
+from erdctl.diagnose.problem import Problem, prepare
+from erdctl.effects import get
+from erdctl.estimate.starts import fresh_start
+
+MOTIONS = ((0.7, 0.02), (1.9, 0.01), (3.1, 0.006), (1.2, 0.014))
+STEPS = (0.0, 0.1, 0.2, 0.3)
+ONE_KIND = (4.0, -1.0, -1.0, -1.0)  # N, constant in the records of each motion
+
+
+def log() -> Recording:
+    """Friction everywhere, and a constant force that each kind of motion has of its own."""
+    t = np.arange(500) / 100.0
+    random, out = np.random.default_rng(4), []
+    for i, (frequency, amplitude) in enumerate(MOTIONS):
+        tones = trajectories.sine(frequency, amplitude, 0.3 * i)
+        for k in range(3):
+            duty = trajectories.random_hold(random, t, STEPS) if k else np.zeros(len(t))
+            x, xdot = tones.x(t), tones.velocity(t)
+            one = recording(t, x, xdot, duty, f"{i}-{k}", tones.velocity_at)
+            assert one.force is not None
+            out.append(replace(one, force=one.force + 1.5 * np.sign(xdot) + ONE_KIND[i]))
+    return noisy(concatenate(out), seed=6)
+
+
+@pytest.fixture(scope="module")
+def problem() -> Problem:
+    return prepare(log())
+
+
+def fit(problem: Problem, *names: str) -> Hypothesis:
+    return fit_hypothesis(problem, [get(n) for n in names], [fresh_start(0.05, 0.4)])
+
+
+def test_what_one_kind_of_motion_has_alone_is_dropped(problem: Problem) -> None:
+    best = fit(problem, "coulomb_friction", "gas_preload")
+    base = fit(problem)
+    with executor((problem,), 1, lambda stage, what: None) as here:
+        x = Exploration(problem, base, Explored([base, best]), here)
+        left = to_other_motions(x, best)
+    assert [e.name for e in left.effects] == ["coulomb_friction"]
+
+
+def test_each_kind_is_predicted_by_a_fit_to_the_others_alone(problem: Problem) -> None:
+    kinds = kinds_of_motion(problem.recording)
+    assert kinds is not None
+    found = left_out_exactly(problem, kinds, fit(problem, "coulomb_friction"))
+    first = kinds[problem.recording.starts[:-1]]
+    rest = problem.of([r for r in range(len(first)) if first[r] != first[0]])
+    apart = fit(rest, "coulomb_friction")
+    own = problem.of([r for r in range(len(first)) if first[r] == first[0]])
+    force = apart.model.force(own.block.signals, apart.values)
+    assert found[kinds == first[0]] == pytest.approx(own.block.force - force, abs=0.02)
