@@ -78,8 +78,7 @@ class Demand(Generic[S]):
     found : the measure of a log, or of one direction of it;  reason : why it is needed, in words
     drive : a `--drive` that offers it;  spared : what makes it unnecessary
     confounded : without it the data fix the parameter, but only together with another, then held
-    slight : without it the data may hold something of the parameter, so that a fit leaves it free
-        unless it was given a value, but too little to tell one
+    slight : without it the data may hold something of the parameter, but too little to tell a value
     """
 
     what: str
@@ -151,7 +150,7 @@ _STEPS = Demand[Excitation](
     "the duty is constant within every record, so the lag of Eq. 12 shows at reversals alone, by as"
     " much as the yield forces of the two directions differ; record steps of the duty while the"
     " piston moves",
-    # One state serves both directions: held at 0, the lag after a reversal would be a misfit.
+    # One state serves both directions: held at 0, the lag after a reversal can be a misfit.
     slight=True,
 )  # fmt: skip
 _STROKE = Demand[Excitation](
@@ -258,10 +257,11 @@ def held_values(needs: Mapping[str, Lack]) -> dict[str, float]:
     """Values for parameters that the data cannot identify, chosen so that the rest can be fitted.
 
     With one level of duty any beta will do, since sigma takes up the difference; without a field
-    there is no yield force, and no lag of it.
+    there is no yield force, and no lag of it; where the lag would show but slightly, a fit to that
+    may run far from what a step of the duty would show.
     """
     return {
         name: 1.0 if name.endswith(".beta") else 0.0
         for name, need in needs.items()
-        if not (need.confounded or need.slight)
+        if not need.confounded
     }

@@ -29,6 +29,7 @@ from erdctl.diagnose.residual.places import acting, places
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
 from erdctl.diagnose.search import Selection, on_all, refit, search
+from erdctl.diagnose.slight_lag import freed
 from erdctl.diagnose.thin import thinned
 from erdctl.diagnose.unseen import Unseen, kept_aside, on_unseen
 from erdctl.estimate.covariance import Fit
@@ -143,6 +144,8 @@ def diagnose(
         simulate(given, recording)  # one that diverges is refused before the search, not judged
         problem = with_given(problem, given, untestable(survey, given.model.effects))
         candidates = [e for e in candidates if e not in given.model.effects]
+    else:
+        problem = freed(problem)
     if rig.blocking:
         candidates = []  # what a wrong sign or unit does is no physics
     missing = untestable(survey, candidates)

@@ -113,7 +113,8 @@ def refit(problem: Problem, found: Selection, executor: Executor) -> Selection:
     carry over to records that were left out.
     """
     again = {key_of(h.effects): h for h in (found.base, found.best, *found.without.values())}
-    if len(found.best.residual) == len(problem.block.force):  # all samples were searched
+    whole = len(found.best.residual) == len(problem.block.force)  # all samples were searched
+    if whole and found.best.record_effects is None:  # which settle by and by
         explored = Explored(again.values())
     else:
         explored = _on_all_samples(problem, again.values(), executor)

@@ -191,6 +191,11 @@ STEPS_LOOK, LOOK_BEHIND = 6, 1.5
 # Origin: the square of that; at 0.01 a search in a flat valley ended early (0.2 % of the cost).
 SETTLED = 1e-3
 
+# Lag [s] that a log without steps of the duty may be fitted with.
+# Decides: whether it is one of the fluid, or stands in for something else.
+# Origin: the longest that ER dampers are published with, see `core.blocks.SETTLE`.
+LONGEST_LAG = 0.06
+
 # Starts of each companion that are combined, and combinations that are searched to the end.
 # Origin: budget.
 COMPANION_STARTS, COMPANION_BEST = 5, 3

@@ -11,7 +11,7 @@ whatever the stroke, the speed and the force: no law of the damper does that.
 Valid for records that were smoothed one by one, slow tests over longer times than fast ones, before
 they were stored; a window of the same time throughout looks alike where all have one cycle.
 Check: xdot > 0 throughout, samples 1 s apart, F = 0, 4, 8, 0, 0 N, W = 2 s gives 0, 4, 5, 2, 0 N.
->>> x = np.array([0.0, 1.0, 0.0, -1.0, 0.0]) * 2.0**0.5  # rms 1, as that of xdot: T = 2 pi s
+>>> x = np.array([1.0, -1.0, 1.0, -1.0, 0.0]) * 1.25**0.5  # rms 1, as that of xdot: T = 2 pi s
 >>> s = signals(np.ones(5), x=x, step=1.0)
 >>> force_smoothing(np.array([0.0, 4.0, 8.0, 0.0, 0.0]), s, {"w": 1 / np.pi}).round(9).tolist()
 [0.0, 4.0, 5.0, 2.0, 0.0]
@@ -129,7 +129,10 @@ def _cycles(s: Signals) -> Array:
     Means are over time: samples may lie closer where the motion turns.
     """
     first, count = s.starts[:-1], np.diff(s.starts)
-    dt = 0.5 * (s.step + np.concatenate([[0.0], s.step[:-1]]))
+    after, before = s.step.copy(), np.concatenate([[0.0], s.step[:-1]])
+    last = s.starts[1:] - 1
+    after[last], before[first] = before[last], after[first]
+    dt = 0.5 * (before + after)  # the same for all samples where the log is even
 
     def sums(values: Array) -> Array:
         return np.add.reduceat(dt * values, first)
