@@ -110,7 +110,7 @@ def _scales(over: Sequence[Ride], plain: Array) -> Scales:
         a=max(float(np.abs(r.a[at]).max()) for r, at in zip(over, inside, strict=True)),
         stroke=float(np.ptp(x)) / 2,
         force=float(np.ptp(plain)) / 2,
-        duty=max(float(r.duty.max()) for r in over),
+        duty=max(float(r.duty.max()) for r in over) or 1.0,
         shortest=min(spans),
         longest=max(spans),
         energy=max(float(p.sum()) / r.record.rate for p, r in zip(power, over, strict=True)),

@@ -82,6 +82,9 @@ def test_one_duty_and_one_speed_cannot_tell() -> None:
     assert found.verdict is Verdict.UNEXPLAINED
     document = to_json(found)
     assert document["cannot_tell"]
+    # No number within which the truth may not be: values are what a simulation uses, and no more.
+    told = document["corrected"]["params"]["parameters"]
+    assert not [q for group in told.values() for q in group.values() if q["value"] is not None]
     assert "backlash" not in document["limits"]  # only what was looked for
     assert "--drive sweep:" in remaining_text(found)
 
