@@ -11,6 +11,7 @@ from rig import campaign, noisy, recording
 
 from erdctl.core.recording import Recording, concatenate
 from erdctl.diagnose.conditions import one_condition
+from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Verdict, diagnose
 from erdctl.diagnose.wording import remaining_text
 from erdctl.effects import get
@@ -83,8 +84,7 @@ def test_one_duty_and_one_speed_cannot_tell() -> None:
     document = to_json(found)
     assert document["cannot_tell"]
     # No number within which the truth may not be: values are what a simulation uses, and no more.
-    told = document["corrected"]["params"]["parameters"]
-    assert not [q for group in told.values() for q in group.values() if q["value"] is not None]
+    assert not [n for n, e in parameters(found).estimates.items() if e.identified]
     assert "backlash" not in document["limits"]  # only what was looked for
     assert "--drive sweep:" in remaining_text(found)
 

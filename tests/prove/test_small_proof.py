@@ -17,10 +17,10 @@ from erdctl.prove.tally import Rate
 
 # Short campaigns of every kind, looked at before: of white and coloured noise, of exact motion and
 # of xdot from a noisy x, logged and not logged.
-SINGLES = (2012, 2013, 2018, 2031)
+SINGLES = (2012, 2018, 2031)
 PAIRS = (2011,)
 NULLS = (2006,)
-UNKNOWNS = (2016, 2036)
+UNKNOWNS = (2016,)
 SEEDS: tuple[int, ...] = (*SINGLES, *PAIRS, *NULLS, *UNKNOWNS)
 LEAST = {
     "named": 0.88,
@@ -49,7 +49,7 @@ def figures(s: Summary) -> dict[str, float | None]:
     }
 
 
-def test_eight_cases(tmp_path: Path) -> None:
+def test_six_cases(tmp_path: Path) -> None:
     """One test for all figures, as under xdist every process with one would run all the cases."""
     outcomes = prove(Wish(), SEEDS, tmp_path, jobs=2, on_outcome=lambda o: print(line(o)))
     proof = proof_of(Wish(), SEEDS, outcomes)
