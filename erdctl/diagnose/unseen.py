@@ -16,12 +16,14 @@ import numpy as np
 
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import unmet, untestable
-from erdctl.core.recording import Array, Recording
+from erdctl.core.recording import Array, Index, Recording
 from erdctl.diagnose import thresholds
+from erdctl.diagnose.carry_over import left_out_exactly
 from erdctl.diagnose.comparison import compare
-from erdctl.diagnose.hypothesis import Hypothesis, by_partition
+from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.kinds_of_excitation import excitation, kinds_of_motion, levels_of_duty
 from erdctl.diagnose.problem import Problem, mask_doubtful
+from erdctl.diagnose.thin import thinned
 from erdctl.model.effect import Effect
 
 
@@ -120,15 +122,25 @@ def _on(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
 
 def _left_out(base: Hypothesis, best: Hypothesis) -> Iterator[Unseen]:
     """Of all that is left out of the fit in turn; the search has seen it."""
-    recording = best.problem.recording
-    for left, part in (
-        (Left.MOTIONS, kinds_of_motion(recording)),
-        (Left.DUTIES, levels_of_duty(recording)),
+    few = thinned(best.problem, thresholds.CARRY_SAMPLES)
+    for left, kinds in (
+        (Left.MOTIONS, kinds_of_motion(few.recording)),
+        (Left.DUTIES, levels_of_duty(few.recording)),
     ):
-        if part is not None:
-            before, after = by_partition(base, part), by_partition(best, part)
-            yield _unseen(left, int(part.max()) + 1, (), before, after)
+        if kinds is not None:
+            pair = (_without_each(few, kinds, h) for h in (base, best))
+            yield _unseen(left, int(kinds.max()) + 1, (), *pair)
     yield _unseen(Left.GROUPS, best.problem.count, (), base, best)
+
+
+def _without_each(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> Hypothesis:
+    """A hypothesis with the residuals of fits anew: one step from the whole fit promises too much.
+
+    Of seven effects on a real damper it told 0.022 of the range where these fits give 0.465.
+    """
+    part = mask_doubtful(problem, hypothesis.model, hypothesis.values)
+    missed = left_out_exactly(part, kinds, hypothesis)
+    return replace(hypothesis, problem=part, cross_validated=missed)
 
 
 def _unseen(

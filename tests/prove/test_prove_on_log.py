@@ -6,6 +6,7 @@ import json
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import jsonschema
 import pandas as pd
@@ -70,9 +71,9 @@ def test_effects_can_be_chosen() -> None:
     assert len(hideable(None)) > 20
 
 
-def trial(effect: str | None, wanted: float, found: bool | None, **more: object) -> Trial:
+def trial(effect: str | None, wanted: float, found: bool | None, **more: Any) -> Trial:
     values = {"g": (1e-4 * wanted, "m")}
-    return Trial(effect, wanted, wanted, values, wanted, wanted, 1.0, found, **more)  # type: ignore[arg-type]
+    return Trial(effect, wanted, wanted, values, wanted, wanted, 1.0, found, **more)
 
 
 def test_found_from_the_size_from_which_all_larger_are() -> None:
