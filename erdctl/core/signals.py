@@ -111,7 +111,9 @@ class Signals:
         up = self.compressing
         i = np.flatnonzero(up[1:] != up[:-1])
         if len(self.starts) > 2:
-            i = i[~np.isin(i, self.starts[1:-1] - 1)]
+            within = np.ones(len(up), dtype=np.bool_)
+            within[self.starts[1:-1] - 1] = False
+            i = i[within[i]]
         before, after = self.xdot[i], self.xdot[i + 1]
         span = before - after
         safe = np.where(span == 0, 1.0, span)

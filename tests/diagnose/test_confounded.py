@@ -37,7 +37,11 @@ def test_kinetic_friction_and_yield_force_at_one_duty(tmp_path: Path) -> None:
     start = truth | {f"{FRICTION}.{s}": v for s, v in law.items()}
     fit, _ = fit_errors(problem, fit_hypothesis(problem, [get(FRICTION)], [start]))
     found: Any = SimpleNamespace(
-        fit=fit, problem=problem, noise_rms=1.0, rig=SimpleNamespace(to_json=list)
+        fit=fit,
+        problem=problem,
+        noise_rms=1.0,
+        rig=SimpleNamespace(to_json=list),
+        cannot_tell="",
     )
     told = parameters(found).estimates
     assert told[f"{FRICTION}.F_k"].value is None

@@ -52,30 +52,58 @@ def first_of_each(found: Sequence[Piece]) -> list[Piece]:
     ]
 
 
-def _yield_force(p: Piece, T_d: float, beta: float, every: int = 1) -> Array:
-    """(n,) yield force of Eqs. 12 and 18 for sigma = 1, settled where the stretch begins."""
-    duty = p.of("duty")
-    steps = p.duty_steps
-    if T_d == 0.0 or not len(steps) or len(steps) > STEPS:
-        return np.asarray(duty[::every] ** beta)
-    # Step by step, without a filter of SciPy, whose import takes longer than all checks together.
-    keep = float(np.exp(-p.step / T_d))
-    held = np.concatenate([duty[:1], duty[steps]]) ** beta
-    first = np.concatenate([[0], steps])
-    lasts = keep ** np.diff(first, append=len(duty))
-    away = np.zeros(len(first))  # of the force from what it tends to, where a step is made
-    for k in range(1, len(first)):
-        away[k] = away[k - 1] * lasts[k - 1] + held[k - 1] - held[k]
-    step = np.repeat(np.arange(len(first)), np.diff(first, append=len(duty)))[::every]
-    since = np.arange(1, len(duty) + 1, every) - first[step]
-    return np.asarray(held[step] + away[step] * np.exp(-p.step / T_d * since))
+@dataclass(frozen=True, eq=False)
+class _Held:
+    """The duty of stretches, one after the other, as levels that are held.
+
+    level : (k,) duties [1];  first : (k,) whether a stretch begins with it, settled;  lasts : (k,)
+        [s];  of, since : (n,) the level of each sample, and the time since it was set [s]
+    """
+
+    level: Array
+    first: npt.NDArray[np.bool_]
+    lasts: Array
+    of: Index
+    since: Array
+
+    @classmethod
+    def within(cls, found: Sequence[Piece], every: int) -> _Held:
+        parts, count = [], 0
+        for p in found:
+            duty, steps = p.of("duty"), p.duty_steps
+            if len(steps) > STEPS:
+                # As if settled, every sample for itself.
+                level = duty[::every]
+                k = np.arange(len(level))
+                part = (level, k >= 0, np.zeros(len(k)), count + k, np.zeros(len(k)))
+            else:
+                set_at = np.concatenate([[0], steps])
+                samples = np.diff(set_at, append=len(duty))
+                k = np.repeat(np.arange(len(set_at)), samples)[::every]
+                since = p.step * (np.arange(1, len(duty) + 1, every) - set_at[k])
+                part = (duty[set_at], set_at == 0, p.step * samples, count + k, since)
+            parts.append(part)
+            count += len(part[0])
+        return cls(*(np.concatenate(c) for c in zip(*parts, strict=True)))
+
+    def yield_force(self, T_d: float, beta: float) -> Array:
+        """(n,) yield force of Eqs. 12 and 18 for sigma = 1."""
+        held = self.level**beta
+        if T_d == 0.0 or self.first.all():
+            return np.asarray(held[self.of])
+        # Step by step, without a filter of SciPy, whose import takes longer than all checks.
+        kept = np.exp(-self.lasts / T_d)
+        away = np.zeros(len(held))  # of the force from what it tends to, where a step is made
+        for k in np.flatnonzero(~self.first).tolist():
+            away[k] = away[k - 1] * kept[k - 1] + held[k - 1] - held[k]
+        return np.asarray(held[self.of] + away[self.of] * np.exp(-self.since / T_d))
 
 
 def _rows(p: Piece, T_d: float, beta: float, every: int = 1) -> Rows:
     """Columns of a stretch: a constant; x, xdot and yield force in either direction; friction."""
     x, xdot, t = p.x[::every], p.xdot[::every], p.t[::every]
     up = xdot > 0
-    field = _yield_force(p, T_d, beta, every)
+    field = _Held.within([p], every).yield_force(T_d, beta)
     # Column by column in memory: sums of products and products with parameters run along them.
     columns = np.empty((8, len(x)))
     columns[0] = 1.0
@@ -110,18 +138,16 @@ def best_rows(found: Sequence[Piece]) -> list[Rows]:
 class _Trial:
     """Some samples of all records in one array, on which lags and exponents are tried.
 
-    rows : of each record;  columns (n, p), force and duty (n,) : of all, one after the other; the
-        columns of the yield force are those of the last trial
+    columns (n, p), force (n,), duty : of all records, one after the other; the columns of the
+        yield force are those of the last trial
     weights : (n,) with which every record counts alike;  starts : (k,) where each begins
     """
 
-    rows: Sequence[Rows]
     columns: Array
     force: Array
-    duty: Array
+    duty: _Held
     weights: Array
     starts: Index
-    every: int
 
     @classmethod
     def of(cls, found: Sequence[Piece], every: int) -> _Trial:
@@ -129,19 +155,14 @@ class _Trial:
         weights = [r.smooth / max(int(np.count_nonzero(r.smooth)), 1) for r in rows]
         sizes = [len(r.force) for r in rows]
         return cls(
-            rows, np.concatenate([r.columns.T for r in rows], axis=1).T,
-            np.concatenate([r.force for r in rows]),
-            np.concatenate([p.of("duty")[::every] for p in found]), np.concatenate(weights),
-            np.cumsum([0, *sizes[:-1]]), every,
+            np.concatenate([r.columns.T for r in rows], axis=1).T,
+            np.concatenate([r.force for r in rows]), _Held.within(found, every),
+            np.concatenate(weights), np.cumsum([0, *sizes[:-1]]),
         )  # fmt: skip
 
     def cost(self, T_d: float, beta: float) -> float:
         """Sum of the logarithms of the records' misfits."""
-        if T_d == 0.0:
-            field = self.duty**beta
-        else:
-            parts = [_yield_force(r.piece, T_d, beta, self.every) for r in self.rows]
-            field = np.concatenate(parts)
+        field = self.duty.yield_force(T_d, beta)
         A = self.columns
         A[:, 5] = field * (A[:, 7] > 0)
         A[:, 6] = -field * (A[:, 7] < 0)
