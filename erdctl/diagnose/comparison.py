@@ -54,20 +54,23 @@ class Comparison:
 
     def beyond(self, critical: float) -> bool:
         """The same, where the best of many was picked, see `energy.critical_value`."""
-        worth = self.gain > thresholds.LEAST_GAIN and self.size > thresholds.ROUNDING
-        worth = worth and self.energy.steady
+        if not (self.gain > thresholds.LEAST_GAIN and self.size > thresholds.ROUNDING):
+            return False
         many = self.t_stretches > max(thresholds.T_STRETCHES, critical)
+        if many and self.t_groups > thresholds.T_GROUPS:
+            return self.energy.steady
         # What acts in few places leaves the others as they were; what makes many of them worse for
         # a large gain in some stands in for something else.
         elsewhere = self.t_stretches > thresholds.T_ELSEWHERE
-        much = self.energy.significant and self.energy.z > critical and elsewhere
-        return worth and ((many and self.t_groups > thresholds.T_GROUPS) or much)
+        return elsewhere and self.energy.significant and self.energy.z > critical
 
     @property
     def tied(self) -> bool:
         """Whether the two cannot be told apart: neither by places, nor by energy, nor by size."""
-        apart = max(self.t_stretches, self.energy.z) > thresholds.T_TIE
-        return self.gain < thresholds.LEAST_GAIN or not (apart or self.gain > self.scatter)
+        if self.gain < thresholds.LEAST_GAIN:
+            return True
+        apart = self.t_stretches > thresholds.T_TIE or self.energy.z > thresholds.T_TIE
+        return not (apart or self.gain > self.scatter)
 
 
 def compare(problem: Problem, worse: Hypothesis, better: Hypothesis) -> Comparison:

@@ -19,7 +19,9 @@ Source: D. I. Harvey, S. J. Leybourne, P. Newbold, J. Business and Economic Stat
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -39,20 +41,28 @@ class Clusters:
 
 @dataclass(frozen=True)
 class EnergyTest:
-    """z over noise, the slope, and its steadiness over groups and over records."""
+    """z over noise, the slope, and its steadiness over groups and over records.
 
-    z: float
+    over_noise : gives z, which takes longer than all else and is often not asked for
+    """
+
+    over_noise: Callable[[], float]
     slope: float
     groups: Clusters
     records: Clusters
+
+    @cached_property
+    def z(self) -> float:
+        """The sum u over its standard error."""
+        return self.over_noise()
 
     @property
     def significant(self) -> bool:
         """Whether one is better beyond chance, in however few places."""
         return (
-            self.z > thresholds.Z_ENERGY
-            and self.groups.places >= thresholds.LEAST_PLACES
+            self.groups.places >= thresholds.LEAST_PLACES
             and self.groups.t > thresholds.T_PLACES
+            and self.z > thresholds.Z_ENERGY
             and self.steady
         )
 
@@ -63,13 +73,15 @@ class EnergyTest:
         (z / t)^2 is the scatter of the records over that of the noise, which is about chi^2 / k,
         with k = places - 1, if they are alike. Where they are not, t itself must be large.
         """
-        from scipy.special import chdtri
-
         records, freedom = self.records, self.records.places - 1.0
         if records.places < thresholds.LEAST_PLACES or records.t > thresholds.T_PLACES:
             return True
+        if records.t <= 0.0:
+            return False
+        from scipy.special import chdtri
+
         most = float(chdtri(freedom, thresholds.UNLIKE_RECORDS)) / freedom
-        return records.t > 0.0 and self.z**2 < most * records.t**2
+        return self.z**2 < most * records.t**2
 
 
 def energy_test(problem: Problem, worse: Array, better: Array) -> EnergyTest:
@@ -79,20 +91,22 @@ def energy_test(problem: Problem, worse: Array, better: Array) -> EnergyTest:
     u, p = weight * d * worse, weight * d * d
     power = float(p.sum())
     if not power > 0.0:
-        return EnergyTest(0.0, 0.0, Clusters(0.0, 0.0), Clusters(0.0, 0.0))
+        return EnergyTest(float, 0.0, Clusters(0.0, 0.0), Clusters(0.0, 0.0))
     slope = float(u.sum()) / power
+    record = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    over_noise = partial(_over_noise, problem, worse, better, slope)
+    return EnergyTest(over_noise, slope, _clusters(u, p, problem.group), _clusters(u, p, record))
+
+
+def _over_noise(problem: Problem, worse: Array, better: Array, slope: float) -> float:
+    """z, with the variance of what the slope leaves."""
+    weight, starts = problem.block.weight, problem.block.signals.starts
+    d = worse - better
     rest = worse - slope * d
     noise = ColouredNoise.of(rest * np.sqrt(weight), starts)
     flat = noise.innovation * float(np.sum(noise.colour((weight * d)[None], starts) ** 2))
     uneven = float(np.sum(np.bincount(problem.stretch, weight * d * rest) ** 2))
-    variance = max(flat, uneven)
-    record = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
-    return EnergyTest(
-        float(u.sum()) / float(np.sqrt(max(variance, 1e-300))),
-        slope,
-        _clusters(u, p, problem.group),
-        _clusters(u, p, record),
-    )
+    return float(np.dot(weight * d, worse)) / float(np.sqrt(max(flat, uneven, 1e-300)))
 
 
 def energy_columns(problem: Problem, worse: Array, better: Array) -> list[Array]:

@@ -35,14 +35,19 @@ class ColouredNoise:
 
         used : (n,) samples that count; the residual is 0 elsewhere
         """
-        sums, pairs = np.zeros((2, max_order + 1))
-        counts = np.ones(len(residual)) if used is None else used.astype(np.float64)
-        for a, b in pairwise(starts.tolist()):
-            r, c = residual[a:b], counts[a:b]
-            gaps = used is not None and not c.all()
-            for k in range(min(max_order + 1, len(r))):
-                sums[k] += np.dot(r[: len(r) - k], r[k:])
-                pairs[k] += np.dot(c[: len(c) - k], c[k:]) if gaps else len(r) - k
+        r = _apart(residual, starts, max_order)
+        c = (
+            None
+            if used is None or used.all()
+            else _apart(used.astype(np.float64), starts, max_order)
+        )
+        lags = range(max_order + 1)
+        sums = np.array([np.dot(r[: len(r) - k], r[k:]) for k in lags])
+        if c is None:
+            length = np.diff(starts)
+            pairs = np.array([np.maximum(length - k, 0).sum() for k in lags], dtype=np.float64)
+        else:
+            pairs = np.array([np.dot(c[: len(c) - k], c[k:]) for k in lags])
         return cls._solve(sums, pairs)
 
     @classmethod
@@ -97,3 +102,11 @@ class ColouredNoise:
             for a, b in pairwise(starts.tolist())
         ]
         return np.asarray(np.concatenate(parts, axis=1))
+
+
+def _apart(values: Array, starts: Index, gap: int) -> Array:
+    """Values (n,) of several records with so many zeros after each that none meets the next."""
+    record = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    out = np.zeros(len(values) + gap * (len(starts) - 1))
+    out[np.arange(len(values)) + gap * record] = values
+    return out

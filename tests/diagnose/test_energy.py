@@ -88,6 +88,6 @@ def test_a_gain_in_some_places_must_not_cost_the_others(
     elsewhere: float, significant: bool
 ) -> None:
     """Large where it is, but most stretches get worse: it stands in for something else."""
-    energy = EnergyTest(13.6, 1.0, Clusters(6.0, 16.5), Clusters(3.4, 6.2))
+    energy = EnergyTest(lambda: 13.6, 1.0, Clusters(6.0, 16.5), Clusters(3.4, 6.2))
     found = Comparison(0.16, elsewhere, 0.0, energy, 0.009, 297.5, 248.5, 0.29)
     assert found.significant is significant
