@@ -253,10 +253,11 @@ LEAST_RECORD_GAIN = 0.2
 # Origin: budget.
 FOLDS, REGRESSION_SAMPLES = 5, 12_000
 
-# Trees, learning rate, leaves, samples of a leaf, penalty of the gradient boosting.
+# Trees, learning rate, leaves, bins of an input, samples of a leaf, penalty of the boosting.
 # Decides: how fine a dependence on the state is seen.
-# Origin: none.
-TREES, RATE, LEAVES, LEAF, PENALTY = 60, 0.12, 24, 60, 10.0
+# Origin: measured: 60 trees of 24 leaves at a rate of 0.12 with 255 bins have the same t statistics
+# on 13 faint misfits (median of the ratios 0.98), and take nearly twice as long.
+TREES, RATE, LEAVES, BINS, LEAF, PENALTY = 40, 0.18, 16, 64, 60, 10.0
 
 # t statistics over stretches and over groups by which a predicted part must reduce the residual,
 # and its share of the square.

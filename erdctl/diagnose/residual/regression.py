@@ -25,7 +25,8 @@ def cross_predicted(
     splits = [(train[learn[train]], test) for train, test in folds.split(inputs, groups=group)]
     machine = HistGradientBoostingRegressor(
         max_iter=thresholds.TREES, learning_rate=thresholds.RATE,
-        max_leaf_nodes=thresholds.LEAVES, min_samples_leaf=thresholds.LEAF,
+        max_leaf_nodes=thresholds.LEAVES, max_bins=thresholds.BINS,
+        min_samples_leaf=thresholds.LEAF,
         l2_regularization=thresholds.PENALTY, early_stopping=False, random_state=0,
     )  # fmt: skip
     # Its threads wait for each other in busy loops: on a shared machine that takes minutes.
