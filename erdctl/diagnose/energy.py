@@ -20,7 +20,7 @@ Source: D. I. Harvey, S. J. Leybourne, P. Newbold, J. Business and Economic Stat
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 
 import numpy as np
@@ -46,7 +46,7 @@ class EnergyTest:
     over_noise : gives z, which takes longer than all else and is often not asked for
     """
 
-    over_noise: Callable[[], float]
+    over_noise: Callable[[], float] = field(compare=False, repr=False)
     slope: float
     groups: Clusters
     records: Clusters

@@ -127,8 +127,10 @@ def run(command: str, work: Path) -> subprocess.CompletedProcess[str]:
     # Test workers are told of 80 columns; a document shows what a pipe gets, which has no width.
     world = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
     path = f"{work.parent / 'bin'}{os.pathsep}{os.environ['PATH']}"
+    # The shell stays: completion is installed for the shell that erdctl was started from.
+    script = command.replace("/tmp/", f"{work}/") + "\n:"
     return subprocess.run(
-        ["bash", "-euo", "pipefail", "-c", command.replace("/tmp/", f"{work}/")],
+        ["bash", "-euo", "pipefail", "-c", script],
         cwd=work, env={**world, "PATH": path, "HOME": str(work.parent)},
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, stdin=subprocess.DEVNULL,
     )  # fmt: skip

@@ -84,10 +84,10 @@ def lack_of_fit_test(problem: Problem, residual: Array, seed: int = 0) -> LackOf
     rest = residual - predicted
     total = float(problem.weight_of.sum())
     square = float(np.dot(weight, residual**2)) / total
-    expected, noise = _variance(problem, splits[0][0], rest, rng, measures)
+    beyond, noise = _variance(problem, splits[0][0], rest, rng, measures)
     line, hum = spectral_lines(problem, rest)
     left = float(np.dot(weight, rest**2)) / total
-    excess = predicted**2 + np.maximum(expected - noise, 0.0)
+    excess = predicted**2 + beyond
     part = 0.0 if line is None else line.share
     impulses = impulse_share(problem, rest)
     swings = 1.0 - (1.0 - part) * (1.0 - impulses)
@@ -162,39 +162,63 @@ def _variance(
     rng: np.random.Generator,
     measures: dict[str, float],
 ) -> tuple[Array, float]:
-    """The mean square to be expected at each sample (n,), and that of the noise alone.
+    """The mean square beyond noise to be expected at each sample (n,), and the noise's own.
 
     A regression of the logarithm of the square tells where it is large; how large, is the mean over
-    samples of which about the same is expected, that the regression has not seen.
+    samples of which about the same is expected, that the regression has not seen. Noise that grows
+    with the force, say, is large there from one sample to the next as well, and misfit is not: it
+    lasts. So noise is taken to grow as third differences do.
     measures : receives the statistics
     """
     weight, square = problem.block.weight, rest**2
     mean = float(np.dot(weight, square) / weight.sum())
-    even = np.full_like(rest, mean)
+    nothing = np.zeros_like(rest)
     if mean <= 0.0:
-        return even, mean
+        return nothing, mean
     logarithm = np.log(square + thresholds.LOG_FLOOR * mean)
     order = cross_predicted(weight, inputs, problem.group, logarithm, rng)
     use = weight > 0
     cells = round(1 / thresholds.NOISE_PART)
     edges = np.quantile(order[use], np.linspace(0, 1, cells + 1)[1:-1])
     cell = np.searchsorted(edges, order)
-    count = np.bincount(cell, weight, cells)
-    level = np.bincount(cell, square * weight, cells) / np.maximum(count, 1e-300)
     middle = float(np.median(order[use]))
-    ratios = []
+    quick = _third_differences(rest, problem.block.signals.starts)
+    quick[~use] = np.nan
+    ratios, grown = [], []
     for g in range(problem.count):
         inside = (problem.group == g) & use
         lower, upper = inside & (order <= middle), inside & (order > middle)
         if min(np.count_nonzero(lower), np.count_nonzero(upper)) > thresholds.STATE_SAMPLES:
             ratios.append(float(np.log(square[upper].mean() / max(square[lower].mean(), 1e-300))))
-    ratio = np.array(ratios)
-    if len(ratio) < thresholds.STATE_GROUPS:
-        return even, mean
+            grown.append(_growth(quick[upper], quick[lower]))
+    if len(ratios) < thresholds.STATE_GROUPS:
+        return nothing, mean
+    ratio = np.array(ratios) - np.maximum(np.mean(grown), 0.0)
     measures["T_VARIANCE"] = t_statistic(ratio)
     measures["VARIANCE_RATIO"] = float(np.exp(ratio.mean() / 2.0))
     if measures["T_VARIANCE"] <= thresholds.T_VARIANCE or ratio.mean() < 2.0 * np.log(
         thresholds.VARIANCE_RATIO
     ):
-        return even, mean
-    return level[cell], float(level[0])
+        return nothing, mean
+    count = np.bincount(cell, weight, cells)
+    level = np.bincount(cell, square * weight, cells) / np.maximum(count, 1e-300)
+    growth = [_growth(quick[use & (cell == c)], quick[use & (cell == 0)]) for c in range(cells)]
+    noise = np.minimum(level, level[0] * np.exp(np.maximum(growth, 0.0)))
+    return (level - noise)[cell], float(np.dot(weight, noise[cell]) / weight.sum())
+
+
+def _third_differences(values: Array, starts: Index) -> Array:
+    """(n,) squares of third differences of (n,) values, nan where they would span two records."""
+    out = np.full_like(values, np.nan)
+    out[1:-2] = np.diff(values, 3) ** 2
+    for a in starts.tolist():
+        out[max(a - 2, 0) : a + 1] = np.nan
+    return out
+
+
+def _growth(upper: Array, lower: Array) -> float:
+    """Logarithm of the ratio of the medians of two samples, which a few jumps do not change."""
+    if np.isnan(upper).all() or np.isnan(lower).all():
+        return 0.0
+    above, below = float(np.nanmedian(upper)), float(np.nanmedian(lower))
+    return float(np.log(above / below)) if above > 0.0 and below > 0.0 else 0.0
