@@ -25,7 +25,6 @@ from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.forward_step import Exploration, Explored, forward_step, key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.look_alikes import is_preferred, look_alikes
-from erdctl.diagnose.one_record import beyond_one_record
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.estimate.starts import fresh_start
@@ -89,7 +88,7 @@ def search(
     best = eliminate(x, best)
     best = second_pass(x, best, most)
     best = as_good_as_explored(x, best)
-    best = beyond_one_record(x, to_other_motions(x, best))
+    best = to_other_motions(x, best)
     alike: dict[str, tuple[tuple[str, Hypothesis], ...]] = {}
     for effect in x.added(best):
         found = look_alikes(x, best, effect, candidates, singles)
