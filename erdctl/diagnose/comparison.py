@@ -31,6 +31,8 @@ class Comparison:
     energy : the test of what the two predict differently
     size : root of the reduction over the range of the force
     before, after : the mean squares themselves [N^2]
+    settling : mean square of the fits' residuals over all samples, those without weight too, over
+        that of the worse one
     scatter : standard error of a mean square from as many groups, over itself
     """
 
@@ -41,6 +43,7 @@ class Comparison:
     size: float
     before: float
     after: float
+    settling: float
     scatter: float
 
     @property
@@ -48,13 +51,16 @@ class Comparison:
         """Whether the gain is beyond chance, and worth a name.
 
         What one record has of its own, a gain or a zero, is easily taken by a free parameter, of a
-        richer form above all; so the gain must be as steady over records as noise lets it be.
+        richer form above all; so the gain must be as steady over records as noise lets it be. And
+        a model must not pay for it where records settle, which no fit weighs: a drive does.
         """
         return self.beyond(0.0)
 
     def beyond(self, critical: float) -> bool:
         """The same, where the best of many was picked, see `energy.critical_value`."""
         if not (self.gain > thresholds.LEAST_GAIN and self.size > thresholds.ROUNDING):
+            return False
+        if self.settling > 1.0:
             return False
         many = self.t_stretches > max(thresholds.T_STRETCHES, critical)
         if many and self.t_groups > thresholds.T_GROUPS:
@@ -83,7 +89,9 @@ def compare(problem: Problem, worse: Hypothesis, better: Hypothesis) -> Comparis
     size = float(np.sqrt(max(before - after, 0.0))) / float(np.ptp(problem.block.force))
     energy = energy_test(common, worse.cross_validated, better.cross_validated)
     scatter = float(np.sqrt(2.0 / problem.count))
-    return Comparison(gain, t_stretches, t_groups, energy, size, before, after, scatter)
+    left = [float(np.mean(h.residual**2)) for h in (worse, better)]
+    settling = left[1] / max(left[0], 1e-300)
+    return Comparison(gain, t_stretches, t_groups, energy, size, before, after, settling, scatter)
 
 
 def critical_of(problem: Problem, worse: Hypothesis, others: Sequence[Hypothesis]) -> float:
