@@ -15,17 +15,16 @@ from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Recording
 from erdctl.diagnose import scores, thresholds
-from erdctl.diagnose.comparison import Comparison, compare
 from erdctl.diagnose.conditions import one_condition
 from erdctl.diagnose.detectable import Detectable, detectable
-from erdctl.diagnose.discriminating_drive import DiscriminatingDrive, discriminating_drive
 from erdctl.diagnose.executor import executor
+from erdctl.diagnose.findings import Finding, earned, findings, part_taken
 from erdctl.diagnose.forward_step import key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem, prepare, with_given
 from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying
 from erdctl.diagnose.residual.localisation import Region, record_region
-from erdctl.diagnose.residual.places import acting, places
+from erdctl.diagnose.residual.places import places
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
 from erdctl.diagnose.search import Selection, on_all, refit, search
@@ -50,30 +49,6 @@ class Verdict(StrEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class Finding:
-    """One effect that the paper's model left out.
-
-    gain : against the best model without it, on what neither has seen;  acts : where it does
-    before, after : NRMSE on groups left out of the fit, without and with it
-    test : the drive that would tell it from its equivalents, if it has any
-    """
-
-    effect: Effect
-    equivalent: tuple[str, ...]
-    gain: Comparison
-    acts: tuple[Region, ...]
-    before: float
-    after: float
-    runner_up: str | None
-    test: DiscriminatingDrive | None
-
-    @property
-    def where(self) -> Region | None:
-        """The place at which it acts most."""
-        return self.acts[0] if self.acts else None
-
-
-@dataclass(frozen=True, eq=False)
 class Diagnosis:
     """What was found; see the contract for the meaning of the verdicts.
 
@@ -86,7 +61,8 @@ class Diagnosis:
     cross_validated : scores of the model to answer for and of the best, each sample by a fit
         without its group, beyond the record effects
     unseen : errors by what was left out, that which neither fit nor search has seen first
-    withdrawn : effects that the search chose, and that predict what it has not seen the worse
+    withdrawn : effects that the search chose, and that predict what it has not seen the worse, or
+        that leave more of the misfit than the part `taken` that they take
     undetected : what was not named, and the size from which these data would have shown it
     rig : what is wrong with the recording; if all of it is, nothing was searched
     """
@@ -107,6 +83,7 @@ class Diagnosis:
     cross_validated: tuple[Validation, Validation]
     unseen: tuple[Unseen, ...]
     withdrawn: tuple[Effect, ...]
+    taken: float | None
     record_effects: RecordEffects | None
     lack_of_fit: LackOfFit
     resemblance: Resemblance | None
@@ -161,14 +138,20 @@ def diagnose(
         if withdrawn:
             selection = selection.nothing
             unseen = on_unseen(problem.of(aside), selection.base, selection.best)
-        findings = _findings(seen, selection)
+        found = findings(seen, selection)
         if aside:
             selection = on_all(problem, selection, workers)
-    best = selection.best
     progress("lack of fit", part_of("regression of the residual", 1, 1))
-    lack_of_fit = selection.left or lack_of_fit_test(best.problem, best.residual, seed)
+    lack_of_fit, taken = _left(selection, seed), None
+    if selection.named and _matters(problem, selection, lack_of_fit):
+        part = part_taken(problem, selection, lack_of_fit)
+        if not earned(part):
+            withdrawn, found, taken, selection = selection.named, (), part, selection.nothing
+            unseen = on_unseen(problem.of(aside) if aside else None, selection.base, selection.base)
+            lack_of_fit = _left(selection, seed)
+    best = selection.best
     noise = lack_of_fit.noise_rms
-    left = lack_of_fit.significant and _matters(problem, selection, lack_of_fit)
+    left = _matters(problem, selection, lack_of_fit)
     cannot_tell = bool(selection.named) and one_condition(recording)
     if left or rig.blocking or cannot_tell:
         verdict = Verdict.UNEXPLAINED
@@ -178,7 +161,7 @@ def diagnose(
     if verdict is not Verdict.ADEQUATE:
         missed = selection.base.residual - best.residual  # what both predict, so without noise
         square = lack_of_fit.square(missed) if left else missed**2
-        acted = [(f.effect, f.acts) for f in findings]
+        acted = [(f.effect, f.acts) for f in found]
         alone = record_region(best.problem, square)
         mismatch = places(best.problem, square, acted, sure=not left)
         mismatch += [alone] if alone else []
@@ -195,7 +178,7 @@ def diagnose(
         selection=selection,
         fit=fit,
         record_effects=record_effects,
-        findings=findings,
+        findings=found,
         mismatch=tuple(mismatch),
         given=given,
         baseline=refitted if given is None else scores.of(problem, given.model, given.values),
@@ -204,6 +187,7 @@ def diagnose(
         carried=corrected if record_effects is None else scores.carried(problem, best),
         unseen=unseen,
         withdrawn=withdrawn,
+        taken=taken,
         cross_validated=(
             scores.cross_validated(best.problem, selection.base),
             scores.cross_validated(best.problem, best),
@@ -216,8 +200,15 @@ def diagnose(
     )
 
 
+def _left(selection: Selection, seed: int) -> LackOfFit:
+    best = selection.best
+    return selection.left or lack_of_fit_test(best.problem, best.residual, seed)
+
+
 def _matters(problem: Problem, selection: Selection, lack_of_fit: LackOfFit) -> bool:
     """Whether a rest is more than noise, rounding, and the last per cent of what was explained."""
+    if not lack_of_fit.significant:
+        return False
     misfit, noise = lack_of_fit.misfit_rms, lack_of_fit.noise_rms
     missed = max(selection.base.score - noise**2, 0.0)
     rounding = thresholds.ROUNDING * float(np.ptp(problem.block.force))
@@ -254,36 +245,6 @@ def _enough(problem: Problem) -> None:
             f" out in turn, and this log has {count}; record at least"
             f" {2 * least * thresholds.STRETCH:g} s"
         )
-
-
-def _findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
-    best = selection.best
-    scale = float(np.ptp(problem.block.force))
-    found = []
-    with_all = best.model.force(problem.block.signals, best.values)
-    chosen = {e.name for e in best.effects}
-    order = (h.effects[-1].name for h in selection.singles)
-    runner = next((name for name in order if name not in chosen), None)
-    for effect in selection.named:
-        without = selection.without[effect.name]
-        # Where it acts; what acts everywhere is seen where the other parameters fail to absorb it.
-        alone = best.model.force(problem.block.signals, {**best.values, **effect.off})
-        absent = without.model.force(problem.block.signals, without.values)
-        squares = [(with_all - force) ** 2 for force in (alone, absent)]
-        gain = compare(problem, without, best)
-        found.append(
-            Finding(
-                effect=effect,
-                equivalent=tuple(name for name, _ in selection.look_alikes[effect.name]),
-                test=discriminating_drive(problem, best, selection.look_alikes[effect.name]),
-                gain=gain,
-                acts=tuple(acting(best.problem, effect, best.values, squares)),
-                before=float(np.sqrt(gain.before)) / scale,
-                after=float(np.sqrt(gain.after)) / scale,
-                runner_up=runner,
-            )
-        )
-    return tuple(sorted(found, key=lambda f: -f.gain.gain))
 
 
 def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEffects | None]:

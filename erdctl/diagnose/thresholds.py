@@ -123,6 +123,11 @@ FLIPS, FALSE_ALARMS = 4000, 0.002
 # Origin: none.
 LEAST_GAIN = 0.004
 
+# Part of the misfit's square that all named effects take together, where they do not take all.
+# Decides: whether a name is earned, or what stays may be the cause of all of it.
+# Origin: more than they leave.
+LEAST_TAKEN = 0.5
+
 # Reduction of the cross-validated error over the range of the force.
 # Decides: whether a gain may be the rounding of a simulation.
 # Origin: simulations agree with an independent solution within 1e-4 of the range.

@@ -11,7 +11,8 @@ from erdctl.bench.identifiability import Bench
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.conditions import one_condition
 from erdctl.diagnose.detectable import Detectable
-from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict
+from erdctl.diagnose.diagnosis import Diagnosis, Verdict
+from erdctl.diagnose.findings import Finding
 from erdctl.diagnose.residual.predictability import LackOfFit
 from erdctl.diagnose.unseen import Left, Unseen
 
@@ -100,6 +101,11 @@ def remaining_text(found: Diagnosis) -> str:
 
 def _withdrawn(found: Diagnosis) -> str:
     names = ", ".join(e.name for e in found.withdrawn)
+    if found.taken is not None:
+        return (
+            f"; the search had chosen {names} for {100 * found.taken:.0f} % of its square, less"
+            " than what stays, and so names nothing"
+        )
     return names and (
         f"; the search had chosen {names}, which predict the records kept aside worse than the"
         " model without them, and so are not named"

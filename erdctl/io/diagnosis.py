@@ -8,7 +8,8 @@ from typing import Any
 from msgspec import to_builtins
 
 from erdctl.diagnose.corrected import baseline, parameters
-from erdctl.diagnose.diagnosis import Diagnosis, Finding
+from erdctl.diagnose.diagnosis import Diagnosis
+from erdctl.diagnose.findings import Finding
 from erdctl.diagnose.residual.localisation import Region
 from erdctl.diagnose.unseen import Unseen
 from erdctl.diagnose.wording import finding_text, record_values, remaining_text, unseen_text

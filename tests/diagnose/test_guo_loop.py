@@ -18,7 +18,8 @@ from scipy.signal import lfilter
 
 from erdctl.core.recording import Array, Recording, concatenate
 from erdctl.core.signals import Signals
-from erdctl.diagnose.diagnosis import Diagnosis, Finding, Verdict, diagnose
+from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
+from erdctl.diagnose.findings import Finding
 from erdctl.effects import catalogue
 from erdctl.score.nrmse import nrmse
 

@@ -1,0 +1,88 @@
+"""The findings of a search, and whether they have earned their names."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from erdctl.diagnose import thresholds
+from erdctl.diagnose.comparison import Comparison, compare
+from erdctl.diagnose.discriminating_drive import DiscriminatingDrive, discriminating_drive
+from erdctl.diagnose.problem import Problem
+from erdctl.diagnose.residual.localisation import Region
+from erdctl.diagnose.residual.places import acting
+from erdctl.diagnose.residual.predictability import LackOfFit
+from erdctl.diagnose.search import Selection
+from erdctl.model.effect import Effect
+
+
+@dataclass(frozen=True, eq=False)
+class Finding:
+    """One effect that the paper's model left out.
+
+    gain : against the best model without it, on what neither has seen;  acts : where it does
+    before, after : NRMSE on groups left out of the fit, without and with it
+    test : the drive that would tell it from its equivalents, if it has any
+    """
+
+    effect: Effect
+    equivalent: tuple[str, ...]
+    gain: Comparison
+    acts: tuple[Region, ...]
+    before: float
+    after: float
+    runner_up: str | None
+    test: DiscriminatingDrive | None
+
+    @property
+    def where(self) -> Region | None:
+        """The place at which it acts most."""
+        return self.acts[0] if self.acts else None
+
+
+def findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
+    """The chosen effects, that with the largest gain first."""
+    best = selection.best
+    scale = float(np.ptp(problem.block.force))
+    found = []
+    with_all = best.model.force(problem.block.signals, best.values)
+    chosen = {e.name for e in best.effects}
+    order = (h.effects[-1].name for h in selection.singles)
+    runner = next((name for name in order if name not in chosen), None)
+    for effect in selection.named:
+        without = selection.without[effect.name]
+        # Where it acts; what acts everywhere is seen where the other parameters fail to absorb it.
+        alone = best.model.force(problem.block.signals, {**best.values, **effect.off})
+        absent = without.model.force(problem.block.signals, without.values)
+        squares = [(with_all - force) ** 2 for force in (alone, absent)]
+        gain = compare(problem, without, best)
+        found.append(
+            Finding(
+                effect=effect,
+                equivalent=tuple(name for name, _ in selection.look_alikes[effect.name]),
+                test=discriminating_drive(problem, best, selection.look_alikes[effect.name]),
+                gain=gain,
+                acts=tuple(acting(best.problem, effect, best.values, squares)),
+                before=float(np.sqrt(gain.before)) / scale,
+                after=float(np.sqrt(gain.after)) / scale,
+                runner_up=runner,
+            )
+        )
+    return tuple(sorted(found, key=lambda f: -f.gain.gain))
+
+
+def part_taken(problem: Problem, selection: Selection, left: LackOfFit) -> float:
+    """The part of the misfit's square, beyond noise, that the chosen effects take [1]."""
+    gain = compare(problem, selection.base, selection.best)
+    misfit = gain.before - left.noise_rms**2
+    return (gain.before - gain.after) / misfit if misfit > 0.0 else 1.0
+
+
+def earned(part: float) -> bool:
+    """Whether effects take more of a misfit than they leave.
+
+    Where most of it stays, what stays may be all of it: some form that bends a little like the
+    missing physics is always found among many, and its name would be a wrong one.
+    """
+    return part >= thresholds.LEAST_TAKEN
