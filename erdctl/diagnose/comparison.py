@@ -60,7 +60,7 @@ class Comparison:
         """The same, where the best of many was picked, see `energy.critical_value`."""
         if not (self.gain > thresholds.LEAST_GAIN and self.size > thresholds.ROUNDING):
             return False
-        if self.settling > 1.0:
+        if self.pays:
             return False
         many = self.t_stretches > max(thresholds.T_STRETCHES, critical)
         if many and self.t_groups > thresholds.T_GROUPS:
@@ -69,6 +69,11 @@ class Comparison:
         # a large gain in some stands in for something else.
         elsewhere = self.t_stretches > thresholds.T_ELSEWHERE
         return elsewhere and self.energy.significant and self.energy.z > critical
+
+    @property
+    def pays(self) -> bool:
+        """Whether the better one misses more over all samples, so where nothing is weighed."""
+        return self.settling > 1.0
 
     @property
     def tied(self) -> bool:

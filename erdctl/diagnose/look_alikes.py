@@ -23,7 +23,7 @@ def is_preferred(problem: Problem, other: Hypothesis, best: Hypothesis) -> bool:
     if extra < 0:
         return not compare(problem, other, best).significant
     gain = compare(problem, best, other)
-    return gain.gain > 0.0 if extra == 0 else gain.significant
+    return gain.gain > 0.0 and not gain.pays if extra == 0 else gain.significant
 
 
 def look_alikes(
