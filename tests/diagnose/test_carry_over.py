@@ -10,6 +10,7 @@ import trajectories
 from rig import noisy, recording
 
 from erdctl.core.recording import Recording, concatenate
+from erdctl.diagnose import carry_over
 from erdctl.diagnose.carry_over import left_out_exactly, to_other_motions
 from erdctl.diagnose.executor import executor
 from erdctl.diagnose.forward_step import Exploration, Explored
@@ -67,3 +68,15 @@ def test_each_kind_is_predicted_by_a_fit_to_the_others_alone(problem: Problem) -
     own = problem.of([r for r in range(len(first)) if first[r] == first[0]])
     force = apart.model.force(own.block.signals, apart.values)
     assert found[kinds == first[0]] == pytest.approx(own.block.force - force, abs=0.02)
+
+
+def test_what_diverges_without_a_kind_of_motion_predicts_nothing(
+    problem: Problem, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def diverged(rest: Problem, *_: object) -> np.ndarray:
+        return np.full(len(rest.block.force), np.nan)
+
+    kinds = kinds_of_motion(problem.recording)
+    assert kinds is not None
+    monkeypatch.setattr(carry_over, "fitted_from", diverged)
+    assert left_out_exactly(problem, kinds, fit(problem)) == pytest.approx(problem.block.force)
