@@ -32,7 +32,7 @@ ASIDE_FROM, ASIDE_OF = 12, 6
 
 # Samples and steps of the fits without a kind of motion, and kinds at most.
 # Origin: budget.
-CARRY_SAMPLES, STEPS_CARRY, MOST_KINDS = 6_000, 12, 6
+CARRY_SAMPLES, STEPS_CARRY, MOST_KINDS = 12_000, 12, 6
 
 # Ridge of the jackknife, as a part of the weight of all data.
 # Decides: how far a parameter moves that a left-out group alone determines.

@@ -10,7 +10,7 @@ w : part of the velocity that is taken from the deflection [1], 0..1, off at 0; 
 errors s_v^2 / (s_v^2 + s_x^2) with the noise of xdot and that of V[x], and 1 where xdot is late
 Valid for a velocity with a sensor of its own. Of an xdot that was derived from x by any filter that
 is not late V[x] is the same, whatever its noise: then nothing changes. Towards the ends of a record
-and in records of few samples xdot stays as logged.
+it rests on fewer slopes; in records of few samples xdot stays as logged.
 Check: x = 0.1 t m, xdot = 0.1 m/s with an error of +-0.02 m/s from sample to sample, w = 0.5: half
 of the error is left.
 >>> way = np.where(np.arange(900) % 2, 1.0, -1.0)
@@ -26,6 +26,7 @@ is given).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 from itertools import pairwise
 
@@ -38,6 +39,7 @@ from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import MotionSlot, Values
 
 REACHES = (*range(1, 17), 20, 25, 32, 40)  # samples each way
+ENDS = (40, 20, 10, 5, 2, 1)  # the most that are used, the nearer to an end of a record the fewer
 FEWEST = 20  # samples of a record for each weight, or these would follow the noise
 DETERMINED = 1e-9  # of the largest singular value
 
@@ -52,18 +54,38 @@ def velocity_noise(s: Signals, p: Values) -> Signals:
 @lru_cache(maxsize=2)
 def _of_deflection(s: Signals) -> Array:
     """(n,) V[x]; xdot where there is none. The same for all values of w."""
-    out, far = s.xdot.copy(), REACHES[-1]
+    out = s.xdot.copy()
     for a, b in pairwise(s.starts.tolist()):
-        if b - a < 2 * far + FEWEST * len(REACHES):
-            continue
-        x, t, inner = s.x[a:b], s.t[a:b], slice(a + far, b - far)
-        n = b - a - 2 * far
-        rows = np.empty((len(REACHES), n))
-        for row, k in zip(rows, REACHES, strict=True):
-            on, back = slice(far + k, far + k + n), slice(far - k, far - k + n)
-            row[:] = (x[on] - x[back]) / (t[on] - t[back])
-        weights = np.linalg.lstsq(rows.T, s.xdot[inner], rcond=DETERMINED)[0]
-        out[inner] = weights @ rows
+        if b - a >= 2 * REACHES[-1] + FEWEST * len(REACHES):
+            out[a:b] = _of_record(s.x[a:b], s.t[a:b], s.xdot[a:b])
+    return out
+
+
+def _of_record(x: Array, t: Array, xdot: Array) -> Array:
+    """(n,) V[x] of a record; towards its ends from the slopes that there are, where these are
+    nearer to it than xdot is."""
+    out, done = xdot.copy(), len(x) // 2
+    whole = slice(REACHES[-1], len(x) - REACHES[-1])
+    best = _slopes(x, t, xdot, REACHES)
+    far = np.sqrt(np.mean((xdot[whole] - best[whole]) ** 2))
+    for most in ENDS:
+        found = _slopes(x, t, xdot, [k for k in REACHES if k <= most])
+        if np.sqrt(np.mean((found[whole] - best[whole]) ** 2)) <= far:
+            for part in (slice(most, done), slice(len(x) - done, len(x) - most)):
+                out[part] = found[part]
+            done = most
+    return out
+
+
+def _slopes(x: Array, t: Array, xdot: Array, reaches: Sequence[int]) -> Array:
+    """(n,) slopes weighted to come near to xdot; xdot where a slope would leave the record."""
+    far, out = reaches[-1], xdot.copy()
+    n = len(x) - 2 * far
+    inner, rows = slice(far, far + n), np.empty((len(reaches), n))
+    for row, k in zip(rows, reaches, strict=True):
+        on, back = slice(far + k, far + k + n), slice(far - k, far - k + n)
+        row[:] = (x[on] - x[back]) / (t[on] - t[back])
+    out[inner] = np.linalg.lstsq(rows.T, xdot[inner], rcond=DETERMINED)[0] @ rows
     return out
 
 

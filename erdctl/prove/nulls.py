@@ -20,8 +20,10 @@ from erdctl.core.workers import pool
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import compare, critical_of
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
+from erdctl.diagnose.findings import Finding
 from erdctl.effects import catalogue
 from erdctl.io.logs import read_logs
+from erdctl.prove.score import EXTRA
 
 Table = tuple[str, Sequence[str], Sequence[Sequence[str]]]
 
@@ -73,10 +75,16 @@ def examine(seed: int) -> NullResult:
         null.name,
         null.kind.only_noise,
         found.verdict.value,
-        tuple(n for n in (f.effect.name for f in found.findings) if n not in null.kind.right),
+        tuple(f.effect.name for f in found.findings if not _is_right(f, null.kind.right)),
         tuple(dict.fromkeys(f.code for f in found.rig.faults)),
         measures(found),
     )
+
+
+def _is_right(finding: Finding, right: Sequence[str]) -> bool:
+    """As in a proof: by its name, or as one of three look-alikes at most."""
+    alike = finding.equivalent if len(finding.equivalent) <= EXTRA else ()
+    return not {finding.effect.name, *alike}.isdisjoint(right)
 
 
 def measures(found: Diagnosis) -> dict[str, float]:
