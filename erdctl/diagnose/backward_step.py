@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from erdctl.diagnose import thresholds
-from erdctl.diagnose.comparison import compare, is_better, ranked
+from erdctl.diagnose.comparison import compare, compare_alike, is_better, ranked
 from erdctl.diagnose.executor import Task
 from erdctl.diagnose.forward_step import Exploration, key_of
 from erdctl.diagnose.hypothesis import Hypothesis, over_records
@@ -39,7 +39,7 @@ def eliminate(x: Exploration, best: Hypothesis) -> Hypothesis:
     top = ranked(x.explored.values())[0]
     while x.added(best):
         smaller = without_each(x, best)
-        loss = [(compare(x.problem, h, best), h) for h in smaller]
+        loss = [(compare_alike(x.problem, h, best), h) for h in smaller]
         useless = [(c.t_stretches, i, h) for i, (c, h) in enumerate(loss) if not c.significant]
         harmful = [(c.gain, i, h) for i, (c, h) in enumerate(loss) if not c.gain > 0.0]
         if harmful:

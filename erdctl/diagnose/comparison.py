@@ -18,7 +18,7 @@ import numpy as np
 from erdctl.core.recording import Array
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.energy import EnergyTest, critical_value, energy_columns, energy_test
-from erdctl.diagnose.hypothesis import Hypothesis
+from erdctl.diagnose.hypothesis import Hypothesis, weighed_as
 from erdctl.diagnose.problem import Problem
 
 
@@ -97,6 +97,18 @@ def compare(problem: Problem, worse: Hypothesis, better: Hypothesis) -> Comparis
     left = [float(np.mean(h.residual**2)) for h in (worse, better)]
     settling = left[1] / max(left[0], 1e-300)
     return Comparison(gain, t_stretches, t_groups, energy, size, before, after, settling, scatter)
+
+
+def compare_alike(problem: Problem, worse: Hypothesis, better: Hypothesis) -> Comparison:
+    """The same, with the worse one fitted to the samples that the better one is fitted to.
+
+    A force channel makes samples doubtful where its model is uncertain; a fit that is spared them
+    must not owe its gain to that: under a jittering clock they bend the other one's parameters.
+    """
+    weight = _common_weight(worse, better)
+    if not np.array_equal(weight, worse.problem.block.weight):
+        worse = weighed_as(worse, weight)
+    return compare(problem, worse, better)
 
 
 def critical_of(problem: Problem, worse: Hypothesis, others: Sequence[Hypothesis]) -> float:

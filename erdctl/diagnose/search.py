@@ -20,7 +20,7 @@ from erdctl.diagnose.backward_step import (
 )
 from erdctl.diagnose.carry_over import to_other_motions
 from erdctl.diagnose.companion_effects import companion_sets, joint_task
-from erdctl.diagnose.comparison import compare, critical_of, ranked
+from erdctl.diagnose.comparison import compare, compare_alike, critical_of, ranked
 from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.forward_step import Exploration, Explored, forward_step, key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
@@ -172,7 +172,7 @@ def _forward_selection(
         more = ranked(forward_step(x, parents, candidates, stage))
         singles = singles if depth else more
         critical = critical_of(x.problem, best, more)
-        better = [h for h in more if compare(x.problem, best, h).beyond(critical)]
+        better = [h for h in more if compare_alike(x.problem, best, h).beyond(critical)]
         if better:
             best, rest = better[0], None
         elif depth:
