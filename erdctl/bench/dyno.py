@@ -11,10 +11,11 @@ from scipy.ndimage import uniform_filter1d
 from erdctl.bench.excitation import null_control
 from erdctl.bench.strokes import steady, stretches, strokes
 from erdctl.core.blocks import SETTLE
+from erdctl.core.cache import parts
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
-from erdctl.score.nrmse import BLOCK, Codes, duty_levels
+from erdctl.score.nrmse import Codes, duty_levels
 
 NEAR_PEAK = 0.97  # of a stroke's highest speed: the samples that make its force at the peak
 SPEEDS = 41  # bins of velocity
@@ -119,8 +120,7 @@ def averaged(recording: Recording, force: Array, bins: int = SPEEDS) -> Averaged
     edges = np.linspace(-top, top, bins + 1)
     sums = np.zeros((3, len(levels) * bins))
     scale = bins * (1.0 - 1e-9) / (2.0 * top) if top > 0.0 else 0.0
-    for a in range(0, len(recording), BLOCK):
-        part = slice(a, a + BLOCK)
+    for part in parts(len(recording)):
         at = ((recording.xdot[part] + top) * scale).astype(np.intp)
         at += codes[part].astype(np.intp) * bins
         weight = use[part].astype(np.float64)

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from math import pi
 
 import numpy as np
 import numpy.typing as npt
 
 from erdctl.core.blocks import SETTLE
+from erdctl.core.cache import parts
 from erdctl.core.recording import DIRECTIONS, Array, Recording
 from erdctl.core.signals import Signals
+from erdctl.score.nrmse import percents
 
 ENOUGH = 10  # samples of a kind below which there is no telling anything
 SAME_LEVEL = 1.05  # duties within this ratio are one level with a noisy record of it
@@ -67,18 +69,20 @@ class Survey:
 
     def _direction(self, moving: npt.NDArray[np.bool_], null: npt.NDArray[np.bool_]) -> Excitation:
         s = self.signals
-        duty = s.duty[moving]
-        above = duty[duty > 0]
-        speed = np.abs(s.xdot[moving])
+        low, high = np.inf, -np.inf
+        for part in parts(len(s)):
+            x = s.x[part][moving[part]]
+            low, high = float(x.min(initial=low)), float(x.max(initial=high))
+        above = np.flatnonzero(moving & (s.duty > 0))
         moves = np.logical_or.reduceat(moving, self.recording.starts[:-1])
         return Excitation(
-            moving=int(moving.sum()),
-            null=int((moving & null).sum()),
+            moving=int(np.count_nonzero(moving)),
+            null=int(np.count_nonzero(moving & null)),
             field=len(above),
-            levels=_ends(above) if len(above) else (0.0, 0.0),
+            levels=_ends(s.duty[above[:: len(above) // 100_000 + 1]]) if len(above) else (0.0, 0.0),
             steps=float(self._duty_ranges[moves].max(initial=0.0)),
-            stroke=float(np.ptp(s.x[moving])) if moving.any() else 0.0,
-            speeds=float(speed.std() / speed.mean()) if moving.any() else 0.0,
+            stroke=max(high - low, 0.0),
+            speeds=_speeds(s.xdot, moving),
         )
 
     @cached_property
@@ -94,15 +98,14 @@ class Survey:
     @cached_property
     def field(self) -> int:
         """Samples with a duty above zero."""
-        return int((self.signals.duty > 0).sum())
+        return int(np.count_nonzero(self.signals.duty > 0))
 
     @cached_property
     def levels(self) -> int:
         """Duty levels above zero that lie clearly apart, each held for some samples."""
-        duty = self.signals.duty
-        count = np.bincount(np.round(100.0 * duty).astype(np.intp), weights=duty > 0)
+        _, seen = percents(self.signals.duty)
         found, last = 0, 0.0
-        for level in np.flatnonzero(count >= ENOUGH).tolist():
+        for level in np.flatnonzero(seen >= ENOUGH).tolist():
             if level > last * SAME_LEVEL:
                 found, last = found + 1, float(level)
         return found
@@ -115,9 +118,7 @@ class Survey:
     @cached_property
     def speeds(self) -> float:
         """Standard deviation of the speed over its mean [1]; 0 at rest."""
-        speed = np.abs(self.signals.xdot)
-        mean = float(speed.mean())
-        return float(speed.std()) / mean if mean > 0 else 0.0
+        return _speeds(self.signals.xdot)
 
     @cached_property
     def stroke(self) -> float:
@@ -146,8 +147,21 @@ def null_control(signals: Signals) -> npt.NDArray[np.bool_]:
     return np.asarray((signals.duty == 0.0) & (signals.since_duty_step > SETTLE))
 
 
+def _speeds(xdot: Array, chosen: npt.NDArray[np.bool_] | None = None) -> float:
+    """Standard deviation of the speed |xdot| over its mean, of all or some of (n,); 0 at rest."""
+    samples, total, squares = 0, 0.0, 0.0
+    for part in parts(len(xdot)):
+        speed = np.abs(xdot[part] if chosen is None else xdot[part][chosen[part]])
+        samples, total = samples + len(speed), total + float(speed.sum())
+        squares += float(speed @ speed)
+    if total == 0.0:
+        return 0.0
+    mean = total / samples
+    return math.sqrt(max(squares / samples - mean * mean, 0.0)) / mean
+
+
 def _ends(values: Array) -> tuple[float, float]:
-    low, high = np.percentile(values[:: len(values) // 100_000 + 1], [1, 99])
+    low, high = np.percentile(values, [1, 99])
     return float(low), float(high)
 
 
@@ -186,7 +200,7 @@ def _against_acceleration(t: Array, x: Array, xdot: Array) -> Array | None:
     if len(x) < 8 or swing == 0.0 or speed == 0.0:
         return None
     step = float(t[-1] - t[0]) / (len(t) - 1)
-    reach = max(1, round(2.0 * pi * swing / speed / 12.0 / step))
+    reach = max(1, round(2.0 * math.pi * swing / speed / 12.0 / step))
     if len(x) < 4 * reach:
         return None
     sums = [np.concatenate([[0.0], np.cumsum(c)]) for c in (t - t[0], xdot)]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,6 +13,7 @@ from erdctl.bench import identifiability as coverage
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import Cover
 from erdctl.bench.rig import Rig, look
+from erdctl.core.cache import parts
 from erdctl.core.quantiles import median
 from erdctl.core.recording import CHANNELS, Array, Recording
 from erdctl.model.effect import Effect
@@ -108,12 +108,6 @@ class Inspection:
 
 def inspect(recording: Recording, candidates: Sequence[Effect]) -> Inspection:
     """Inspect a recording, with force or without, against a catalogue of effects."""
-    with ThreadPoolExecutor(1) as pool:  # beside the rest, since most of either is in NumPy
-        rig = pool.submit(look, recording)
-        return _inspected(recording, candidates, rig)
-
-
-def _inspected(recording: Recording, candidates: Sequence[Effect], rig: Future[Rig]) -> Inspection:
     survey = Survey.of(recording)
     records = tuple(_records(recording))
     noise = None if recording.force is None else force_noise(recording)
@@ -128,7 +122,7 @@ def _inspected(recording: Recording, candidates: Sequence[Effect], rig: Future[R
         xdot=recording.xdot_note,
         parameters=tuple(coverage.parameters(survey)),
         effects=tuple(coverage.effects(survey, candidates)),
-        rig=rig.result(),
+        rig=look(recording),
     )
 
 
@@ -176,7 +170,9 @@ def _record(
 
 def _seconds_at(recording: Recording) -> dict[float, float]:
     codes, levels = duty_levels(recording.duty)
-    seconds = np.bincount(codes, weights=recording.step, minlength=len(levels))
+    seconds = np.zeros(len(levels))
+    for part in parts(len(codes)):
+        seconds += np.bincount(codes[part], weights=recording.step[part], minlength=len(levels))
     return dict(zip(levels.tolist(), seconds.tolist(), strict=True))
 
 

@@ -246,13 +246,13 @@ class Signals:
 
     def _since(self, event: npt.NDArray[np.bool_]) -> Array:
         """(n,) time since the last event in the same record [s], inf before the first."""
-        mark = np.where(event, np.arange(len(self)), -1)
-        out = np.full(len(self), np.inf)
-        for a, b in pairwise(self.starts.tolist()):
-            last = np.maximum.accumulate(mark[a:b])
-            seen = last >= 0
-            out[a:b][seen] = self.t[a:b][seen] - self.t[last[seen]]
-        return out
+        marks = event.copy()
+        marks[self.starts[:-1]] = True
+        at = np.flatnonzero(marks)
+        last = np.where(event[at], self.t[at], -np.inf)
+        since: Array = np.repeat(last, np.diff(at, append=len(self)))
+        np.subtract(self.t, since, out=since)
+        return since
 
     def per_direction(self, compression: float, release: float) -> Array | float:
         """The value that applies at each sample: (n,), or one number if both are equal."""

@@ -11,11 +11,11 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import numpy.typing as npt
 
+from erdctl.core.cache import PART, parts
 from erdctl.core.recording import Array, Index
 
 COLUMNS = 1500  # pixels across a time series
 CELLS = (360, 300)  # of a panel of loops, across and up: a dot covers one
-BLOCK = 1 << 16  # samples that fit into a processor's cache with what is computed of them
 
 Codes = npt.NDArray[np.int16]
 
@@ -71,10 +71,10 @@ def cloud(
     corner = (float(x.min()), float(y.min()))
     scale = (_per(float(x.max()) - corner[0], across), _per(float(y.max()) - corner[1], up))
     table = np.full(count * across * up, -1, dtype=np.intp)
-    cell, other = np.empty(BLOCK, dtype=np.int32), np.empty(BLOCK, dtype=np.int32)
-    real = np.empty(BLOCK)
-    for a in range(0, len(x), BLOCK):
-        b = min(a + BLOCK, len(x))
+    cell, other = np.empty(PART, dtype=np.int32), np.empty(PART, dtype=np.int32)
+    real = np.empty(PART)
+    for part in parts(len(x)):
+        a, b = part.start, part.stop
         m = b - a
         for values, low, per, out in ((x, corner[0], scale[0], cell),
                                       (y, corner[1], scale[1], other)):  # fmt: skip
@@ -104,13 +104,13 @@ def outermost(codes: Codes, count: int, *channels: Array) -> list[Index]:
     low = np.full((count, len(channels)), np.inf)
     rows = np.full((count, 2 * len(channels)), -1, dtype=np.intp)
     high = -low
-    for a in range(0, len(codes), BLOCK):
-        part = codes[a : a + BLOCK]
-        groups = np.flatnonzero(np.bincount(part)).tolist()
+    for part in parts(len(codes)):
+        a = part.start
+        groups = np.flatnonzero(np.bincount(codes[part])).tolist()
         for g in groups:
-            at = None if len(groups) == 1 else np.flatnonzero(part == g)
+            at = None if len(groups) == 1 else np.flatnonzero(codes[part] == g)
             for j, channel in enumerate(channels):
-                values = channel[a : a + BLOCK] if at is None else channel[a : a + BLOCK][at]
+                values = channel[part] if at is None else channel[part][at]
                 i, k = int(values.argmin()), int(values.argmax())
                 if values[i] < low[g, j]:
                     low[g, j], rows[g, 2 * j] = values[i], a + (i if at is None else at[i])
@@ -123,8 +123,8 @@ def joined(pieces: Sequence[Index], *channels: Array) -> list[Array]:
     """Channels along several pieces of a log, one after the other with a NaN in between."""
     out = []
     for channel in channels:
-        parts = [p for piece in pieces for p in (channel[piece], [np.nan])]
-        out.append(np.concatenate(parts[:-1]) if parts else np.empty(0))
+        drawn = [p for piece in pieces for p in (channel[piece], [np.nan])]
+        out.append(np.concatenate(drawn[:-1]) if drawn else np.empty(0))
     return out
 
 

@@ -8,11 +8,11 @@ from enum import StrEnum
 import numpy as np
 import numpy.typing as npt
 
-from erdctl.core.recording import DIRECTIONS, Array, Recording
+from erdctl.core.cache import parts
+from erdctl.core.recording import DIRECTIONS, Array, Index, Recording
 
 MAX_LEVELS = 24  # more distinct duty levels than that are a continuous control, and are binned
 BIN = 0.05
-BLOCK = 1 << 16
 
 Codes = npt.NDArray[np.int16]
 
@@ -72,6 +72,22 @@ def nrmse(force: Array, modelled: Array, normalise: Normalise = Normalise.RANGE)
     return Score(len(force), rms, rms / scale)
 
 
+def percents(duty: Array) -> tuple[Codes, Index]:
+    """The duty of each sample in whole percent (n,), and how many samples have each (101,).
+
+    Check: 0.3, 0, 0.302 is 30, 0, 30 percent, the 30 seen 2 times.
+    >>> percent, seen = percents(np.array([0.3, 0.0, 0.302]))
+    >>> percent.tolist(), int(seen[30])
+    ([30, 0, 30], 2)
+    """
+    percent = np.empty(len(duty), dtype=np.int16)
+    seen = np.zeros(101, dtype=np.intp)
+    for part in parts(len(duty)):
+        percent[part] = np.rint(duty[part] * 100.0)
+        seen += np.bincount(percent[part], minlength=101)
+    return percent, seen
+
+
 def duty_levels(duty: Array) -> tuple[Codes, Array]:
     """Which PWM level each sample belongs to (n,), and the levels (k,) [1], ascending.
 
@@ -82,12 +98,7 @@ def duty_levels(duty: Array) -> tuple[Codes, Array]:
     >>> levels.tolist(), codes.tolist()
     ([0.0, 0.3], [1, 0, 1])
     """
-    percent = np.empty(len(duty), dtype=np.int16)
-    seen = np.zeros(101, dtype=np.intp)
-    for a in range(0, len(duty), BLOCK):  # in a processor's cache
-        part = percent[a : a + BLOCK]
-        part[:] = np.rint(duty[a : a + BLOCK] * 100.0)
-        seen += np.bincount(part, minlength=101)
+    percent, seen = percents(duty)
     values = np.arange(101) / 100.0
     if np.count_nonzero(seen) > MAX_LEVELS:
         # Not from the rounded duty, which crosses the edges of the bins.
