@@ -101,6 +101,7 @@ def diagnose(
     given: Parameters | None = None,
     free: Varying = NONE_VARY,
     accepted: Sequence[str] = (),
+    limits: bool = True,
     jobs: int = 1,
     progress: Progress = lambda stage, what: None,
 ) -> Diagnosis:
@@ -110,6 +111,8 @@ def diagnose(
         contain is not found again
     free : record effects, which are estimated and not named
     accepted : rig checks that the user says are right as they are
+    limits : whether to say from which size on what was not named would have shown; no other answer
+        rests on that
     jobs : processes that try hypotheses; the results are the same for any number
     """
     rig = look(recording).accept(accepted)
@@ -169,7 +172,9 @@ def diagnose(
     refitted = scores.of(problem, base.model, base.values)
     fit, record_effects = fit_errors(problem, best)
     corrected = scores.of(problem, fit.model, fit.values)
-    undetected = _undetected(thin, searched.best, selection.best, candidates, missing, progress)
+    undetected: tuple[Detectable, ...] = ()
+    if limits:
+        undetected = _undetected(thin, searched.best, best, candidates, missing, progress)
     return Diagnosis(
         verdict=verdict,
         cannot_tell=cannot_tell,

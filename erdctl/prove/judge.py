@@ -83,9 +83,9 @@ def judge(sealed: Sealed) -> Result:
 
 
 def examine(log: Path) -> Diagnosis:
-    """What `erdctl diagnose LOG` does, given nothing but the file."""
+    """What `erdctl diagnose LOG` does, given the file alone; of limits none, as none is scored."""
     recording = _read(log)
-    return diagnose(recording, catalogue())
+    return diagnose(recording, catalogue(), limits=False)
 
 
 def scored(

@@ -69,7 +69,7 @@ def examine(seed: int) -> NullResult:
         path = Path(folder) / "log.parquet"
         pq.write_table(null.table, path)
         log = read_logs([os.fspath(path)], need_force=True, report=lambda line: None)
-    found = diagnose(log.recording, catalogue())
+    found = diagnose(log.recording, catalogue(), limits=False)
     return NullResult(
         seed,
         null.name,

@@ -93,12 +93,14 @@ def host(recording: Recording, every: int, seed: int, jobs: int, progress: Progr
     if recording.force is None:
         raise UsageProblem("prove --on needs a log with a measured force")
     thin = _thinned(recording, every)
-    found = diagnose(thin, catalogue(), jobs=jobs, progress=progress)
+    found = diagnose(thin, catalogue(), limits=False, jobs=jobs, progress=progress)
     if found.rig.blocking:
         texts = "; ".join(f.text for f in found.rig.blocking)
         raise UsageProblem(f"nothing can be hidden in this log before its rig is right: {texts}")
     given = parameters(found)
-    more = diagnose(thin, catalogue(), given=given, most=2, jobs=jobs, progress=progress)
+    more = diagnose(
+        thin, catalogue(), given=given, most=2, limits=False, jobs=jobs, progress=progress
+    )
     again = tuple(f.effect.name for f in more.findings)
     # What a parameter would need is for people, and holds functions that no process can be sent.
     lean = replace(found, problem=replace(found.problem, needs={}))
@@ -217,7 +219,7 @@ class Hiding:
         """A trial with what the diagnosis says beyond what is there anyway."""
         most = min(1 + len(self.host.again), MOST)
         try:
-            found = diagnose(recording, catalogue(), given=self.host.given, most=most)
+            found = diagnose(recording, catalogue(), given=self.host.given, most=most, limits=False)
         except ErdctlError as problem:
             return replace(trial, skipped=f"cannot be diagnosed: {problem}")
         new = [f for f in found.findings if f.effect.name not in self.host.again]
