@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import compare, compare_alike, is_better, ranked
 from erdctl.diagnose.executor import Task
 from erdctl.diagnose.forward_step import Exploration, key_of
-from erdctl.diagnose.hypothesis import Hypothesis, over_records
+from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.look_alikes import is_preferred
 
 
@@ -54,25 +53,6 @@ def eliminate(x: Exploration, best: Hypothesis) -> Hypothesis:
         if not idle:
             return best
         best = idle[0]
-    return best
-
-
-def carried_over(x: Exploration, best: Hypothesis) -> Hypothesis:
-    """Remove effects without which whole records that the fit leaves out are predicted better.
-
-    Left-out stretches have neighbours of the same motion in the fit, and so may speak for what only
-    holds there. A correction that carries over to no other record is none.
-    """
-    if len(x.problem.recording.names) < thresholds.LEAST_RECORDS:
-        return best
-    while x.added(best):
-        whole = over_records(best)
-        smaller = [*without_each(x, best), x.explored[key_of(x.base.effects)]]
-        gains = [compare(x.problem, over_records(h), whole).gain for h in smaller]
-        worst = min(range(len(gains)), key=lambda i: (gains[i], i))
-        if gains[worst] > 0.0:
-            break
-        best = smaller[worst]
     return best
 
 

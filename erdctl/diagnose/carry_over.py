@@ -19,11 +19,39 @@ from erdctl.core.progress import part_of
 from erdctl.core.recording import Array, Index
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.backward_step import without_each
-from erdctl.diagnose.forward_step import Exploration
-from erdctl.diagnose.hypothesis import Hypothesis, fitted_from
+from erdctl.diagnose.comparison import compare
+from erdctl.diagnose.forward_step import Exploration, key_of
+from erdctl.diagnose.hypothesis import Hypothesis, fitted_from, over_records
 from erdctl.diagnose.kinds_of_excitation import kinds_of_motion
 from erdctl.diagnose.problem import Problem, mask_doubtful
 from erdctl.diagnose.thin import thinned
+
+
+def to_other_records(x: Exploration, best: Hypothesis) -> Hypothesis:
+    """Remove effects without which whole records that the fit leaves out are predicted better.
+
+    Left-out stretches have neighbours of the same motion in the fit, and so may speak for what only
+    holds there. A correction that carries over to no other record is none. One Gauss-Newton step
+    can go astray where a law is far from straight, as a void is: what it speaks against is judged
+    by fits anew.
+    """
+    if len(x.problem.recording.names) < thresholds.LEAST_RECORDS:
+        return best
+    few = thinned(x.problem, thresholds.CARRY_SAMPLES)
+    starts = few.block.signals.starts
+    of_record = np.repeat(np.arange(len(starts) - 1) % thresholds.CARRY_FITS, np.diff(starts))
+    while x.added(best):
+        whole = over_records(best)
+        smaller = [*without_each(x, best), x.explored[key_of(x.base.effects)]]
+        gains = [compare(x.problem, over_records(h), whole).gain for h in smaller]
+        worst = min(range(len(gains)), key=lambda i: (gains[i], i))
+        if gains[worst] > 0.0:
+            break
+        x.executor.progress("other records", part_of("fits without some records", 1, 1))
+        if _error(few, of_record, best) < _error(few, of_record, smaller[worst]):
+            break
+        best = smaller[worst]
+    return best
 
 
 def to_other_motions(x: Exploration, best: Hypothesis) -> Hypothesis:

@@ -42,7 +42,7 @@ class Finding:
 
 
 def findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
-    """The chosen effects, that with the largest gain first."""
+    """The chosen effects, the one that takes most of the misfit first."""
     best = selection.best
     scale = float(np.ptp(problem.block.force))
     found = []
@@ -69,7 +69,20 @@ def findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
                 runner_up=runner,
             )
         )
-    return tuple(sorted(found, key=lambda f: -f.gain.gain))
+    return tuple(sorted(found, key=lambda f: -_share(selection, f)))
+
+
+def _share(selection: Selection, finding: Finding) -> float:
+    """What an effect takes of the mean square, as the first one and as the last one [N^2].
+
+    As the last one alone, a strong effect that some faint ones can stand in for together would
+    count less than these. The mean over all orders is L. S. Shapley's value (Contributions to the
+    Theory of Games 2 (1953) 307-317), of which these are the two ends.
+    """
+    names = {finding.effect.name, *finding.effect.equivalents}
+    alone = [h.score for h in selection.singles if h.effects[-1].name in names]
+    first = max(selection.base.score - min(alone), 0.0) if alone else 0.0
+    return first + finding.gain.before - finding.gain.after
 
 
 def part_taken(problem: Problem, selection: Selection, left: LackOfFit) -> float:

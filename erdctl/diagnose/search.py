@@ -13,12 +13,11 @@ from erdctl.core.progress import part_of
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.backward_step import (
     as_good_as_explored,
-    carried_over,
     eliminate,
     second_pass,
     without_each,
 )
-from erdctl.diagnose.carry_over import to_other_motions
+from erdctl.diagnose.carry_over import to_other_motions, to_other_records
 from erdctl.diagnose.companion_effects import companion_sets, joint_task
 from erdctl.diagnose.comparison import compare, compare_alike, critical_of, ranked
 from erdctl.diagnose.executor import Executor, Task
@@ -123,7 +122,7 @@ def refit(problem: Problem, found: Selection, executor: Executor) -> Selection:
     x = Exploration(problem, base, explored, executor)
     best, last = explored[key_of(found.best.effects)], None
     while best is not last:  # each may leave what the other one drops
-        last, best = best, carried_over(x, eliminate(x, best))
+        last, best = best, to_other_records(x, eliminate(x, best))
     names = [e.name for e in x.added(best)]
     without = {n: explored[key_of(best.effects) - {n}] for n in names}
     alike = {n: found.look_alikes[n] for n in names}

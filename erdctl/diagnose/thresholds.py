@@ -30,9 +30,10 @@ KIND_FACTOR, KIND_DUTY, MOTION_KINDS, CONTROL_KINDS = 1.25, 0.02, 2, 3
 # Origin: none; fewer left would cost the search more than a twelfth of its statistics.
 ASIDE_FROM, ASIDE_OF = 12, 6
 
-# Samples and steps of the fits without a kind of motion, and kinds at most.
+# Samples and steps of the fits without a kind of motion or some records, kinds at most, and how
+# often records are left out so.
 # Origin: budget.
-CARRY_SAMPLES, STEPS_CARRY, MOST_KINDS = 12_000, 12, 6
+CARRY_SAMPLES, STEPS_CARRY, MOST_KINDS, CARRY_FITS = 12_000, 12, 6, 12
 
 # Ridge of the jackknife, as a part of the weight of all data.
 # Decides: how far a parameter moves that a left-out group alone determines.

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from rig import campaign, noisy
 
-from erdctl.diagnose.backward_step import carried_over, eliminate
+from erdctl.diagnose.backward_step import eliminate
+from erdctl.diagnose.carry_over import to_other_records
 from erdctl.diagnose.comparison import compare
 from erdctl.diagnose.executor import executor
 from erdctl.diagnose.forward_step import Exploration, Explored
@@ -58,8 +60,24 @@ def test_a_harmful_effect_goes_though_another_hypothesis_is_better(problem: Prob
 def test_what_carries_over_to_other_records_stays(problem: Problem) -> None:
     base, friction = fit(problem), fit(problem, "coulomb_friction")
     x = exploration(problem, base, friction)
-    assert carried_over(x, friction) is friction
+    assert to_other_records(x, friction) is friction
     assert len(np.unique(over_records(friction).problem.group)) == len(problem.recording.names)
+
+
+def test_one_step_that_goes_astray_takes_nothing_away(
+    problem: Problem, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Fits anew decide: a void's law is far from straight, and its step was twice the force."""
+    base, friction = fit(problem), fit(problem, "coulomb_friction")
+
+    def astray(h: Hypothesis) -> Hypothesis:
+        return replace(h, cross_validated=(3.0 if h.effects else 1.0) * h.cross_validated)
+
+    module = sys.modules[to_other_records.__module__]
+    monkeypatch.setattr(module, "over_records", astray)
+    assert to_other_records(exploration(problem, base, friction), friction) is friction
+    monkeypatch.setattr(module, "_error", lambda problem, parts, h: float(bool(h.effects)))
+    assert to_other_records(exploration(problem, base, friction), friction).effects == ()
 
 
 def test_a_richer_form_must_earn_its_name(problem: Problem) -> None:
