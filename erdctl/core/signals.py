@@ -30,6 +30,8 @@ class Signals:
     engaged : (n,) part of a sample during which the piston moves with the rod [1], None for always;
         between 0 and 1 only where play in between runs out, so that the force does not jump from
         sample to sample as the play grows
+    sampled : all samples of the log, and which of them these are (n,), where they are not all; for
+        what counts by samples
     """
 
     t: Array
@@ -39,6 +41,7 @@ class Signals:
     step: Array
     starts: Index
     engaged: Array | None = None
+    sampled: tuple[Signals, Index] | None = None
 
     @classmethod
     def of(cls, recording: Recording) -> Signals:
@@ -48,6 +51,11 @@ class Signals:
 
     def __len__(self) -> int:
         return len(self.t)
+
+    def at(self, rows: Index, recording: Recording) -> Signals:
+        """The signals of some samples, taken from a recording of those alone."""
+        whole, of = self.sampled or (self, np.arange(len(self)))
+        return replace(Signals.of(recording), sampled=(whole, of[rows]))
 
     def with_duty(self, duty: Array) -> Signals:
         """The same motion under another control."""

@@ -46,7 +46,7 @@ def thinned(problem: Problem, most: int) -> Problem:
     return replace(
         problem,
         recording=recording,
-        block=Block(Signals.of(recording), problem.block.force[rows], weight),
+        block=Block(s.at(rows, recording), problem.block.force[rows], weight),
         group=_numbered(problem.group[rows]),
         stretch=_numbered(problem.stretch[rows]),
         unsure=problem.unsure[rows],

@@ -51,9 +51,12 @@ def velocity_noise(s: Signals, p: Values) -> Signals:
     return s.with_motion(s.x, s.xdot + p["w"] * (_of_deflection(s) - s.xdot))
 
 
-@lru_cache(maxsize=2)
+@lru_cache(maxsize=4)
 def _of_deflection(s: Signals) -> Array:
     """(n,) V[x]; xdot where there is none. The same for all values of w."""
+    if s.sampled is not None:  # farther apart than a slope may reach
+        whole, rows = s.sampled
+        return np.asarray(_of_deflection(whole)[rows])
     out = s.xdot.copy()
     for a, b in pairwise(s.starts.tolist()):
         if b - a >= 2 * REACHES[-1] + FEWEST * len(REACHES):

@@ -14,6 +14,7 @@ from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem, prepare
 from erdctl.diagnose.thin import thinned
 from erdctl.effects import get
+from erdctl.effects.velocity_noise import velocity_noise
 from erdctl.estimate.starts import fresh_start
 
 STEP, MOST, COMPLIANCE = 0.005, 6_000, 4e-6
@@ -108,3 +109,16 @@ def test_every_group_and_stretch_has_a_sample_and_records_stay() -> None:
     for label in (few.group, few.stretch):
         assert np.array_equal(np.unique(label), np.arange(label.max() + 1))
     assert few.count == whole.count
+
+
+def test_a_velocity_from_the_deflection_is_that_of_all_samples() -> None:
+    """Slopes between the samples that are left reach too far, and are not even on both sides."""
+    r = mounted(30_000)
+    whole = prepare(replace(r, xdot=np.concatenate([r.xdot[:1], r.xdot[:-1]])))
+    few = thinned(thinned(whole, 15_000), MOST)
+    kept = np.isin(_clock(whole.recording), _clock(few.recording))
+    all_, seen = (p.block.signals for p in (whole, few))
+    better = [velocity_noise(s, {"w": 1.0}).xdot for s in (all_, seen)]
+    assert len(seen) < len(all_) // 2
+    assert np.array_equal(better[1], better[0][kept])
+    assert np.std(better[0] - r.xdot) < 0.2 * np.std(all_.xdot - r.xdot)
