@@ -121,4 +121,4 @@ def test_a_velocity_from_the_deflection_is_that_of_all_samples() -> None:
     better = [velocity_noise(s, {"w": 1.0}).xdot for s in (all_, seen)]
     assert len(seen) < len(all_) // 2
     assert np.array_equal(better[1], better[0][kept])
-    assert np.std(better[0] - r.xdot) < 0.2 * np.std(all_.xdot - r.xdot)
+    assert np.std(better[0] - r.xdot) < 0.5 * np.std(all_.xdot - r.xdot)
