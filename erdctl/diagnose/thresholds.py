@@ -40,6 +40,11 @@ CARRY_SAMPLES, STEPS_CARRY, MOST_KINDS, CARRY_FITS = 12_000, 12, 6, 12
 # Origin: none; without it the step goes to infinity.
 CV_RIDGE = 0.05
 
+# Part of a sampling step below which a time constant is over at once.
+# Decides: whether the jackknife moves it.
+# Origin: theory; exp(-20) is left by the next sample.
+INSTANT = 0.05
+
 # Relative cut-off of singular values of the jackknife's step.
 # Decides: which directions the rest of the data do not determine.
 # Origin: square root of the rounding of 64-bit sums, with a margin.
