@@ -69,7 +69,8 @@ def second_pass(x: Exploration, best: Hypothesis, most: int) -> Hypothesis:
 def as_good_as_explored(x: Exploration, best: Hypothesis) -> Hypothesis:
     """Elimination goes one way down from one hypothesis; another of that size may do better.
 
-    Or as well with fewer parameters.
+    Or as well with fewer parameters. What is left of that other one must do as well, too: two steps
+    down that are not significant one by one may be so together.
     """
     seen = set[frozenset[str]]()
     while key_of(best.effects) not in seen:
@@ -80,7 +81,9 @@ def as_good_as_explored(x: Exploration, best: Hypothesis) -> Hypothesis:
             if len(k) == len(best.effects) and k not in seen
             and (is_better(h, best) or len(h.model.quantities) < count)
         ]  # fmt: skip
-        better = [h for h in even if is_preferred(x.problem, h, best)]
-        if better:
-            best = eliminate(x, ranked(better)[0])
+        for other in ranked(h for h in even if is_preferred(x.problem, h, best)):
+            left = eliminate(x, other)
+            if left is other or not compare(x.problem, left, best).significant:
+                best = left
+                break
     return best

@@ -72,8 +72,8 @@ class Comparison:
 
     @property
     def pays(self) -> bool:
-        """Whether the better one misses more over all samples, so where nothing is weighed."""
-        return self.settling > 1.0
+        """Whether the better one misses far more over all samples, so where nothing is weighed."""
+        return self.settling > thresholds.PAYS
 
     @property
     def tied(self) -> bool:

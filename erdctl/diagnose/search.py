@@ -92,7 +92,12 @@ def search(
     for effect in x.added(best):
         found = look_alikes(x, best, effect, candidates, singles)
         name = effect.name
-        preferred = [f for f in found if is_preferred(problem, f[1], best)]
+        rest = x.explored[key_of(best.effects) - {name}]
+        # It must be worth a name itself, or the next elimination leaves neither of the two.
+        preferred = [
+            f for f in found
+            if is_preferred(problem, f[1], best) and compare(problem, rest, f[1]).significant
+        ]  # fmt: skip
         if preferred:
             name, first = preferred[0]
             found = [(effect.name, best), *(f for f in found if f[1] is not first)]

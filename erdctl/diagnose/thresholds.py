@@ -40,6 +40,13 @@ CARRY_SAMPLES, STEPS_CARRY, MOST_KINDS, CARRY_FITS = 12_000, 12, 6, 12
 # Origin: none; without it the step goes to infinity.
 CV_RIDGE = 0.05
 
+# Mean square over all samples, those without weight too, over that of a model that is worse where
+# it is weighed, up to which this is no harm.
+# Decides: whether a better model pays for its gain where records settle.
+# Origin: the state before a record is unknown, and misses of it differ by less between models; one
+# that had turned into something else missed 10,000 times as much.
+PAYS = 2.0
+
 # Part of a sampling step below which a time constant is over at once.
 # Decides: whether the jackknife moves it.
 # Origin: theory; exp(-20) is left by the next sample.
