@@ -141,3 +141,14 @@ def test_what_a_sparse_campaign_cannot_show_is_not_what_it_hides() -> None:
     case = draw(next(one_duty), kind="sparse", effects=pool)
     assert [t.name for t in case.truth] == ["quadratic_damping"]
     assert case.level >= 0.9
+
+
+def test_a_crowd_with_another_law_from_a_file_of_its_own_after_one() -> None:
+    """The power law of the yield took the parameters of the last such law for its own."""
+    names = ["power_law_yield", "gas_thermal_drift", "coulomb_friction"]
+    for seed in (8, 9):
+        case = draw(seed, kind="crowded", effects=names, motion="exact")
+        law = effect("power_law_yield").law
+        assert law is not None and law(case.plant)[1] == {
+            "n": case.plant.own_values("power_law_yield")["n"]
+        }

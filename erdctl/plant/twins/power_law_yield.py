@@ -32,7 +32,7 @@ def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
 
 
 def _law(plant: Plant) -> Law:
-    n = dict(plant.own[-1].values)["n"]
+    n = plant.own_values("power_law_yield")["n"]
     return plant.with_own(HOOKS, n=n, v_0=0.1, v_k=1e-9), {"n": n}  # without a knee
 
 
