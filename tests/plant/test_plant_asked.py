@@ -149,6 +149,5 @@ def test_a_crowd_with_another_law_from_a_file_of_its_own_after_one() -> None:
     for seed in (8, 9):
         case = draw(seed, kind="crowded", effects=names, motion="exact")
         law = effect("power_law_yield").law
-        assert law is not None and law(case.plant)[1] == {
-            "n": case.plant.own_values("power_law_yield")["n"]
-        }
+        assert law is not None
+        assert law(case.plant)[1] == {"n": case.plant.own_values("power_law_yield")["n"]}
