@@ -67,7 +67,7 @@ def test_the_diagnosis_is_given_the_log_alone(
     (((recording, candidates), more),) = asked
     assert isinstance(recording, Recording)
     assert [e.name for e in candidates] == list(names())
-    assert more == {}
+    assert more == {"limits": False}
 
 
 def test_the_key_is_opened_after_the_diagnosis_is_written(
