@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from rig import campaign, noisy
 
-from erdctl.diagnose.backward_step import eliminate
+from erdctl.diagnose.backward_step import as_good_as_explored, eliminate
 from erdctl.diagnose.carry_over import to_other_records
 from erdctl.diagnose.comparison import compare
 from erdctl.diagnose.executor import executor
 from erdctl.diagnose.forward_step import Exploration, Explored
-from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis, over_records
+from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis, over_records, slopes
 from erdctl.diagnose.look_alikes import is_preferred
 from erdctl.diagnose.problem import Problem, prepare
 from erdctl.effects import get
@@ -78,6 +78,32 @@ def test_one_step_that_goes_astray_takes_nothing_away(
     assert to_other_records(exploration(problem, base, friction), friction) is friction
     monkeypatch.setattr(module, "_error", lambda problem, parts, h: float(bool(h.effects)))
     assert to_other_records(exploration(problem, base, friction), friction).effects == ()
+
+
+def test_a_lag_that_is_over_within_a_sample_is_not_moved(problem: Problem) -> None:
+    """The one sample behind a turn that sees it would make leaving out its group a leap."""
+    base = fit(problem)
+    short = {**base.values, "compression.T_d": 1.01e-5}
+    instant = replace(base, fitted=replace(base.fitted, values=short))
+    assert "compression.T_d" in base.free
+    assert "compression.T_d" in instant.free
+    assert len(slopes(base)) == len(base.free)
+    assert len(slopes(instant)) == len(instant.free) - 1
+
+
+def test_what_is_left_of_a_replacement_must_do_as_well(
+    problem: Problem, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two steps down, each of them not significant, may be so together."""
+    base, friction, preload = fit(problem), fit(problem, "coulomb_friction"), fit(problem)
+    other = fit(problem, "gas_preload")
+    same = replace(other.fitted, residual=friction.residual)
+    other = replace(other, fitted=same, cross_validated=0.999 * friction.cross_validated)
+    x = exploration(problem, base, friction, other)
+    assert as_good_as_explored(x, friction) is other
+    module = sys.modules[as_good_as_explored.__module__]
+    monkeypatch.setattr(module, "eliminate", lambda x, h: preload)
+    assert as_good_as_explored(x, friction) is friction
 
 
 def test_a_richer_form_must_earn_its_name(problem: Problem) -> None:
