@@ -209,17 +209,14 @@ def _cross_validated(fitted: Hypothesis) -> Array:
 def slopes(fitted: Hypothesis) -> Array:
     """(p, n) derivative of the force by each parameter that the data determine.
 
-    Not by a time constant of which nothing is left by the next sample: the search has driven it to
+    Not by a lag T_d of the yield force that is over by the next sample: the search has driven it to
     its shortest, where the residual pulls at it still, and the one sample right behind a turn of
     the motion, which would see it, makes the step without that sample's group a leap.
     """
-    signals, quantities = fitted.problem.block.signals, fitted.model.quantities
+    signals, values = fitted.problem.block.signals, fitted.values
     shortest = thresholds.INSTANT * signals.finest_step
-    free = [
-        name for name in fitted.free
-        if quantities[name].unit != "s" or not 0.0 <= fitted.values[name] < shortest
-    ]  # fmt: skip
-    J = jacobian(fitted.model, signals, fitted.values, free)
+    free = [n for n in fitted.free if not (n.endswith(".T_d") and values[n] < shortest)]
+    J = jacobian(fitted.model, signals, values, free)
     if fitted.record_effects is not None:
         J = J * fitted.record_effects.along(fitted.problem.block.signals.starts)[0]
     return J

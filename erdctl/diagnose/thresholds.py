@@ -47,7 +47,7 @@ CV_RIDGE = 0.05
 # that had turned into something else missed 10,000 times as much.
 PAYS = 2.0
 
-# Part of a sampling step below which a time constant is over at once.
+# Part of a sampling step below which the lag T_d is over at once.
 # Decides: whether the jackknife moves it.
 # Origin: theory; exp(-20) is left by the next sample.
 INSTANT = 0.05
