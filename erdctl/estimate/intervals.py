@@ -60,16 +60,20 @@ def with_intervals(
         error = float(np.sqrt(max(robust[at[0]], 0.0))) if at else 0.0
         if parabolic(cost, q, values[name], error):
             continue
-        size = (
-            error if error > 0.0 and np.isfinite(error) else GUESS * max(abs(values[name]), q.start)
-        )
-        best, low, high = interval(cost, q, values[name], NORMAL_95 * size)
+        if not (error > 0.0 and np.isfinite(error)):
+            # Of a value of 0 without a start nothing says how far to look but what it does.
+            error = GUESS * max(abs(values[name]), q.start) or data.step(values, name, phi)
+        if not error > 0.0:
+            continue
+        best, low, high = interval(cost, q, values[name], NORMAL_95 * error)
         if len(blocks) == 1:
             again = _refitted(data, blocks[0], values, name, rest, phi, fixed)
             low, high = widened(again, q, best, low, high)
         intervals[name] = (low, high)
         if best != values[name]:
-            values = data.taken_up({**values, name: best}, name, rest)
+            moved = {**values, name: best}
+            # The others' step is a leap where a slope holds no farther than the step is long.
+            values = min(data.taken_up(moved, name, rest), moved, values, key=data.square)
     flat = tuple(g for g in found.flat if g[0] not in intervals)
     return replace(found, values=values, intervals=intervals, flat=flat)
 
@@ -124,12 +128,24 @@ class _Data:
         parts = [linearised(model, f, values, free, wide=True)[1] for f in self.finer]
         return np.concatenate(parts, axis=1) * self.root
 
+    def step(self, values: Values, name: str, phi: float) -> float:
+        """By how much a parameter alone makes the cost over phi rise by one; 0 if it never does."""
+        parts = [linearised(self.found.model, f, values, [name])[1][0] for f in self.finer]
+        slope = np.concatenate(parts) * self.root
+        square = float(slope @ slope)
+        return float(np.sqrt(phi / square)) if square > 0.0 else 0.0
+
     def left(self, values: Values, rest: Linear) -> float:
         """Sum of squares beyond what the other parameters can take up from here [N^2]."""
         residual = self.measured - self.force(values)
         over = np.abs(residual) > self.limit
         beyond = float(np.sum((self.root[over] * self.limit) ** 2))
         return rest.left(np.where(over, 0.0, residual * self.root)) + beyond
+
+    def square(self, values: Values) -> float:
+        """Weighted sum of squares, of each sample up to the limit [N^2]."""
+        residual = np.minimum(np.abs(self.measured - self.force(values)), self.limit)
+        return float(np.sum((residual * self.root) ** 2))
 
     def taken_up(self, values: dict[str, float], name: str, rest: Linear) -> dict[str, float]:
         """The values with all parameters but one moved to their best for it."""

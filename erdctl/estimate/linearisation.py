@@ -13,6 +13,7 @@ from erdctl.model.composed import Model
 from erdctl.model.slots import Values
 
 DIFFERENCE = 1e-6  # relative step of a one-sided difference
+LEAST = 1e-3  # of a value, in its unit, where it and its start are 0
 WIDE = 1e-3  # relative step to either side of a parameter that the force may jump with
 
 
@@ -43,12 +44,12 @@ def linearised(
             continue
         q, value = model.quantities[name], values[name]
         if wide and name.split(".")[0] not in DIRECTIONS:
-            step = WIDE * max(abs(value), 0.1 * abs(q.start))
+            step = WIDE * max(abs(value), 0.1 * max(abs(q.start), LEAST))
             low, high = max(value - step, q.low), min(value + step, q.high)
             ends = [finer.force(model, {**values, name: v}) for v in (low, high)]
             rows.append((ends[1] - ends[0]) / (high - low))
             continue
-        step = DIFFERENCE * max(abs(value), 1e-3 * max(abs(q.start), 1e-3))
+        step = DIFFERENCE * max(abs(value), 1e-3 * max(abs(q.start), LEAST))
         step = -step if value + step > q.high else step
         shifted = model.force(finer.log, {**values, name: value + step})
         rows.append((shifted - force) / step)

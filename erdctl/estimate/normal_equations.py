@@ -57,10 +57,13 @@ class Normal(NamedTuple):
         return np.asarray((v / self.eigenvalues) @ v.T / np.outer(self.scale, self.scale))
 
     def bounded(self, right: Array, low: Array, high: Array) -> Array:
-        """(k,) the same within bounds (k,)."""
+        """(k,) the same within bounds (k,); what is pressed against one is exactly there."""
         from scipy.optimize import lsq_linear
 
         root = (self.vectors * np.sqrt(self.eigenvalues)).T
         target = (self.vectors.T @ (right / self.scale)) / np.sqrt(self.eigenvalues)
-        found = lsq_linear(root, target, bounds=(low * self.scale, high * self.scale))
-        return np.asarray(np.clip(found.x / self.scale, low, high))
+        bounds = low * self.scale, high * self.scale
+        found = lsq_linear(root, target, bounds=bounds, method="bvls")
+        inside = np.clip(found.x / self.scale, low, high)
+        ends = np.where(found.active_mask < 0, low, high)
+        return np.asarray(np.where(found.active_mask == 0, inside, ends))

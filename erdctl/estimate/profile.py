@@ -115,7 +115,9 @@ def widened(
     for way, end, bound in ((-1.0, low, q.low), (1.0, high, q.high)):
         last, past = end, end
         reach = max(abs(end - best), NARROWEST * max(abs(best), abs(q.start)))
-        while last != bound and known[last] <= min(known.values()) + SHORT * inside:
+        for _ in range(FARTHEST):
+            if last == bound or known[last] > min(known.values()) + SHORT * inside:
+                break
             reach *= 2.0
             at = float(np.clip(best + way * reach, q.low, q.high))
             known[at] = cost(at)
