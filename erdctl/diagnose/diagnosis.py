@@ -135,15 +135,20 @@ def diagnose(
     thin = thinned(seen, thresholds.SEARCH_SAMPLES)
     with executor((thin, seen, problem), jobs, progress) as workers:
         searched = search(thin, testable, most, workers, seed, given)
-        selection = refit(seen, searched, workers)
-        unseen = on_unseen(problem.of(aside) if aside else None, selection.base, selection.best)
-        withdrawn = selection.named if unseen[0].never_seen and unseen[0].worse else ()
-        if withdrawn:
-            selection = selection.nothing
-            unseen = on_unseen(problem.of(aside), selection.base, selection.best)
-        found = findings(seen, selection)
-        if aside:
-            selection = on_all(problem, selection, workers)
+        chosen: Selection | None = refit(seen, searched, workers)
+        while chosen is not None:
+            selection = chosen
+            unseen = on_unseen(problem.of(aside) if aside else None, chosen.base, chosen.best)
+            withdrawn = chosen.named if unseen[0].never_seen and unseen[0].worse else ()
+            if withdrawn:
+                selection = chosen.nothing
+                unseen = on_unseen(problem.of(aside), selection.base, selection.best)
+            found = findings(seen, selection)
+            if aside:
+                selection = on_all(problem, selection, workers)
+            fit, record_effects = fit_errors(problem, selection.best)
+            idle = next((e for e in selection.named if _idle(e, fit)), None)
+            chosen = refit(seen, chosen, workers, idle) if idle else None
     progress("lack of fit", part_of("regression of the residual", 1, 1))
     lack_of_fit, taken = _left(selection, seed), None
     if selection.named and _matters(problem, selection, lack_of_fit):
@@ -152,6 +157,7 @@ def diagnose(
             withdrawn, found, taken, selection = selection.named, (), part, selection.nothing
             unseen = on_unseen(problem.of(aside) if aside else None, selection.base, selection.base)
             lack_of_fit = _left(selection, seed)
+            fit, record_effects = fit_errors(problem, selection.best)
     best = selection.best
     noise = lack_of_fit.noise_rms
     left = _matters(problem, selection, lack_of_fit)
@@ -170,7 +176,6 @@ def diagnose(
         mismatch += [alone] if alone else []
     base = selection.base
     refitted = scores.of(problem, base.model, base.values)
-    fit, record_effects = fit_errors(problem, best)
     corrected = scores.of(problem, fit.model, fit.values)
     undetected: tuple[Detectable, ...] = ()
     if limits:
@@ -203,6 +208,15 @@ def diagnose(
         undetected=undetected,
         rig=rig,
     )
+
+
+def _idle(effect: Effect, fit: Fit) -> bool:
+    """Whether the last step leaves nothing of an effect.
+
+    It then made up for steps of the log that are long for what happens in them; between samples,
+    where the damper is, there is none of it.
+    """
+    return all(fit.values[name] == off for name, off in effect.off.items())
 
 
 def _left(selection: Selection, seed: int) -> LackOfFit:
@@ -259,10 +273,11 @@ def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEff
     shared = block if record_effects is None else record_effects.shared(block)
     held, onsets = set(problem.held), set(placed(model))
     bounded = set(model.quantities).difference(hypothesis.free, held, onsets)
+    at_once = {n: model.quantities[n].low for n in hypothesis.instant - held}
     levels = None if record_effects is None else record_effects.levels(problem.free)
     fit = assess(
-        model, [shared], hypothesis.values, fixed=held | onsets, bounded=sorted(bounded),
-        levels=levels, threads=1,
+        model, [shared], {**hypothesis.values, **at_once}, fixed=held | onsets,
+        bounded=sorted(bounded), levels=levels, threads=1,
     )  # fmt: skip
     if onsets:
         # Found by a search of all times: no curvature says how well.

@@ -54,12 +54,23 @@ class Hypothesis:
 
     @property
     def free(self) -> list[str]:
-        """The parameters that the data determine: neither held nor at a bound."""
-        held, model = self.problem.held, self.model
+        """The parameters that the data determine: neither held, nor at a bound, nor `instant`."""
+        held, model = self.problem.held.keys() | self.instant, self.model
         return [
             name for name, q in model.quantities.items()
             if name not in held and not at_bound(q, self.values[name])
         ]  # fmt: skip
+
+    @property
+    def instant(self) -> set[str]:
+        """Lags T_d of the yield force that are over by the next sample.
+
+        The search has driven one to its shortest, where the residual pulls at it still, and the one
+        sample right behind a turn of the motion, which would see it, makes a step by the slope
+        there a leap: without that sample's group, or of the whole fit, to seconds.
+        """
+        shortest = thresholds.INSTANT * self.problem.block.signals.finest_step
+        return {n for n, v in self.values.items() if n.endswith(".T_d") and v < shortest}
 
     @property
     def score(self) -> float:
@@ -207,16 +218,8 @@ def _cross_validated(fitted: Hypothesis) -> Array:
 
 
 def slopes(fitted: Hypothesis) -> Array:
-    """(p, n) derivative of the force by each parameter that the data determine.
-
-    Not by a lag T_d of the yield force that is over by the next sample: the search has driven it to
-    its shortest, where the residual pulls at it still, and the one sample right behind a turn of
-    the motion, which would see it, makes the step without that sample's group a leap.
-    """
-    signals, values = fitted.problem.block.signals, fitted.values
-    shortest = thresholds.INSTANT * signals.finest_step
-    free = [n for n in fitted.free if not (n.endswith(".T_d") and values[n] < shortest)]
-    J = jacobian(fitted.model, signals, values, free)
+    """(p, n) derivative of the force by each parameter that the data determine."""
+    J = jacobian(fitted.model, fitted.problem.block.signals, fitted.values, fitted.free)
     if fitted.record_effects is not None:
         J = J * fitted.record_effects.along(fitted.problem.block.signals.starts)[0]
     return J

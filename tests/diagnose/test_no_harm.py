@@ -12,12 +12,15 @@ from rig import campaign, noisy
 from erdctl.diagnose.backward_step import as_good_as_explored, eliminate
 from erdctl.diagnose.carry_over import to_other_records
 from erdctl.diagnose.comparison import compare
+from erdctl.diagnose.diagnosis import diagnose, fit_errors
 from erdctl.diagnose.executor import executor
-from erdctl.diagnose.forward_step import Exploration, Explored
+from erdctl.diagnose.forward_step import Exploration, Explored, key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis, over_records, slopes
 from erdctl.diagnose.look_alikes import is_preferred
 from erdctl.diagnose.problem import Problem, prepare
+from erdctl.diagnose.record_effects import RecordEffects
 from erdctl.effects import get
+from erdctl.estimate.covariance import Fit
 from erdctl.estimate.starts import fresh_start
 
 START = fresh_start(0.05, 0.4)
@@ -86,9 +89,10 @@ def test_a_lag_that_is_over_within_a_sample_is_not_moved(problem: Problem) -> No
     short = {**base.values, "compression.T_d": 1.01e-5}
     instant = replace(base, fitted=replace(base.fitted, values=short))
     assert "compression.T_d" in base.free
-    assert "compression.T_d" in instant.free
-    assert len(slopes(base)) == len(base.free)
-    assert len(slopes(instant)) == len(instant.free) - 1
+    assert "compression.T_d" not in instant.free
+    assert len(slopes(instant)) == len(slopes(base)) - 1
+    last, _ = fit_errors(problem, instant)
+    assert last.values["compression.T_d"] == 0.0
 
 
 def test_what_is_left_of_a_replacement_must_do_as_well(
@@ -110,3 +114,41 @@ def test_a_richer_form_must_earn_its_name(problem: Problem) -> None:
     simple, rich = fit(problem, "coulomb_friction"), fit(problem, "stribeck_friction")
     assert is_preferred(problem, simple, rich)
     assert not is_preferred(problem, rich, simple)
+
+
+def test_an_effect_of_which_nothing_is_left_between_samples_is_no_finding(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """What it took was that the log's steps are long for what happens in them."""
+    r = noisy(campaign(100.0, 6.0), seed=12)
+    assert r.force is not None
+    log = replace(r, force=r.force + 2.0 * np.sign(r.xdot) + 40.0 * r.xdot * np.abs(r.xdot))
+    catalogue = [get("coulomb_friction"), get("quadratic_damping")]
+    assert {f.effect.name for f in diagnose(log, catalogue).findings} == {
+        "coulomb_friction", "quadratic_damping",
+    }  # fmt: skip
+    module = sys.modules[fit_errors.__module__]
+
+    def none_left(problem: Problem, h: Hypothesis) -> tuple[Fit, RecordEffects | None]:
+        last, effects = fit_errors(problem, h)
+        off = get("quadratic_damping").off if "quadratic_damping" in key_of(h.effects) else {}
+        return replace(last, values={**last.values, **off}), effects
+
+    monkeypatch.setattr(module, "fit_errors", none_left)
+    found = diagnose(log, catalogue)
+    assert [f.effect.name for f in found.findings] == ["coulomb_friction"]
+    assert found.corrected.overall.nrmse > 0.0
+
+
+def test_a_stiffness_that_is_not_there_has_an_upper_bound(problem: Problem) -> None:
+    """At its bound of 0, with a start of 0, nothing said how far to look: it looked for ever."""
+    less = problem.block.force - 300.0 * problem.block.signals.x
+    block = problem.block._replace(force=less)
+    h = fit(replace(problem, block=block), "coulomb_friction")
+    gone = [n for n in ("compression.k_nom", "release.k_nom") if h.values[n] == 0.0]
+    assert gone
+    last, _ = fit_errors(h.problem, h)
+    for name in gone:
+        low, high = last.intervals[name]
+        assert low == 0.0
+        assert 0.0 < high < 100.0
