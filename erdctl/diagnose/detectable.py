@@ -9,8 +9,8 @@ the rest is added to the residual as it was recorded, with its noise and whateve
 The search's own decision takes the second for better from some size on, whichever sign the noise
 has: it is as likely to hide an effect as to show it. What is told is half as much again, so that
 other noise of the same kind would not hide it. Exact where the force is linear in the size; for
-others the first Gauss-Newton step, like the cross-validation itself. Of what acts within one
-sample, as at reversals, no more can be promised than the model's own steps resolve.
+others the first Gauss-Newton step, like the cross-validation itself. What acts next to turns of
+the motion alone is seen by nothing, however large (see `resolved`).
 """
 
 from __future__ import annotations
@@ -29,6 +29,7 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import compare
 from erdctl.diagnose.hypothesis import Hypothesis, left_out, slopes
 from erdctl.diagnose.problem import Problem, mask_doubtful
+from erdctl.diagnose.resolved import next_to_turns
 from erdctl.diagnose.sizes import amount_of, is_linear, point, span, ways
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
@@ -208,7 +209,9 @@ class Injection:
     def seen(self, without: Array, more: Hypothesis) -> bool:
         """Whether the search would take a hypothesis for better than one with such a residual."""
         fewer = replace(self.best, cross_validated=without)
-        return compare(self.problem, fewer, more).significant
+        clear = compare(self.problem, fewer, more).significant
+        least = thresholds.SIZE_SURE * thresholds.LEAST_ELSEWHERE
+        return clear and not next_to_turns(self.problem, fewer, more, least)
 
 
 @dataclass(frozen=True)

@@ -102,7 +102,8 @@ class Screen:
         if not use.any():
             return 0.0
         scaled = X[use] / scale[use, None]
-        found = lsq_linear(scaled.T, self.residual, bounds=(np.array(low)[use], np.inf))
+        bounds = np.array(low)[use], np.inf
+        found = lsq_linear(scaled.T, self.residual, bounds=bounds, method="bvls")
         return 1.0 - 2.0 * float(found.cost) / max(self.square, 1e-300)
 
     def _beyond(self, rows: Array) -> Array:
@@ -161,6 +162,7 @@ def _axis(q: Quantity, problem: Problem) -> list[float]:
             values += [negative / stroke**2] if q.low < 0 else []
         case "s" if q.start < longest:
             values = np.geomspace(s.finest_step, longest / 2, thresholds.DELAYS).tolist()
+            values.append(thresholds.PART_OF_STEP * s.finest_step)
         case "1/J":
             values = [p / work for p in thresholds.ENERGY_PARTS]
         case _ if q.low < 0 < q.high:

@@ -26,6 +26,7 @@ from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.look_alikes import is_preferred, look_alikes
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
+from erdctl.diagnose.resolved import resolved
 from erdctl.estimate.starts import fresh_start
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
@@ -110,12 +111,16 @@ def search(
     )  # fmt: skip
 
 
-def refit(problem: Problem, found: Selection, executor: Executor) -> Selection:
+def refit(
+    problem: Problem, found: Selection, executor: Executor, idle: Effect | None = None
+) -> Selection:
     """The same selection refitted to another problem, usually all samples, from where it ended.
 
     What a part of the samples spoke for and all of them do not is dropped, and so is what does not
     carry over to records that were left out.
+    idle : one of the chosen effects, that is left out
     """
+    kept = key_of(found.best.effects) - ({idle.name} if idle else set())
     again = {key_of(h.effects): h for h in (found.base, found.best, *found.without.values())}
     whole = len(found.best.residual) == len(problem.block.force)  # all samples were searched
     if whole and found.best.record_effects is None:  # which settle by and by
@@ -125,9 +130,9 @@ def refit(problem: Problem, found: Selection, executor: Executor) -> Selection:
     explored.restarts.update((key, key_of(found.best.effects)) for key in again)
     base = explored[key_of(found.base.effects)]
     x = Exploration(problem, base, explored, executor)
-    best, last = explored[key_of(found.best.effects)], None
+    best, last = explored[kept], None
     while best is not last:  # each may leave what the other one drops
-        last, best = best, to_other_records(x, eliminate(x, best))
+        last, best = best, to_other_records(x, resolved(x, eliminate(x, best)))
     names = [e.name for e in x.added(best)]
     without = {n: explored[key_of(best.effects) - {n}] for n in names}
     alike = {n: found.look_alikes[n] for n in names}

@@ -125,6 +125,11 @@ T_ELSEWHERE = 1.5
 # Origin: p = 0.05.
 UNLIKE_RECORDS = 0.05
 
+# Part of what an effect takes of the mean square that does not lie in the two samples of a turn.
+# Decides: whether the log resolves in time what an effect does.
+# Origin: none; a delay or a compliance a hundredth of a step long leaves less.
+LEAST_ELSEWHERE = 0.01
+
 # Sign flips of stretches, and the part of them whose largest statistic over all candidates of a
 # step may lie beyond the critical value.
 # Decides: how much more the best of many must show than a single one would have to.
@@ -241,9 +246,9 @@ SIGNED_MULTIPLES = (0.3, 1.0, -1.0)
 INVERSE_PARTS, INVERSE_SQUARE, INVERSE_NEGATIVE = (0.1, 0.5), 0.5, -0.3
 ENERGY_PARTS = (0.03, 0.3)
 
-# Starts of a time, from a sample to half of the longest record.
-# Origin: budget.
-DELAYS = 6
+# Starts of a time, from a sample to half of the longest record, and one more, in sampling steps.
+# Origin: budget; a delay of a sample moves whole jumps, one of a part of it goes with the slope.
+DELAYS, PART_OF_STEP = 6, 0.2
 
 # Starts of an effect's grid, and how many of them are searched from.
 # Origin: budget.

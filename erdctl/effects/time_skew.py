@@ -39,10 +39,13 @@ def time_skew(column: Array, s: Signals, p: Values) -> Array:
 
 
 def delays(s: Signals, rest: Array) -> list[dict[str, float]]:
-    """Starts of a search: the cost has a dip of its own for every jump that meets another."""
+    """Starts of a search: the cost has a dip of its own for every jump that meets another.
+
+    Delays of a part of a step have the slope of the force, and not its jumps, for their direction.
+    """
     step = s.typical_step or 1e-3
     longest = 0.2 * float(np.diff(s.t[[s.starts[:-1], s.starts[1:] - 1]], axis=0).min())
-    sizes = np.geomspace(step, max(min(longest, 0.3), 2.0 * step), 12).tolist()
+    sizes = [0.2 * step, *np.geomspace(step, max(min(longest, 0.3), 2.0 * step), 12).tolist()]
     return [{"tau": way * size} for size in sizes for way in (1.0, -1.0)]
 
 
