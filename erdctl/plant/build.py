@@ -14,7 +14,7 @@ from erdctl.plant.plan import CasePlan
 from erdctl.plant.plant import Plant
 from erdctl.plant.refit import joined
 from erdctl.plant.simulate import Ride, forces
-from erdctl.plant.strength import Outcome, Setting, crowding, outcome, scales_of, sought
+from erdctl.plant.strength import MOST_NEAR, Outcome, Setting, crowding, outcome, scales_of, sought
 from erdctl.plant.twin import Scales, Twin
 
 Random = np.random.Generator
@@ -37,6 +37,7 @@ class Variation:
 class Built:
     """An attempt: what came out for each effect alone, without each, and for all together.
 
+    effects : the hidden ones, in which a spare one may stand for one that was planned
     off : log of reached over wanted level, of each effect
     aims : how many of the effects, the first, an attempt must get right; in a crowd the strong one
     zeros : of the force channel in each record [N]
@@ -45,6 +46,7 @@ class Built:
 
     setting: Setting
     noise: ForceNoise
+    effects: tuple[Twin, ...]
     alone: tuple[Outcome, ...]
     without: tuple[Outcome, ...]
     whole: Outcome
@@ -66,26 +68,35 @@ def build(plan: CasePlan, over: tuple[Ride, ...], random: Random, variation: Var
     crowd: list[float] = []
     aims = 1 if plan.kind == "crowded" else len(plan.effects)
     factors = variation.levels or (1.0,) * len(plan.effects)
-    for effect, level, factor in zip(plan.effects, plan.levels, factors, strict=True):
-        maker = _maker(effect, effect.drawn(random), scales)
-        wanted = level * factor
-        alone_in_base = partial(maker, base)
-        found = sought(setting, effect, alone_in_base, wanted)
-        aimed = len(crowd) < aims
+    effects, spare = list(plan.effects), list(plan.spare)
+    for k, (level, factor) in enumerate(zip(plan.levels, factors, strict=True)):
+        wanted, aimed = level * factor, k < aims
+        while True:
+            effect = effects[k]
+            maker = _maker(effect, effect.drawn(random), scales)
+            alone_in_base = partial(maker, base)
+            found = sought(setting, effect, alone_in_base, wanted)
+            others = [e for i, e in enumerate(effects) if i != k]
+            fitting = [t for t in spare if all(t.goes_with(o) for o in others)]
+            if aimed or found.near <= MOST_NEAR or not fitting:
+                break
+            effects[k] = fitting[0]
+            spare.remove(fitting[0])
         crowd.append(crowding(setting, effect, alone_in_base, found) if aimed else 1.0)
         off.append(float(np.log(max(found.level, 1e-9) / wanted)))
         makers.append(maker)
         alone.append(found)
     rest = tuple(off), tuple(crowd), aims, zeros
+    hidden = tuple(effects)
     if len(alone) == 1:
-        return Built(setting, noise, tuple(alone), (), alone[0], *rest)
+        return Built(setting, noise, hidden, tuple(alone), (), alone[0], *rest)
     strengths = [a.strength for a in alone]
     whole = _together(setting, makers, strengths)
     without = tuple(
         _together(setting, makers[:k] + makers[k + 1 :], strengths[:k] + strengths[k + 1 :])
         for k in range(len(alone))
     )
-    return Built(setting, noise, tuple(alone), without, whole, *rest)
+    return Built(setting, noise, hidden, tuple(alone), without, whole, *rest)
 
 
 Maker = Callable[[Plant, float], Plant]

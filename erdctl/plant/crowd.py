@@ -33,10 +33,11 @@ def crowd_campaign(random: Random) -> Campaign:
     )
 
 
-def crowd(random: Random, pool: Sequence[Twin]) -> tuple[Twin, ...]:
-    """Effects that one damper can have together, the strong one first.
+def crowd(random: Random, pool: Sequence[Twin]) -> tuple[tuple[Twin, ...], tuple[Twin, ...]]:
+    """Effects that one damper can have together, the strong one first, and others to spare.
 
-    No two of one family: that is what fills one place, or is the same at the rod.
+    No two of one family: that is what fills one place, or is the same at the rod. So faint, some
+    would live next to reversals only, as no real one does; another takes the place of such a one.
     """
     count = int(random.integers(FEWEST, MOST + 1))
     order = [pool[i] for i in random.permutation(len(pool))]
@@ -49,7 +50,7 @@ def crowd(random: Random, pool: Sequence[Twin]) -> tuple[Twin, ...]:
             f"no crowd among {', '.join(t.name for t in pool)}: a strong effect and {FEWEST} faint "
             "ones are needed that one damper can have together"
         )
-    return tuple(chosen)
+    return tuple(chosen), tuple(t for t in order if t not in chosen)
 
 
 def crowd_levels(random: Random, count: int, strong: float | None) -> tuple[float, ...]:

@@ -82,9 +82,10 @@ def _drawn(plan: CasePlan, concealment: str | None) -> tuple[Case, float]:
     variation, best = Variation(), None
     for attempt in range(tries):
         built = build(plan, over, stream(seed, "damper", attempt), variation)
+        drawn = replace(plan, effects=built.effects)
         for choice in range(CHOICES if concealment == "absorbed" else 1):
             other = draw_other(stream(seed, "fresh", attempt, choice), plan.campaign)
-            case = _case(plan, built, other)
+            case = _case(drawn, built, other)
             faults = _faults(case, built, concealment)
             if best is None or faults < best[0]:
                 best = faults, case
@@ -95,7 +96,7 @@ def _drawn(plan: CasePlan, concealment: str | None) -> tuple[Case, float]:
         given_up = attempt >= PATIENCE and faults < NOT_AS_ASKED and calm
         if faults == 0.0 or given_up:
             break
-        variation = _next(variation, built, plan.effects, attempt)
+        variation = _next(variation, built, built.effects, attempt)
     assert best is not None
     return best[1], best[0]
 

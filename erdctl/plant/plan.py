@@ -55,6 +55,7 @@ class CasePlan:
 
     zeros : of the force in each record, over the range of the force; () where none has any
     instead : what else to hide, in turn, where the campaign cannot show the first as strong as that
+    spare : for the place of a faint one that would live next to reversals only
     """
 
     seed: int
@@ -68,6 +69,7 @@ class CasePlan:
     gains: tuple[float, ...]
     zeros: tuple[float, ...] = ()
     instead: tuple[tuple[Twin, ...], ...] = ()
+    spare: tuple[Twin, ...] = ()
 
 
 def stream(seed: int, name: str, *more: int) -> Random:
@@ -182,7 +184,7 @@ def _crowded(
     *, always: bool,
 ) -> CasePlan:  # fmt: skip
     random = stream(seed, "crowded")
-    hidden = crowd(random, pool)
+    hidden, spare = crowd(random, pool)
     levels = crowd_levels(random, len(hidden) - 1, level)
     campaign = crowd_campaign(stream(seed, "campaign"))
     gains, zeros = scattered(stream(seed, "gains"), len(campaign.records))
@@ -190,7 +192,7 @@ def _crowded(
         seed, "crowded", hidden, (True,) * len(hidden), levels, campaign,
         draw_force_noise(stream(seed, "force noise"), colour),
         draw_motion_noise(stream(seed, "motion noise"), campaign, motion), gains, zeros,
-        tuple((*hidden[k:], *hidden[:k]) for k in range(1, len(hidden))),
+        tuple((*hidden[k:], *hidden[:k]) for k in range(1, len(hidden))), spare,
     )  # fmt: skip
 
 
