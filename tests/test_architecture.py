@@ -114,9 +114,9 @@ def test_no_effect_is_named_outside_its_file(path: Path) -> None:
     if path.parent.name == "rig":
         allowed = {"velocity_noise"}
     elif path.stem != "faults":
-        # An effect says which others force data can hardly tell from it.
+        # An effect says which others force data can hardly tell from it, and which are part of it.
         effect = get(path.stem) if path.stem in names() else None
-        allowed = {*effect.equivalents, *effect.companions} if effect else set()
+        allowed = {*effect.equivalents, *effect.companions, *effect.includes} if effect else set()
     assert not (strings & known) - allowed
 
 

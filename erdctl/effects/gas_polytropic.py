@@ -58,6 +58,7 @@ EFFECT = Effect(
     validity="a x < 0.95, the gas at one temperature or without exchange of heat",
     requires=(Requirement.STROKE,),
     shows=Variable.X,
+    includes=("gas_preload",),
     quantities=(
         Quantity(
             symbol="F_0", unit="N", title="preload P_0 A_s",

@@ -82,6 +82,7 @@ class Effect:
         and 1/J from what the recording spans, others from 0.1 to 10 times the parameter's start
     companions : effects that commonly come with it, and without which it may improve no fit
     equivalents : effects that force data can hardly tell from this one, whatever the log
+    includes : effects of which it has the whole in parameters of its own
     sets_in : groups of which it takes a part from a time on, by the law of `erdctl.model.onset`,
         whose time a fit finds by a search of all (`estimate.onsets`); no others
     order : effects of one slot act in this order
@@ -104,6 +105,7 @@ class Effect:
     of_speed: bool = False
     companions: tuple[str, ...] = ()
     equivalents: tuple[str, ...] = ()
+    includes: tuple[str, ...] = ()
     said: str = ""
     alters: tuple[tuple[str, str], ...] = ()
     sets_in: tuple[str, ...] = ()

@@ -6,6 +6,8 @@ package, needs no word here: a twin of that name is from then on no stranger to 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from erdctl.effects import catalogue
 from erdctl.model.effect import Effect
 
@@ -16,15 +18,19 @@ def nameable() -> frozenset[str]:
     return frozenset(n for e in catalogue() for n in (e.name, *e.equivalents))
 
 
-def right_names(hidden: str, equivalent: tuple[str, ...] = ()) -> tuple[str, ...]:
+def right_names(
+    hidden: str, equivalent: tuple[str, ...] = (), beside: Iterable[str] = ()
+) -> tuple[str, ...]:
     """Names other than its own that are right for a hidden effect.
 
     equivalent : what the plant says no force channel tells from it; what the catalogue says of it,
     from either side, is added.
+    beside : what else is hidden; of these, an effect that includes this one names both
     """
     said = [e.equivalents for e in catalogue() if e.name == hidden]
     back = [e.name for e in catalogue() if hidden in e.equivalents]
-    names = dict.fromkeys([*equivalent, *(n for names in said for n in names), *back])
+    both = [e.name for e in catalogue() if hidden in e.includes and e.name in beside]
+    names = dict.fromkeys([*equivalent, *(n for names in said for n in names), *back, *both])
     return tuple(n for n in names if n != hidden)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -92,17 +92,21 @@ def scored(
     sealed: Sealed, document: Mapping[str, Any], key: Mapping[str, Any], fresh: Errors
 ) -> Result:
     """A diagnosis' document against the key."""
+    names = [e["name"] for e in key["effects"]]
     hidden = tuple(
-        HiddenEffect(e["name"], float(e["alone"]), right_names(e["name"], tuple(e["equivalent"])))
+        HiddenEffect(
+            e["name"], float(e["alone"]), right_names(e["name"], tuple(e["equivalent"]), names)
+        )
         for e in key["effects"]
     )
     known = all(e["catalogued"] for e in key["effects"])
     findings = tuple(Found(f["effect"], tuple(f["equivalent"])) for f in document["findings"])
-    match = naming(findings, hidden)
+    mended = tuple(_mended(document, hidden))
+    match = naming((*mended, *findings), hidden)
     first = match.first
     if "strong" in key:
         strong = [h for h in hidden if h.effect == key["strong"]]
-        first = naming(findings[:1], strong).first
+        first = naming((*mended, *findings)[:1], strong).first
     return Result(
         number=sealed.number,
         seed=sealed.seed,
@@ -129,6 +133,12 @@ def scored(
         cannot_tell=bool(document.get("cannot_tell")),
         printed=_printed(document, key),
     )
+
+
+def _mended(document: Mapping[str, Any], hidden: Sequence[HiddenEffect]) -> Iterator[Found]:
+    """What a check of the rig names, that a fit does without afterwards."""
+    names = {h.effect for h in hidden}
+    return (Found(check["code"], ()) for check in document["rig"] if check["code"] in names)
 
 
 def _printed(document: Mapping[str, Any], key: Mapping[str, Any]) -> tuple[Printed, ...]:

@@ -40,6 +40,7 @@ def document(verdict: str, *findings: tuple[str, ...], places: Any = ()) -> dict
     """A diagnosis: of each finding its name and its look-alikes."""
     return {
         "verdict": verdict,
+        "rig": [],
         "mismatch": [{"where": where, "share": 0.8, "text": ""} for where in places],
         "findings": [
             {"effect": name, "equivalent": list(others), "where": None}

@@ -78,6 +78,8 @@ def test_names_that_are_right_come_from_plant_and_catalogue_together() -> None:
     assert right_names("mount_compliance", ("drift",)) == ("drift", "fluid_compressibility")
     assert right_names("force_offset") == ("gas_preload",)  # declared from the other side
     assert right_names("backlash") == ()
+    polytropic = right_names("gas_preload", beside=["gas_polytropic", "backlash"])
+    assert polytropic == ("force_offset", "gas_polytropic")  # which has a preload of its own
 
 
 def test_a_stranger_has_no_right_name() -> None:

@@ -132,6 +132,14 @@ def test_the_first_place_is_one_of_the_misfit_or_of_the_effect() -> None:
     assert nowhere.first_place is None
 
 
+def test_what_the_rig_s_check_names_and_mends_needs_no_finding() -> None:
+    said = document("adequate") | {"rig": [{"code": "velocity_noise"}, {"code": "force_gain"}]}
+    r = scored(sealed(), said, key(("velocity_noise", 2.0)), ERRORS)
+    assert (r.named, r.matched, r.spurious) == (True, 1, 0)
+    r = scored(sealed(), said, key(("rub", 2.0)), ERRORS)
+    assert (r.named, r.matched, r.spurious) == (False, 0, 0)
+
+
 def test_nothing_and_strangers_have_no_name() -> None:
     null = scored(sealed(), document("explained", ("rub",)), key(kind="null"), ERRORS)
     assert (null.named, null.spurious, null.located) == (None, 1, None)
