@@ -68,7 +68,11 @@ def command(
     ] = None,
     keep: Annotated[
         str | None,
-        typer.Option(metavar="DIR", help="Keep logs, fresh records, keys and diagnoses here."),
+        typer.Option(
+            metavar="DIR",
+            help="Keep logs, fresh records, keys, diagnoses and scores here; what is there of the"
+            " same proof is not done again.",
+        ),
     ] = None,
     jobs: Annotated[
         int | None, typer.Option(min=1, help="Cases at a time; all cores if not given.")
@@ -96,7 +100,8 @@ def command(
 
     A separate simulator, which shares no code with the models, draws a damper, a campaign, noise
     and what to hide. The SHA-256 of the sealed key is printed before `diagnose` reads the log; it
-    reads nothing else. A seed gives the same case every time; --keep keeps logs and keys.
+    reads nothing else. A seed gives the same case every time; --keep DIR keeps logs and keys, and
+    with it a run that was ended is taken up where it stood.
 
     Scored are: the first name; the verdict; the region (intersection over union of at least 0.3
     with a true one); spurious findings; and the attainable reduction, which is the error removed on
@@ -113,8 +118,7 @@ def command(
     force is added what the simulator says an effect would add on the motion and duty of the log.
     A size is the rms of what the model of the log's own diagnosis cannot absorb of that, over what
     that diagnosis left where the effect acts. The table says from which size each effect is named
-    beyond what is named anyway, and what is named when nothing was hidden. With --keep DIR a run
-    that was ended is taken up where it stood.
+    beyond what is named anyway, and what is named when nothing was hidden.
 
     \b
     Examples:
@@ -132,6 +136,7 @@ def command(
     from erdctl.io import documents
     from erdctl.prove.case import Wish, check
     from erdctl.prove.document import to_json
+    from erdctl.prove.kept import Kept
 
     if nulls is not None and on is None:
         asked = (only, level, kind, concealment, motion, colour, keep, output, report)
@@ -147,7 +152,7 @@ def command(
                report=report)  # fmt: skip
         if output is not None:
             _must_exist(output)
-        with _folder(keep, again=True) as folder:
+        with _folder(keep) as folder:
             prove_on(
                 on, maps, effects=names or None, sizes=sizes, nulls=10 if nulls is None else nulls,
                 thin=thin, seed=seed, jobs=jobs, folder=folder, as_json=as_json, output=output,
@@ -163,6 +168,7 @@ def command(
         _must_exist(output)
     check_report(report)
     with _folder(keep) as folder:
+        Kept.of(folder, wish, seed)  # a directory of another proof is refused before all else
         proof = _run(wish, seeds, folder, jobs)
     document = to_json(proof)
     if as_json:
@@ -242,11 +248,8 @@ def _show(proof: Proof) -> None:
         table(title, header, rows)
 
 
-def _folder(keep: str | None, *, again: bool = False) -> AbstractContextManager[Path]:
-    """Where the cases lie: a directory of the user's, or one that goes when the block ends.
-
-    again : whether what is there already may be taken up
-    """
+def _folder(keep: str | None) -> AbstractContextManager[Path]:
+    """Where the cases lie: a directory of the user's, or one that goes when the block ends."""
     from contextlib import contextmanager
     from pathlib import Path
     from tempfile import TemporaryDirectory
@@ -265,11 +268,8 @@ def _folder(keep: str | None, *, again: bool = False) -> AbstractContextManager[
         path = Path(keep)
         try:
             path.mkdir(parents=True, exist_ok=True)
-            full = any(path.iterdir())
         except OSError as error:
             raise UsageProblem(f"--keep {keep}: {error.strerror or error}") from None
-        if full and not again:
-            raise UsageProblem(f"--keep {keep}: the directory is not empty; name a new one")
         yield path
 
     return place()

@@ -12,6 +12,7 @@ from erdctl.core.errors import ComputationProblem
 from erdctl.core.workers import pool as workers
 from erdctl.prove.case import Sealed, Wish, seal
 from erdctl.prove.judge import Failed, Result, judge
+from erdctl.prove.kept import Kept
 
 Outcome = Result | Failed
 
@@ -27,20 +28,32 @@ def prove(
 ) -> tuple[Outcome, ...]:
     """Outcomes of the cases of some seeds, in their order; the same for any number of jobs.
 
+    folder : empty, or of the same proof, whose outcomes are then not worked out again
     on_sealed : called with each case before its diagnosis starts
     on_outcome : called with each outcome, in the order of the seeds
     Raises ComputationProblem if a worker dies.
     """
-    done: dict[int, Outcome] = {}
+    kept = Kept.of(folder, wish, seeds[0])
+    found = {number: kept.read(number) for number in range(1, len(seeds) + 1)}
+    done: dict[int, Outcome] = {n: r for n, r in found.items() if r is not None}
+    left = [(n, seed) for n, seed in enumerate(seeds, start=1) if n not in done]
     reported = 0
+
+    def report() -> None:
+        nonlocal reported
+        while reported + 1 in done:
+            reported += 1
+            on_outcome(done[reported])
+
+    report()
     # Also for one job: linear algebra rounds otherwise with several threads.
     pool = workers(jobs)
     try:
-        for outcome in _outcomes(pool, wish, seeds, folder, jobs, on_sealed):
+        for outcome in _outcomes(pool, wish, left, folder, jobs, on_sealed):
+            if isinstance(outcome, Result):
+                kept.write(outcome)
             done[outcome.number] = outcome
-            while reported + 1 in done:
-                reported += 1
-                on_outcome(done[reported])
+            report()
     except BrokenProcessPool:
         raise ComputationProblem(
             "a worker process was killed, perhaps for want of memory; try --jobs 1"
@@ -53,13 +66,16 @@ def prove(
 def _outcomes(
     pool: ProcessPoolExecutor,
     wish: Wish,
-    seeds: Sequence[int],
+    cases: Sequence[tuple[int, int]],
     folder: Path,
     jobs: int,
     on_sealed: Callable[[Sealed], None],
 ) -> Iterator[Outcome]:
-    """Outcomes as they come: one case in hand for each job, sealed and then judged."""
-    waiting = iter(enumerate(seeds, start=1))
+    """Outcomes as they come: one case in hand for each job, sealed and then judged.
+
+    cases : number and seed of each
+    """
+    waiting = iter(cases)
     sealing: dict[Future[Sealed], tuple[int, int]] = {}
     judging: dict[Future[Result], Sealed] = {}
 

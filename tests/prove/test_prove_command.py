@@ -64,6 +64,16 @@ def test_two_cases_from_seed_to_scoreboard(tmp_path: Path) -> None:
     assert again == (first,)
     assert sealed == [(first.key_sha256, False)]
 
+    (kept / "results" / "case-002.json").unlink()
+    asked = ("--kind", "null", "--jobs", 1, "--keep", kept, "--json")
+    taken_up = run("--seed", SEED, "--cases", 2, *asked)
+    assert json.loads(taken_up.stdout) == document
+    assert taken_up.stderr.count("sha256") == 1  # of the one that was not there
+    assert run("--seed", SEED, "--cases", 1, *asked).stderr.count("sha256") == 0
+    other = run("--seed", SEED + 1, "--cases", 1, *asked, code=2)
+    assert "another seed" in other.stderr
+    assert len(other.stderr.splitlines()) == 1
+
 
 def test_a_case_that_fails_does_not_take_the_others_with_it(tmp_path: Path) -> None:
     numbers: list[int] = []
