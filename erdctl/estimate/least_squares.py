@@ -74,21 +74,33 @@ def fit(
     held = set(fixed)
     onsets = set(placed(model)) - held
     shape = [n for n in model.shape if n not in held | onsets]
-    values = dict(start)
-    weight = block.weight
-    evaluations, converged = 0, True
-    for turn in range(6 if robust or onsets else 1):
-        problem = _Projected(model, block._replace(weight=weight), values, held, shape)
-        values, converged = problem.search(max_evaluations, tolerance)
+    values, weight = dict(start), block.weight
+    evaluations = 0
+
+    def search(begin: Values) -> tuple[dict[str, float], bool, float]:
+        """Values at the end, whether the search converged, and the cost there."""
+        nonlocal evaluations
+        problem = _Projected(model, block._replace(weight=weight), begin, held, shape)
+        ended, converged = problem.search(max_evaluations, tolerance)
+        cost = problem.cost(ended) if onsets else np.nan
         evaluations += problem.evaluations
-        if onsets and turn < PLACED:
-            found = place(model, block._replace(weight=weight), values, held)
-            if any(found[n] != values[n] for n in onsets):
-                values = found
-                continue
+        return ended, converged, cost
+
+    for _ in range(6 if robust else 1):
+        values, converged, cost = search(values)
+        for _ in range(PLACED if onsets else 0):
+            # The others move to first order there: where that goes far it can do harm.
+            moved = place(model, block._replace(weight=weight), values, held)
+            if all(moved[n] == values[n] for n in onsets):
+                break
+            again = search(moved)
+            if not again[2] < (1.0 - tolerance) * cost:
+                break
+            values, converged, cost = again
         if not robust:
             break
-        updated = block.weight * huber_weight(problem.residual(values), block.weight)
+        left = block.force - model.force(block.signals, values)
+        updated = block.weight * huber_weight(left, block.weight)
         if np.max(np.abs(updated - weight), initial=0.0) < 1e-2:
             break
         weight = updated
@@ -183,10 +195,11 @@ class _Projected:
             rows -= Normal.of(columns @ columns.T).solve(columns @ rows.T).T @ columns
         return rows.T
 
-    def residual(self, values: Values) -> Array:
-        """(n,) residual at given values of the searched parameters."""
+    def cost(self, values: Values) -> float:
+        """Weighted sum of squares at given values of the searched parameters [N^2]."""
         point = [a.forth(values[n]) for n, a in zip(self.names, self.axes, strict=True)]
-        return self.solve(np.array(point))[1]
+        weighted = self.root * self.solve(np.array(point))[1]
+        return float(weighted @ weighted)
 
     def search(self, max_evaluations: int, tolerance: float) -> tuple[dict[str, float], bool]:
         """The best values from the start, and whether the search converged."""
