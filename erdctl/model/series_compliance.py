@@ -44,6 +44,15 @@ def _held(e: float, half: float, s: float) -> float:
 
 
 @njit(cache=True)
+def _excess(
+    at: float, x: float, k: float, half: float, s: float, viscous: float, plastic: float,
+    friction: float,
+) -> float:  # fmt: skip
+    """Force of the damper beyond that of the spring at a stretch."""
+    return k * (x - at) - _held(at, half, s) + viscous + plastic + friction
+
+
+@njit(cache=True)
 def _moved(
     e: float, mean: float, end: float, dt: float, s: float, x: float, Y: float, k_c: float,
     k_r: float, g_visc: float, half: float, near: int, grid: Array, viscous: Array, sign: Array,
@@ -68,17 +77,17 @@ def _moved(
         if (rest + Y * sign[branch, 0] + friction[branch, 0]) * way >= 0.0:
             continue
         low, high = 0, m - 1
+        a = b = np.nan  # H at these two, where the search has come by
         mid, reach = min(max(near, 1), m - 2), 1
         while high - low > 1:
-            at = e - way * grid[mid] * span
-            h = (
-                k * (x - at) - _held(at, half, s) + viscous[branch, mid] * g_visc
-                + Y * sign[branch, mid] + friction[branch, mid]
+            h = _excess(
+                e - way * grid[mid] * span, x, k, half, s, viscous[branch, mid] * g_visc,
+                Y * sign[branch, mid], friction[branch, mid],
             )  # fmt: skip
             if h * way < 0.0:
-                low = mid
+                low, a = mid, h
             else:
-                high = mid
+                high, b = mid, h
             # Speeds change little from sample to sample: outwards from the last in growing steps,
             # and by halves once there is a bracket.
             if low > 0 and high < m - 1:
@@ -89,16 +98,16 @@ def _moved(
             else:
                 mid = max(high - reach, 1) if high - reach > low else (low + high) // 2
                 reach *= 4
-        at = e - way * grid[low] * span
-        a = (
-            k * (x - at) - _held(at, half, s) + viscous[branch, low] * g_visc
-            + Y * sign[branch, low] + friction[branch, low]
-        )  # fmt: skip
-        at = e - way * grid[high] * span
-        b = (
-            k * (x - at) - _held(at, half, s) + viscous[branch, high] * g_visc
-            + Y * sign[branch, high] + friction[branch, high]
-        )  # fmt: skip
+        if low == 0:
+            a = _excess(
+                e - way * grid[low] * span, x, k, half, s, viscous[branch, low] * g_visc,
+                Y * sign[branch, low], friction[branch, low],
+            )  # fmt: skip
+        if high == m - 1:
+            b = _excess(
+                e - way * grid[high] * span, x, k, half, s, viscous[branch, high] * g_visc,
+                Y * sign[branch, high], friction[branch, high],
+            )  # fmt: skip
         part = -a / (b - a) if b != a else 0.0
         v = way * (grid[low] + part * (grid[high] - grid[low]))
         return e - v * span, v, low
