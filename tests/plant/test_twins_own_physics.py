@@ -35,6 +35,16 @@ def test_the_yield_force_goes_with_a_power_of_speed_above_the_knee() -> None:
     np.testing.assert_allclose(force, 20 * np.sign(v) * np.sqrt(np.abs(v) / 0.04), rtol=1e-4)
 
 
+@pytest.mark.parametrize("n", [0.05, 0.1, 0.3, 1.0])
+def test_no_drawn_knee_is_an_effect_of_its_own(n: float) -> None:
+    """Where one was as high as 3 % of n times the top speed it was named, as yielding there."""
+    speed, highest = 2 * math.pi * F * A, power_law_yield.TWIN.shape["knee"][1]
+    law = {"n": n, "v_0": 0.5 * speed}
+    sharp = simulate(BINGHAM.with_own(power_law_yield.HOOKS, **law, v_k=1e-9), TONE)
+    drawn = BINGHAM.with_own(power_law_yield.HOOKS, **law, v_k=highest * n * speed)
+    assert np.std(simulate(drawn, TONE) - sharp) < 0.002 * np.std(sharp)
+
+
 def test_and_creeps_like_a_viscous_fluid_below_it() -> None:
     plant = BINGHAM.with_own(power_law_yield.HOOKS, n=0.5, v_0=0.04, v_k=10.0)
     _, _, v = ride(TONE).sampled()
