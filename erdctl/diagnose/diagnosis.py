@@ -133,7 +133,10 @@ def diagnose(
     aside = kept_aside(recording, testable)
     seen = problem.of([r for r in range(len(recording.names)) if r not in aside])
     thin = thinned(seen, thresholds.SEARCH_SAMPLES)
-    with executor((thin, seen, problem), jobs, progress) as workers:
+    allowed: dict[str, float] = {}
+    for effect in testable:
+        allowed |= effect.allowed(problem.block.signals, problem.block.force)
+    with executor((thin, seen, problem), jobs, progress, allowed) as workers:
         searched = search(thin, testable, most, workers, seed, given)
         chosen: Selection | None = refit(seen, searched, workers)
         while chosen is not None:

@@ -21,6 +21,7 @@ from erdctl.diagnose.record_effects import RecordEffects
 from erdctl.estimate.least_squares import Fitted
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
+from erdctl.model.slots import Values
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,12 +67,22 @@ class Executor:
         problems: Sequence[Problem],
         jobs: int = 1,
         progress: Progress = lambda stage, what: None,
+        most: Values | None = None,
     ) -> None:
         self.problems, self.jobs, self.progress = tuple(problems), jobs, progress
+        self.most = most or {}
         self._pool: ProcessPoolExecutor | None = None
         self._sendable: set[str] = set()
 
     def fit(self, problem: Problem, tasks: Sequence[Task]) -> list[Hypothesis | None]:
+        """A hypothesis for each task; None where no model can hold its effects, or no such log."""
+
+        def possible(found: Hypothesis) -> bool:
+            return all(found.values.get(name, most) <= most for name, most in self.most.items())
+
+        return [h if h and possible(h) else None for h in self._fits(problem, tasks)]
+
+    def _fits(self, problem: Problem, tasks: Sequence[Task]) -> list[Hypothesis | None]:
         """A hypothesis for each task; None for effects that no model can hold together."""
         if self.jobs == 1 or len(tasks) < 2:
             return [
@@ -101,7 +112,7 @@ class Executor:
 
     def fit_compatible(self, problem: Problem, tasks: Sequence[Task]) -> list[Hypothesis]:
         """The same for effects that have been together in one model before."""
-        found = [h for h in self.fit(problem, tasks) if h is not None]
+        found = [h for h in self._fits(problem, tasks) if h is not None]
         assert len(found) == len(tasks), "effects of a hypothesis can act together"
         return found
 
@@ -131,16 +142,19 @@ class Executor:
 
 
 @contextmanager
-def executor(problems: Sequence[Problem], jobs: int, progress: Progress) -> Iterator[Executor]:
+def executor(
+    problems: Sequence[Problem], jobs: int, progress: Progress, most: Values | None = None
+) -> Iterator[Executor]:
     """An executor with so many workers, which begin when there is work for two of them.
 
     jobs : 1 for none, all is then done in this process
+    most : values of parameters above which a hypothesis is none, by name
     """
     # The field's lag takes another path, which rounds otherwise, once a compiler is loaded. With it
     # loaded from the beginning results are the same in every process.
     import erdctl.model.recurrences  # noqa: F401  # only to load the compiler
 
-    found = Executor(problems, jobs, progress)
+    found = Executor(problems, jobs, progress, most)
     try:
         yield found
     finally:

@@ -95,7 +95,7 @@ def _worth_a_fit(
     x: Exploration, parent: Hypothesis, candidates: Sequence[Effect]
 ) -> list[Candidate]:
     """The effects worth a fit together with the parent's, the most promising first."""
-    screen = Screen(x.problem, parent)
+    screen = Screen(x.problem, parent, x.executor.most)
     found = []
     tried = list(_additions(parent, candidates))
     for number, effect in enumerate(tried, start=1):

@@ -49,7 +49,7 @@ def look_alikes(
     new = [e for e in dict.fromkeys(likely) if e.name in keys and keys[e.name] not in x.explored]
     if new:
         parent = x.explored[rest]
-        screen = Screen(x.problem, parent)
+        screen = Screen(x.problem, parent, x.executor.most)
         worth = [c for c in (screen.candidate(e) for e in new) if c is not None]
         tasks = [with_effect("look-alikes", parent, c) for c in worth]
         for hypothesis in x.executor.fit(x.problem, tasks):

@@ -22,7 +22,7 @@ from erdctl.estimate.linearisation import jacobian
 from erdctl.estimate.onsets import profile
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
-from erdctl.model.slots import TermSlot
+from erdctl.model.slots import TermSlot, Values
 
 
 @dataclass(frozen=True)
@@ -35,10 +35,13 @@ class Candidate:
 
 
 class Screen:
-    """Looks at effects to add to one hypothesis; what they share is computed once."""
+    """Looks at effects to add to one hypothesis; what they share is computed once.
 
-    def __init__(self, problem: Problem, parent: Hypothesis) -> None:
-        self.problem, self.parent = problem, parent
+    most : values of parameters above which an effect is none, by name
+    """
+
+    def __init__(self, problem: Problem, parent: Hypothesis, most: Values | None = None) -> None:
+        self.problem, self.parent, self.most = problem, parent, most or {}
         self.root = np.sqrt(parent.problem.block.weight)
         signals = problem.block.signals
         self.lever = self.root  # of a force of the model on a weighted residual
@@ -51,7 +54,7 @@ class Screen:
         self.force = parent.model.force(signals, parent.values)
 
     def candidate(self, effect: Effect) -> Candidate | None:
-        """What one effect promises; None if it cannot act together with the parent's."""
+        """What one effect promises; None where the parent's or the log do not admit it."""
         if effect.sets_in:
             return self._onset(effect)
         found = []
@@ -63,6 +66,8 @@ class Screen:
             found.append((gain, {effect.key(s): v for s, v in guess.items()}))
         found.sort(key=lambda f: -f[0])
         best = found[: thresholds.SEARCHED_STARTS]
+        if any(v > self.most.get(name, v) for name, v in best[0][1].items()):
+            return None
         return Candidate(effect, found[0][0], tuple(guess for _, guess in best))
 
     def _onset(self, effect: Effect) -> Candidate:

@@ -33,6 +33,10 @@ from erdctl.core.signals import Signals
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import ChannelSlot, Values
 
+LAGS = (1, 2, 3, 5, 8, 13, 21, 34)  # samples over which changes of the force are looked at
+FEWEST_TURNS = 4  # of a record that says how wide a window can be
+FLATTENED = 1.25  # of over 100 logs of the plant with another effect beside it one asked for 1.05
+LOOKED_AT = 200_000  # samples of a record from its beginning: enough turns
 FINEST = 1e-9  # of a log: a window narrower than that is lost in rounding
 
 
@@ -143,6 +147,49 @@ def _cycles(s: Signals) -> Array:
     return 2.0 * np.pi * np.sqrt(travel / np.where(speed > 0, speed, np.inf))
 
 
+def widest(s: Signals, force: Array) -> dict[str, float]:
+    """The widest window that lets the force change as fast as it does where the motion turns.
+
+        |F_rec(t + d) - F_rec(t)| <= R d / W,   R sin(pi w) / (pi w) <= FLATTENED R_rec
+
+    R, R_rec : range of the force of a record, before and behind the average
+
+    The first holds whatever the damper does, as windows that lie d apart share all but d at either
+    end. Of every half cycle counts the largest change, less what noise adds to it, of a record the
+    median of these: neither a knock nor an outlier rules an average out. The second is that of a
+    sine and a quarter more for narrower peaks, and fails where some stand above that.
+    """
+    turns, cycles = s.turns[0], _cycles(s)
+    found = [np.inf]
+    for first, last, cycle in zip(s.starts[:-1], s.starts[1:], cycles, strict=True):
+        end = min(last, first + LOOKED_AT)
+        turn = turns[(turns >= first) & (turns < end - 1)] - first
+        if len(turn) >= FEWEST_TURNS and cycle > 0.0:
+            changes = _steepest(s.t[first:end], force[first:end], turn, 0.05 * cycle)
+            found += [np.ptp(force[first:end]) * d / (cycle * change) for d, change in changes]
+    sine = np.pi * FLATTENED * min(found)
+    return {"w": float(np.arcsin(sine) / np.pi)} if sine < 1.0 else {}
+
+
+def _steepest(t: Array, force: Array, turn: Index, longest: float) -> list[tuple[float, float]]:
+    """Times [s] of some lags, and by how much the force changes within them at every turn [N]."""
+    middle = np.concatenate([[0], (turn[1:] + turn[:-1]) // 2])
+    out = []
+    for lag in LAGS:
+        if len(t) < 4 * lag or (d := float((t[lag:] - t[:-lag]).max())) > longest:
+            break
+        change = np.abs(force[lag:] - force[:-lag])
+        half = middle[middle < len(change)]
+        bent = np.abs(force[2 * lag :] - 2.0 * force[lag:-lag] + force[: -2 * lag])
+        # Noise in a change, from those of the slope: by a half more than white noise has.
+        noise = 1.4826 * float(np.median(bent)) / np.sqrt(2.0)
+        most = noise * (np.sqrt(2.0 * np.log(max(len(change) / len(half), 2.0))) + 1.0)
+        sure = float(np.median(np.maximum.reduceat(change, half))) - most
+        if sure > 0.0:
+            out.append((d, sure))
+    return out
+
+
 EFFECT = Effect(
     name="force_smoothing",
     stage=Stage.SENSOR,
@@ -160,5 +207,6 @@ EFFECT = Effect(
             low=0.0, high=0.5, start=0.1,
         ),
     ),
+    most=widest,
     order=1,
 )  # fmt: skip

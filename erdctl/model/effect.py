@@ -13,12 +13,14 @@ from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.slots import (
+    MostFunction,
     Slot,
     StartsFunction,
     TermFunction,
     TermSlot,
     Values,
     added_forces,
+    checked_most,
     checked_starts,
 )
 
@@ -80,6 +82,8 @@ class Effect:
     guesses : starts of a search where the grid would not do (several dips of the cost, a scale that
         depends on the motion, a frequency). The grid is made by unit: m, m/s, m/N, 1/m, 1/m^2, s
         and 1/J from what the recording spans, others from 0.1 to 10 times the parameter's start
+    most : what a log allows at most of a parameter by the measured force alone: a hypothesis that
+        asks for more is none, however well it fits
     companions : effects that commonly come with it, and without which it may improve no fit
     equivalents : effects that force data can hardly tell from this one, whatever the log
     includes : effects of which it has the whole in parameters of its own
@@ -102,6 +106,7 @@ class Effect:
     quantities: tuple[Quantity, ...]
     columns: TermFunction | None = field(default=None, repr=False)
     guesses: StartsFunction | None = field(default=None, repr=False)
+    most: MostFunction | None = field(default=None, repr=False)
     of_speed: bool = False
     companions: tuple[str, ...] = ()
     equivalents: tuple[str, ...] = ()
@@ -129,6 +134,13 @@ class Effect:
         if self.guesses is None:
             return None
         return checked_starts(self.guesses, [q.symbol for q in self.shape], s, rest)
+
+    def allowed(self, s: Signals, force: Array) -> dict[str, float]:
+        """What a log with this force (n,) allows at most of its parameters, as in a whole model."""
+        if self.most is None:
+            return {}
+        found = checked_most(self.most, [q.symbol for q in self.quantities], s, force)
+        return {self.key(symbol): value for symbol, value in found.items()}
 
     @property
     def shape(self) -> tuple[Quantity, ...]:

@@ -97,6 +97,12 @@ class StartsFunction(Protocol):
     def __call__(self, s: Signals, rest: Array, /) -> Sequence[Values]: ...
 
 
+class MostFunction(Protocol):
+    """Largest values of some parameters that a log allows, by symbol, whatever else acts in it."""
+
+    def __call__(self, s: Signals, force: Array, /) -> Values: ...
+
+
 F = TypeVar("F", bound=Callable[..., object])
 
 
@@ -279,6 +285,18 @@ def checked_starts(
     if not out:
         raise EffectFailed(function, "gave no start of a search")
     return out
+
+
+def checked_most(
+    function: MostFunction, symbols: Sequence[str], s: Signals, force: Array
+) -> dict[str, float]:
+    """Largest values as plain numbers, of some of some symbols."""
+    out = called(function, s, force)
+    if not isinstance(out, Mapping) or not set(out) <= set(symbols):
+        raise EffectFailed(
+            function, f"returned {in_words(out)}, expected numbers for some of {symbols}"
+        )
+    return {symbol: number(function, value) for symbol, value in out.items()}
 
 
 def free_play_of(slot: MotionSlot, p: Values) -> float:
