@@ -20,6 +20,7 @@ from erdctl.model.slots import Values
 OUTLYING = 2.0  # standard deviations of the noise: no single sample rises beyond 1.96^2
 ROUNDING = 1e-4  # of the force, below which nothing is told apart
 REFITS = 12  # evaluations of a search for all other parameters
+SINGLE = 0.01  # of the squares left: what single samples may add where the others leave less
 GUESS = 1e-3  # of a value or a start, where there is no error to begin with
 
 
@@ -69,11 +70,11 @@ def with_intervals(
         if len(blocks) == 1:
             again = _refitted(data, blocks[0], values, name, rest, phi, fixed)
             low, high = widened(again, q, best, low, high)
-        intervals[name] = (low, high)
         if best != values[name]:
             moved = {**values, name: best}
             # The others' step is a leap where a slope holds no farther than the step is long.
-            values = min(data.taken_up(moved, name, rest), moved, values, key=data.square)
+            values = data.best(values, (data.taken_up(moved, name, rest), moved))
+        intervals[name] = (min(low, values[name]), max(high, values[name]))
     flat = tuple(g for g in found.flat if g[0] not in intervals)
     return replace(found, values=values, intervals=intervals, flat=flat)
 
@@ -142,10 +143,26 @@ class _Data:
         beyond = float(np.sum((self.root[over] * self.limit) ** 2))
         return rest.left(np.where(over, 0.0, residual * self.root)) + beyond
 
-    def square(self, values: Values) -> float:
-        """Weighted sum of squares, of each sample up to the limit [N^2]."""
-        residual = np.minimum(np.abs(self.measured - self.force(values)), self.limit)
-        return float(np.sum((residual * self.root) ** 2))
+    def best(
+        self, values: dict[str, float], others: Sequence[dict[str, float]]
+    ) -> dict[str, float]:
+        """The values, or others that leave less of samples up to the limit, and no more of all.
+
+        Where a misfit is left, what lies beyond the limit is not single samples: it may grow there
+        without end.
+        """
+
+        def squares(at: Values) -> tuple[float, float]:
+            left = np.abs(self.measured - self.force(at)) * self.root
+            most = self.limit * self.root
+            return float(np.sum(np.minimum(left, most) ** 2)), float(left @ left)
+
+        least, whole = squares(values)
+        for other in others:
+            limited, all_of_it = squares(other)
+            if limited < least and all_of_it <= (1.0 + SINGLE) * whole:
+                values, least = other, limited
+        return values
 
     def taken_up(self, values: dict[str, float], name: str, rest: Linear) -> dict[str, float]:
         """The values with all parameters but one moved to their best for it."""
