@@ -78,6 +78,16 @@ def to_other_motions(x: Exploration, best: Hypothesis) -> Hypothesis:
     return best
 
 
+def carries_over_as_well(x: Exploration, rival: Hypothesis, best: Hypothesis) -> bool:
+    """Whether kinds of motion that are left out are predicted no worse by a rival.
+
+    Or else it could bring back, under another name, what `to_other_motions` has left out.
+    """
+    few = thinned(x.problem, thresholds.CARRY_SAMPLES)
+    kinds = kinds_of_motion(few.recording)
+    return kinds is None or _error(few, kinds, rival) <= _error(few, kinds, best)
+
+
 def left_out_exactly(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> Array:
     """(n,) residual of each kind (n,) of the samples by a fit to all others, from the whole fit."""
     out = np.zeros(len(kinds))

@@ -17,7 +17,7 @@ from erdctl.diagnose.backward_step import (
     second_pass,
     without_each,
 )
-from erdctl.diagnose.carry_over import to_other_motions, to_other_records
+from erdctl.diagnose.carry_over import carries_over_as_well, to_other_motions, to_other_records
 from erdctl.diagnose.companion_effects import companion_sets, joint_task
 from erdctl.diagnose.comparison import compare, compare_alike, critical_of, ranked
 from erdctl.diagnose.executor import Executor, Task
@@ -98,6 +98,7 @@ def search(
         preferred = [
             f for f in found
             if is_preferred(problem, f[1], best) and compare(problem, rest, f[1]).significant
+            and carries_over_as_well(x, f[1], best)
         ]  # fmt: skip
         if preferred:
             name, first = preferred[0]

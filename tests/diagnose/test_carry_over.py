@@ -11,7 +11,11 @@ from rig import noisy, recording
 
 from erdctl.core.recording import Recording, concatenate
 from erdctl.diagnose import carry_over
-from erdctl.diagnose.carry_over import left_out_exactly, to_other_motions
+from erdctl.diagnose.carry_over import (
+    carries_over_as_well,
+    left_out_exactly,
+    to_other_motions,
+)
 from erdctl.diagnose.executor import executor
 from erdctl.diagnose.forward_step import Exploration, Explored
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
@@ -56,6 +60,15 @@ def test_what_one_kind_of_motion_has_alone_is_dropped(problem: Problem) -> None:
         x = Exploration(problem, base, Explored([base, best]), here)
         left = to_other_motions(x, best)
     assert [e.name for e in left.effects] == ["coulomb_friction"]
+
+
+def test_nor_does_it_come_back_in_the_place_of_another(problem: Problem) -> None:
+    best, rival = fit(problem, "coulomb_friction"), fit(problem, "coulomb_friction", "gas_preload")
+    with executor((problem,), 1, lambda stage, what: None) as here:
+        x = Exploration(problem, fit(problem), Explored([best, rival]), here)
+        assert not carries_over_as_well(x, rival, best)
+        assert carries_over_as_well(x, best, rival)
+        assert carries_over_as_well(x, best, best)
 
 
 def test_each_kind_is_predicted_by_a_fit_to_the_others_alone(problem: Problem) -> None:
