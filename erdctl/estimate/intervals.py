@@ -20,7 +20,7 @@ from erdctl.model.slots import Values
 OUTLYING = 2.0  # standard deviations of the noise: no single sample rises beyond 1.96^2
 ROUNDING = 1e-4  # of the force, below which nothing is told apart
 REFITS = 12  # evaluations of a search for all other parameters
-SINGLE = 0.01  # of the squares left: what single samples may add where the others leave less
+SINGLE = 1.0  # of the squares left: what single samples may add where the others leave less
 GUESS = 1e-3  # of a value or a start, where there is no error to begin with
 
 
@@ -146,7 +146,7 @@ class _Data:
     def best(
         self, values: dict[str, float], others: Sequence[dict[str, float]]
     ) -> dict[str, float]:
-        """The values, or others that leave less of samples up to the limit, and no more of all.
+        """The values, or others that leave less of samples up to the limit, and not twice of all.
 
         Where a misfit is left, what lies beyond the limit is not single samples: it may grow there
         without end.

@@ -1,4 +1,4 @@
-"""A value that a profile likes better is taken only where the force itself does not fit worse."""
+"""A value that a profile likes better is taken only where the force itself fits about as well."""
 
 from __future__ import annotations
 
