@@ -35,7 +35,7 @@ from erdctl.model.slots import ChannelSlot, Values
 
 LAGS = (1, 2, 3, 5, 8, 13, 21, 34)  # samples over which changes of the force are looked at
 FEWEST_TURNS = 4  # of a record that says how wide a window can be
-FLATTENED = 1.25  # of over 100 logs of the plant with another effect beside it one asked for 1.05
+FLATTENED = 1.25  # of over 100 logs of the plant with another effect beside it one asked for 1.04
 LOOKED_AT = 200_000  # samples of a record from its beginning: enough turns
 FINEST = 1e-9  # of a log: a window narrower than that is lost in rounding
 
