@@ -209,6 +209,7 @@ def _show(found: Diagnosis) -> None:
     from math import nan
 
     from erdctl.diagnose.corrected import parameters
+    from erdctl.diagnose.learning.words import law_text
     from erdctl.diagnose.wording import finding_text, record_values, remaining_text, unseen_text
     from erdctl.model.corrected_equation import corrected_equation
     from erdctl.report.readable import estimate, headline, largest, number, percent_of, with_unit
@@ -261,6 +262,13 @@ def _show(found: Diagnosis) -> None:
     if found.findings:
         for line in corrected_equation([f.effect for f in found.findings]):
             say(line, "corrected")
+    for law in found.learned.laws if found.learned is not None else ():
+        say(law_text(law), "learned")
+        say(f"  {law.law.equation}", "learned")
+        for q in law.finding.effect.quantities:
+            e = known.estimates[law.finding.effect.key(q.symbol)]
+            said = estimate(e.value, e.unit, e.stderr, at_bound=e.at_bound, within=e.within)
+            say(f"  {q.symbol} = {said}  ({q.title})", "learned")
     for unseen in found.unseen:
         say(unseen_text(unseen), "unseen")
     for region in found.mismatch:

@@ -38,8 +38,7 @@ def to_other_records(x: Exploration, best: Hypothesis) -> Hypothesis:
     if len(x.problem.recording.names) < thresholds.LEAST_RECORDS:
         return best
     few = thinned(x.problem, thresholds.CARRY_SAMPLES)
-    starts = few.block.signals.starts
-    of_record = np.repeat(np.arange(len(starts) - 1) % thresholds.CARRY_FITS, np.diff(starts))
+    of_record = _of_record(few)
     while x.added(best):
         whole = over_records(best)
         smaller = [*without_each(x, best), x.explored[key_of(x.base.effects)]]
@@ -54,10 +53,15 @@ def to_other_records(x: Exploration, best: Hypothesis) -> Hypothesis:
     return best
 
 
-def to_other_motions(x: Exploration, best: Hypothesis) -> Hypothesis:
-    """A hypothesis without the effects that do not carry over, the worst first."""
+def to_other_motions(x: Exploration, best: Hypothesis, *, or_records: bool = False) -> Hypothesis:
+    """A hypothesis without the effects that do not carry over, the worst first.
+
+    or_records : where every record is of a kind of its own, or all are of one, records are left out
+    """
     few = thinned(x.problem, thresholds.CARRY_SAMPLES)
     kinds = kinds_of_motion(few.recording)
+    if kinds is None and or_records and len(few.recording.names) > 1:
+        kinds = _of_record(few)
     if kinds is None:
         return best
     errors: dict[frozenset[str], float] = {}
@@ -88,6 +92,12 @@ def carries_over_as_well(x: Exploration, rival: Hypothesis, best: Hypothesis) ->
     return kinds is None or _error(few, kinds, rival) <= _error(few, kinds, best)
 
 
+def _of_record(problem: Problem) -> Index:
+    """(n,) which records are left out together, one by one where they are few."""
+    starts = problem.block.signals.starts
+    return np.repeat(np.arange(len(starts) - 1) % thresholds.CARRY_FITS, np.diff(starts))
+
+
 def left_out_exactly(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> Array:
     """(n,) residual of each kind (n,) of the samples by a fit to all others, from the whole fit."""
     out = np.zeros(len(kinds))
@@ -95,7 +105,7 @@ def left_out_exactly(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> 
     for k in range(int(kinds.max()) + 1):
         block = problem.block._replace(weight=np.where(kinds == k, 0.0, weight))
         rest = replace(problem, block=block)
-        found = fitted_from(rest, hypothesis, thresholds.STEPS_CARRY)
+        found = fitted_from(rest, hypothesis, thresholds.STEPS_CARRY, weight)
         found = np.where(np.isfinite(found), found, block.force)  # what diverges predicts nothing
         out[kinds == k] = found[kinds == k]
     return out

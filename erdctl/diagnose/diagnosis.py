@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
@@ -19,8 +19,10 @@ from erdctl.diagnose.conditions import one_condition
 from erdctl.diagnose.detectable import Detectable, detectable
 from erdctl.diagnose.executor import executor
 from erdctl.diagnose.findings import Finding, earned, findings, part_taken
+from erdctl.diagnose.fit_errors import fit_errors
 from erdctl.diagnose.forward_step import key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
+from erdctl.diagnose.learning.stage import Learned, learned
 from erdctl.diagnose.problem import Problem, prepare, with_given
 from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying
 from erdctl.diagnose.residual.localisation import Region, record_region
@@ -32,8 +34,6 @@ from erdctl.diagnose.slight_lag import freed
 from erdctl.diagnose.thin import thinned
 from erdctl.diagnose.unseen import Unseen, kept_aside, on_unseen
 from erdctl.estimate.covariance import Fit
-from erdctl.estimate.last_step import assess
-from erdctl.estimate.onsets import onset_intervals, placed
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
 from erdctl.model.simulate import simulate
@@ -65,6 +65,8 @@ class Diagnosis:
         that leave more of the misfit than the part `taken` that they take
     undetected : what was not named, and the size from which these data would have shown it
     rig : what is wrong with the recording; if all of it is, nothing was searched
+    learned : what the data say of a rest that no effect explains; `fit`, `corrected` and all that
+        is said of the best model are then of the one with these laws
     """
 
     verdict: Verdict
@@ -90,6 +92,7 @@ class Diagnosis:
     untestable: dict[str, str]
     undetected: tuple[Detectable, ...]
     rig: Rig
+    learned: Learned | None
 
 
 def diagnose(
@@ -146,43 +149,56 @@ def diagnose(
             if withdrawn:
                 selection = chosen.nothing
                 unseen = on_unseen(problem.of(aside), selection.base, selection.best)
-            found = findings(seen, selection)
+            found, kept = findings(seen, selection), selection
             if aside:
                 selection = on_all(problem, selection, workers)
             fit, record_effects = fit_errors(problem, selection.best)
             idle = next((e for e in selection.named if _idle(e, fit)), None)
             chosen = refit(seen, chosen, workers, idle) if idle else None
-    progress("lack of fit", part_of("regression of the residual", 1, 1))
-    lack_of_fit, taken = _left(selection, seed), None
-    if selection.named and _matters(problem, selection, lack_of_fit):
-        part = part_taken(problem, selection, lack_of_fit)
-        if not earned(part):
-            withdrawn, found, taken, selection = selection.named, (), part, selection.nothing
-            unseen = on_unseen(problem.of(aside) if aside else None, selection.base, selection.base)
-            lack_of_fit = _left(selection, seed)
-            fit, record_effects = fit_errors(problem, selection.best)
-    best = selection.best
+        progress("lack of fit", part_of("regression of the residual", 1, 1))
+        lack_of_fit, taken = _left(selection, seed), None
+        if selection.named and _matters(problem, selection, lack_of_fit):
+            part = part_taken(problem, selection, lack_of_fit)
+            if not earned(part):
+                withdrawn, found, taken = selection.named, (), part
+                selection, kept = selection.nothing, kept.nothing
+                base = selection.base
+                unseen = on_unseen(problem.of(aside) if aside else None, base, base)
+                lack_of_fit = _left(selection, seed)
+                fit, record_effects = fit_errors(problem, selection.best)
+        left = _matters(problem, selection, lack_of_fit)
+        cannot_tell = bool(selection.named) and one_condition(recording)
+        more: Learned | None = None
+        if left and not (rig.blocking or cannot_tell):
+            start = searched.base, _on_thin(thin, searched.best, selection.best)
+            unfitted = problem.of(aside) if aside else None
+            more = learned(
+                (thin, seen, problem), unfitted, kept, start, testable, lack_of_fit, workers, seed
+            )
+    named = selection.best
     noise = lack_of_fit.noise_rms
-    left = _matters(problem, selection, lack_of_fit)
-    cannot_tell = bool(selection.named) and one_condition(recording)
     if left or rig.blocking or cannot_tell:
         verdict = Verdict.UNEXPLAINED
     else:
         verdict = Verdict.EXPLAINED if selection.named else Verdict.ADEQUATE
     mismatch: list[Region] = []
     if verdict is not Verdict.ADEQUATE:
-        missed = selection.base.residual - best.residual  # what both predict, so without noise
+        missed = selection.base.residual - named.residual  # what both predict, so without noise
         square = lack_of_fit.square(missed) if left else missed**2
         acted = [(f.effect, f.acts) for f in found]
-        alone = record_region(best.problem, square)
-        mismatch = places(best.problem, square, acted, sure=not left)
+        alone = record_region(named.problem, square)
+        mismatch = places(named.problem, square, acted, sure=not left)
         mismatch += [alone] if alone else []
-    base = selection.base
+    base, best = selection.base, named
+    similar = resemblance(named.problem, lack_of_fit.predicted) if left else None
+    if more is not None:
+        best, fit, record_effects = more.selection.best, more.fit, more.record_effects
+        unseen, lack_of_fit, found = more.unseen, more.lack_of_fit, more.findings
     refitted = scores.of(problem, base.model, base.values)
     corrected = scores.of(problem, fit.model, fit.values)
     undetected: tuple[Detectable, ...] = ()
     if limits:
-        undetected = _undetected(thin, searched.best, best, candidates, missing, progress)
+        undetected = _undetected(thin, searched.best, named, candidates, missing, progress)
     return Diagnosis(
         verdict=verdict,
         cannot_tell=cannot_tell,
@@ -206,10 +222,11 @@ def diagnose(
             scores.cross_validated(best.problem, best),
         ),
         lack_of_fit=lack_of_fit,
-        resemblance=resemblance(best.problem, lack_of_fit.predicted) if left else None,
+        resemblance=similar,
         untestable=missing,
         undetected=undetected,
         rig=rig,
+        learned=more,
     )
 
 
@@ -247,10 +264,16 @@ def _undetected(
     progress: Progress,
 ) -> tuple[Detectable, ...]:
     """What could have been missed, on the samples among whose hypotheses was searched."""
-    if key_of(searched.effects) != key_of(best.effects):
-        steps, effects = thresholds.STEPS_AGAIN, best.record_effects
-        searched = fit_hypothesis(thin, best.effects, [best.values], steps, effects)
-    return detectable(thin, searched, candidates, untestable, progress)
+    on_thin = _on_thin(thin, searched, best)
+    return detectable(thin, on_thin, candidates, untestable, progress)
+
+
+def _on_thin(thin: Problem, searched: Hypothesis, best: Hypothesis) -> Hypothesis:
+    """A hypothesis on the samples among whose hypotheses was searched."""
+    if key_of(searched.effects) == key_of(best.effects):
+        return searched
+    steps, effects = thresholds.STEPS_AGAIN, best.record_effects
+    return fit_hypothesis(thin, best.effects, [best.values], steps, effects)
 
 
 def _enough(problem: Problem) -> None:
@@ -267,25 +290,3 @@ def _enough(problem: Problem) -> None:
             f" out in turn, and this log has {count}; record at least"
             f" {2 * least * thresholds.STRETCH:g} s"
         )
-
-
-def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEffects | None]:
-    """The last step on all samples and the errors of a hypothesis, and of its record effects."""
-    model = hypothesis.model
-    block, record_effects = hypothesis.problem.block, hypothesis.record_effects
-    shared = block if record_effects is None else record_effects.shared(block)
-    held, onsets = set(problem.held), set(placed(model))
-    bounded = set(model.quantities).difference(hypothesis.free, held, onsets)
-    at_once = {n: model.quantities[n].low for n in hypothesis.instant - held}
-    levels = None if record_effects is None else record_effects.levels(problem.free)
-    fit = assess(
-        model, [shared], {**hypothesis.values, **at_once}, fixed=held | onsets,
-        bounded=sorted(bounded), levels=levels, threads=1,
-    )  # fmt: skip
-    if onsets:
-        # Found by a search of all times: no curvature says how well.
-        found = onset_intervals(model, shared, fit.values, hypothesis.problem.held)
-        fit = replace(fit, intervals={**fit.intervals, **found})
-    if record_effects is not None and fit.level_errors is not None:
-        record_effects = record_effects.with_errors(problem.free, fit.level_errors)
-    return fit, record_effects

@@ -27,6 +27,13 @@ class DiscriminatingDrive:
     difference: float
     against: str
 
+    def advice(self, what: str) -> str:
+        """What to record, in words; what : is to be told from what."""
+        return (
+            f"; to tell {what}, record --drive {self.drive}, where they differ by"
+            f" {self.difference:.3g} N rms"
+        )
+
 
 def discriminating_drive(
     problem: Problem, best: Hypothesis, look_alikes: Sequence[tuple[str, Hypothesis]]

@@ -161,6 +161,7 @@ def _fitted(
     start: Mapping[str, float],
     max_evaluations: int,
     record_effects: RecordEffects | None = None,
+    whole: Array | None = None,
 ) -> Fitted:
     """A search from one start, which may be that of a larger model; beyond the record effects."""
     given = {**start, **problem.held}
@@ -169,7 +170,7 @@ def _fitted(
     tolerance = thresholds.SETTLED / max(int(np.count_nonzero(block.weight)), 1)
     found = fit(
         model, block, start=full, fixed=problem.held, max_evaluations=max_evaluations,
-        tolerance=tolerance,
+        tolerance=tolerance, anchor=whole,
     )  # fmt: skip
     if record_effects is None:
         return found
@@ -178,9 +179,14 @@ def _fitted(
     return replace(found, residual=residual, cost=cost if np.isfinite(cost) else np.inf)
 
 
-def fitted_from(problem: Problem, hypothesis: Hypothesis, steps: int) -> Array:
-    """(n,) residual of a hypothesis's model fitted to another problem of the same records [N]."""
-    found = _fitted(problem, hypothesis.model, hypothesis.values, steps, hypothesis.record_effects)
+def fitted_from(problem: Problem, hypothesis: Hypothesis, steps: int, whole: Array) -> Array:
+    """(n,) residual of a hypothesis's model fitted to a part of the same records [N].
+
+    whole : (n,) weights of all samples, see `least_squares.fit`
+    """
+    found = _fitted(
+        problem, hypothesis.model, hypothesis.values, steps, hypothesis.record_effects, whole
+    )
     return found.residual
 
 

@@ -7,6 +7,7 @@ evaluation of the model instead of a search. Hypotheses are fitted from the best
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -57,6 +58,8 @@ class Screen:
         """What one effect promises; None where the parent's or the log do not admit it."""
         if effect.sets_in:
             return self._onset(effect)
+        if effect.smooth:
+            return self._smooth(effect)
         found = []
         for guess in starts(effect, self.parent.problem, self.parent.residual):
             try:
@@ -84,13 +87,31 @@ class Screen:
         start = {effect.key(s): v for s, v in best.values.items()}
         return Candidate(effect, 1.0 - best.square / max(lookup.square, 1e-300), (start,))
 
+    def _smooth(self, effect: Effect) -> Candidate | None:
+        """What changes the force in proportion to its sizes, all else of it at its start."""
+        signals, parent = self.problem.block.signals, self.parent
+        start = {q.symbol: q.start for q in effect.quantities}
+        sizes = effect.sizes
+        rows = list(effect.added(signals, start))
+        try:
+            model = Model((*parent.effects, effect))
+            values = {**parent.values, **{effect.key(s): v for s, v in start.items()}}
+            for q in sizes:
+                if not q.linear:
+                    step = {effect.key(q.symbol): thresholds.SMOOTH_STEP}
+                    moved = model.force(signals, {**values, **step})
+                    rows.append((moved - self.force) / thresholds.SMOOTH_STEP)
+        except IncompatibleEffects:
+            return None
+        gain, found = self._taken(rows, [q.low for q in sizes], [q.high for q in sizes])
+        start |= {q.symbol: float(v) for q, v in zip(sizes, found, strict=True)}
+        return Candidate(effect, gain, ({effect.key(s): v for s, v in start.items()},))
+
     def _gain(self, effect: Effect, guess: dict[str, float]) -> float:
         """Part of the residual's square that an effect takes, in the amounts that suit best.
 
         A nonlinear effect can only be more or less what its start says: its amount is not negative.
         """
-        from scipy.optimize import lsq_linear
-
         signals = self.problem.block.signals
         rows = list(effect.added(signals, guess))
         low = [-np.inf if q.low < 0 else 0.0 for q in effect.amplitudes]
@@ -101,15 +122,26 @@ class Screen:
             values |= {effect.key(q.symbol): 0.0 for q in effect.amplitudes}
             rows.append(model.force(signals, values) - self.force)
             low.append(0.0)
+        return self._taken(rows, low, [np.inf] * len(rows))[0]
+
+    def _taken(
+        self, rows: Sequence[Array], low: Sequence[float], high: Sequence[float]
+    ) -> tuple[float, Array]:
+        """Part of the residual's square that some changes (k, n) of the force take, and (k,) of
+        each how much."""
+        from scipy.optimize import lsq_linear
+
         X = self._beyond(np.array(rows) * self.lever)
         scale = np.sqrt(np.einsum("ij,ij->i", X, X))
         use = scale > 0.0
+        much = np.zeros(len(rows))
         if not use.any():
-            return 0.0
-        scaled = X[use] / scale[use, None]
-        bounds = np.array(low)[use], np.inf
-        found = lsq_linear(scaled.T, self.residual, bounds=bounds, method="bvls")
-        return 1.0 - 2.0 * float(found.cost) / max(self.square, 1e-300)
+            return 0.0, much
+        bounds = np.array(low)[use] * scale[use], np.array(high)[use] * scale[use]
+        scaled = (X[use] / scale[use, None]).T
+        found = lsq_linear(scaled, self.residual, bounds=bounds, method="bvls")
+        much[use] = found.x / scale[use]
+        return 1.0 - 2.0 * float(found.cost) / max(self.square, 1e-300), much
 
     def _beyond(self, rows: Array) -> Array:
         return np.asarray(rows - (rows @ self.basis.T) @ self.basis)

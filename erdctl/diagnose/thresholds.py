@@ -260,6 +260,44 @@ MOST_STARTS, SEARCHED_STARTS = 30, 2
 # Origin: smaller ones are rounding of one-sided differences.
 BASIS = 1e-4
 
+# Step of a parameter of a law that is smooth at its off value, in its unit.
+# Origin: the rounding of a one-sided difference is a hundred-millionth of that.
+SMOOTH_STEP = 1e-4
+
+# --- learned laws -------------------------------------------------------------------------------
+
+# Knots of a curve that is looked at, and the part of the samples beyond its ends; how many there
+# may be of a factor, and of an added force, which a fit has for less.
+# Origin: budget; six follow one bend either way, and a curve that pays for them gets twice as many.
+FEW_KNOTS, MANY_KNOTS, CURVE_ENDS = 6, 12, 0.005
+MOST_KNOTS = 24, 48
+
+# Points of a curve as documents give it.
+# Origin: budget.
+CURVE_POINTS = 33
+
+# Part of a curve's range by which it may turn back from point to point and be told by its ends.
+# Origin: none; it decides words only.
+FLAT = 0.01
+
+# Time constants of a memory that are tried, the shortest in steps of the log.
+# Origin: budget; the fit moves them.
+LATE_TIMES, LATE_STEPS = 6, 5.0
+
+# Closed forms that are fitted of those like a curve; starts of each of their parameters; and what
+# is left at least of a factor in the place at which it is taken to be 1.
+# Origin: budget; none; less is a sign that turns.
+FORMS_FITTED, FORM_STARTS, LEAST_FACTOR = 4, 8, 0.05
+
+# Size, of a factor or of the range of the force, and phases in turns, from which a law is fitted
+# that swings at the frequency of a line.
+# Origin: budget; its sign turns the phase by a half.
+SWING, PHASES = 0.05, (0.0, 0.125, 0.25, 0.375)
+
+# Laws that are fitted of those that are screened, and that one model may learn.
+# Origin: budget.
+LAWS_FITTED, MOST_LAWS = 8, 3
+
 # --- record effects (a gain and an offset of each record) ---------------------------------------
 
 # Rounds of alternating least squares, and the part of its error by which a value may still move.

@@ -13,6 +13,7 @@ from erdctl.diagnose.conditions import one_condition
 from erdctl.diagnose.detectable import Detectable
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.findings import Finding
+from erdctl.diagnose.learning.words import law_words
 from erdctl.diagnose.residual.predictability import LackOfFit
 from erdctl.diagnose.unseen import Left, Unseen
 
@@ -30,10 +31,7 @@ def finding_text(finding: Finding) -> str:
     if finding.equivalent:
         text += f"; these data cannot tell it from {' or '.join(finding.equivalent)}"
     if finding.test is not None:
-        text += (
-            f"; to tell it from {finding.test.against}, record --drive {finding.test.drive}, where"
-            f" they differ by {finding.test.difference:.3g} N rms"
-        )
+        text += finding.test.advice(f"it from {finding.test.against}")
     return text
 
 
@@ -77,7 +75,13 @@ def remaining_text(found: Diagnosis) -> str:
             found.problem.recording
         )
         return "; ".join([rest, *undetected_text(found.undetected)])
-    words = (
+    if found.learned is not None and not left.significant:
+        return (
+            f"{_laws(found)}; with that, what remains, {found.carried.overall.rms:.3g} N rms, is"
+            f" noise as far as these data tell{_hum(left)}{_withdrawn(found)}"
+        )
+    words = "" if found.learned is None else f"{_laws(found)}; with that, "
+    words += (
         f"{left.misfit_rms:.3g} N rms beyond a noise of {left.noise_rms:.3g} N can be predicted"
         " from motion and duty, but by no effect in the catalogue"
     )
@@ -97,6 +101,13 @@ def remaining_text(found: Diagnosis) -> str:
         words += f"; it is most like {resembles.form} (correlation {resembles.correlation:+.2f})"
     words += _hum(left) + _withdrawn(found)
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
+
+
+def _laws(found: Diagnosis) -> str:
+    """That laws were learned, which are no names."""
+    assert found.learned is not None
+    said = "; ".join(law_words(law.law, law.tau) for law in found.learned.laws)
+    return f"no effect of the catalogue explains the misfit, and the data say: {said}"
 
 
 def _withdrawn(found: Diagnosis) -> str:

@@ -41,9 +41,10 @@ def with_intervals(
     Where a profile finds a better value, the fit has it.
     """
     model, free = found.model, found.free
+    sizes = {e.key(q.symbol) for e in model.effects for q in e.sizes}
     asked = [
         n for n in free
-        if n.split(".")[0] not in DIRECTIONS and n not in model.linear
+        if n.split(".")[0] not in DIRECTIONS and n not in sizes
         and not any(n in group and group != (n,) for group in found.flat)
     ]  # fmt: skip
     if not (asked or bounded) or sum(len(b.force) for b in blocks) > MOST_SAMPLES:
@@ -53,7 +54,7 @@ def with_intervals(
     rows = data.rows(values)
     robust = np.diag(found.covariance)
     usual = _noise(robust, plain)
-    for name in [*asked, *bounded]:
+    for name in [*asked, *(n for n in bounded if n not in sizes)]:
         q, at = model.quantities[name], [i for i, n in enumerate(free) if n == name]
         rest, own = others(rows, free, name), _noise(robust[at], plain[at])
         phi = max(own, usual) if np.isfinite(own) else usual

@@ -36,6 +36,7 @@ FINISH = 8  # steps of a search that is to end where the best is
 NEAR = 1e-4  # of the range of a search, from a bound that it was driven to
 FAILED = 1e100  # N, in place of the residual of a simulation that gave no finite force
 PLACED = 4  # times that an onset is looked for again after a search of the others
+ANCHOR = 0.05  # of what all samples say, see `fit`
 SHORTEST = 1e-5  # s; a time constant of exactly 0 has no derivative, a search stays above
 
 
@@ -65,10 +66,13 @@ def fit(
     robust: bool = False,
     max_evaluations: int = 200,
     tolerance: float = 1e-8,
+    anchor: Array | None = None,
 ) -> Fitted:
     """Search from one start.
 
     start : a value for every parameter;  fixed : names that keep it
+    anchor : (n,) weights of more samples than those of the block: amplitudes of smooth effects
+        stay near their start by a part of what these say, so that what only those tell stays there
     tolerance : part of the cost by which a step has to lower it, or the search has converged
     """
     held = set(fixed)
@@ -80,7 +84,7 @@ def fit(
     def search(begin: Values) -> tuple[dict[str, float], bool, float]:
         """Values at the end, whether the search converged, and the cost there."""
         nonlocal evaluations
-        problem = _Projected(model, block._replace(weight=weight), begin, held, shape)
+        problem = _Projected(model, block._replace(weight=weight), begin, held, shape, anchor)
         ended, converged = problem.search(max_evaluations, tolerance)
         cost = problem.cost(ended) if onsets else np.nan
         evaluations += problem.evaluations
@@ -136,9 +140,15 @@ class _Projected:
     """The cost as a function of the searched parameters, all others solved inside."""
 
     def __init__(
-        self, model: Model, block: Block, values: Values, held: set[str], shape: Sequence[str]
+        self,
+        model: Model,
+        block: Block,
+        values: Values,
+        held: set[str],
+        shape: Sequence[str],
+        anchor: Array | None = None,
     ) -> None:
-        self.model, self.block = model, block
+        self.model, self.block, self.anchor = model, block, anchor
         linear = [n for n in model.linear if n not in held]
         self.linear = linear if model.separable else []
         self.names = list(shape) if model.separable else [*shape, *linear]
@@ -169,11 +179,23 @@ class _Projected:
             given = np.array([values[n] for n in self.model.linear])[~self.open]
             force = force - given @ columns[~self.open]
             columns = columns[self.open]
-        amplitude = solve_linear(columns, force, self.block.weight, self.low, self.high)
+        rows, right, weight = columns, force, self.block.weight
+        if self.anchor is not None:
+            rows, right, weight = self._anchored(columns, force, self.anchor)
+        amplitude = solve_linear(rows, right, weight, self.low, self.high)
         values.update(zip(self.linear, amplitude.tolist(), strict=True))
         inside = (amplitude > self.low) & (amplitude < self.high)
         self.at = _Solved(point.copy(), values, prepared, columns[inside])
         return values, force - amplitude @ columns
+
+    def _anchored(self, columns: Array, force: Array, anchor: Array) -> tuple[Array, Array, Array]:
+        """Columns (k, n + k), force and weights (n + k,) with a sample for each amplitude."""
+        smooth = {e.key(q.symbol) for e in self.model.effects if e.smooth for q in e.sizes}
+        held = ANCHOR * np.array([n in smooth for n in self.linear])
+        weight = held * np.einsum("ij,ij,j->i", columns, columns, anchor)
+        start = np.array([self.base[n] for n in self.linear])
+        rows = np.hstack([columns, np.eye(len(start))])
+        return rows, np.append(force, start), np.append(self.block.weight, weight)
 
     def jacobian(self, point: Array) -> Array:
         """(n, p) derivative of the weighted residual by the searched parameters."""

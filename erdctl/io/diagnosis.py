@@ -10,11 +10,14 @@ from msgspec import to_builtins
 from erdctl.diagnose.corrected import baseline, parameters
 from erdctl.diagnose.diagnosis import Diagnosis
 from erdctl.diagnose.findings import Finding
+from erdctl.diagnose.learning.stage import LearnedLaw
+from erdctl.diagnose.learning.words import law_text
 from erdctl.diagnose.residual.localisation import Region
 from erdctl.diagnose.unseen import Unseen
 from erdctl.diagnose.wording import finding_text, record_values, remaining_text, unseen_text
 from erdctl.io.parameters import to_document
 from erdctl.io.undetected import limits, undetected
+from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
 from erdctl.score.nrmse import Validation
 
@@ -46,6 +49,7 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
             for r in found.mismatch
         ],
         "findings": [_finding(f, corrected) for f in found.findings],
+        **_learned(found, corrected),
         "corrected": {
             **_scores(found.corrected),
             "params": to_builtins(to_document(corrected)),
@@ -93,20 +97,58 @@ def _records(found: Diagnosis) -> dict[str, Any]:
 
 
 def _finding(f: Finding, corrected: Parameters) -> dict[str, Any]:
-    def value(symbol: str) -> dict[str, Any]:
-        e = corrected.estimates[f.effect.key(symbol)]
-        bound = {"at_bound": True} if e.at_bound else {}
-        ends = {"interval": list(e.within)} if e.within else {}
-        return {"value": e.value, "unit": e.unit, "stderr": e.stderr, **bound, **ends}
-
-    out: dict[str, Any] = {
+    return {
         "effect": f.effect.name,
         "equivalent": list(f.equivalent),
         "text": finding_text(f),
         "equation": f.effect.equation,
         "source": f.effect.source,
-        "parameters": {q.symbol: value(q.symbol) for q in f.effect.quantities},
+        "parameters": _parameters(f.effect, corrected),
         "where": None if f.where is None else _where(f.where),
+        **_worth(f),
+    }
+
+
+def _parameters(effect: Effect, corrected: Parameters) -> dict[str, Any]:
+    def value(symbol: str) -> dict[str, Any]:
+        e = corrected.estimates[effect.key(symbol)]
+        bound = {"at_bound": True} if e.at_bound else {}
+        ends = {"interval": list(e.within)} if e.within else {}
+        return {"value": e.value, "unit": e.unit, "stderr": e.stderr, **bound, **ends}
+
+    return {q.symbol: value(q.symbol) for q in effect.quantities}
+
+
+def _learned(found: Diagnosis, corrected: Parameters) -> dict[str, Any]:
+    """Laws that the catalogue does not hold; nothing where none was learned."""
+    if found.learned is None:
+        return {}
+    return {"learned": [_law(f, corrected) for f in found.learned.laws]}
+
+
+def _law(f: LearnedLaw, corrected: Parameters) -> dict[str, Any]:
+    curve, worth = f.law.curve, f.finding
+    low, high = curve.range
+    return {
+        "slot": f.law.slot.value,
+        "coordinates": [
+            {"name": curve.coordinate, "unit": curve.kind.unit, "low": low, "high": high}
+        ],
+        "form": curve.form or "spline",
+        "equation": f"{f.law.equation}, z {curve.kind.words}",
+        "text": law_text(f),
+        "parameters": _parameters(worth.effect, corrected),
+        "curve": {"z": f.z.tolist(), "f": f.f.tolist(), "unit": f.law.unit},
+        **_worth(worth),
+        "equivalent": [
+            {"slot": a.slot.value, "coordinates": [a.curve.coordinate]} for a in f.alike
+        ],
+    }
+
+
+def _worth(f: Finding) -> dict[str, Any]:
+    """What a finding gains on what its fits have not seen, and what would decide it."""
+    out: dict[str, Any] = {
         "evidence": {
             "gain_unseen": f.gain.gain,
             "gain_over_scatter": f.gain.t_stretches,

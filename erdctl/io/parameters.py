@@ -11,8 +11,10 @@ from erdctl.core.errors import IncompatibleEffects, InputProblem
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import DIRECTIONS
 from erdctl.io import documents
+from erdctl.io.learned import NAME, LawDocument, to_law, to_law_document
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
+from erdctl.model.learned.law import LearnedEffect
 from erdctl.model.paper import QUANTITIES
 from erdctl.model.parameters import Estimate, Parameters
 
@@ -47,11 +49,15 @@ class Direction(msgspec.Struct):
     beta: Value | float
 
 
-class ExtraEffect(msgspec.Struct):
-    """An effect beyond the paper's model, with its parameters by symbol."""
+class ExtraEffect(msgspec.Struct, omit_defaults=True):
+    """An effect beyond the paper's model, with its parameters by symbol.
+
+    One that was learned from data is called `learned` and brings its `law`.
+    """
 
     effect: str
     parameters: dict[str, Value | float]
+    law: LawDocument | None = None
 
 
 class KnownProvenance(msgspec.Struct):
@@ -89,12 +95,7 @@ def parse_parameters(data: bytes, name: str) -> Parameters:
             estimates[full] = _estimate(getattr(given, symbol), quantity, full, name)
     chosen = []
     for i, extra in enumerate(document.effects):
-        from erdctl.effects import get  # only where there are any: most parameter files have none
-
-        try:
-            effect = get(extra.effect)
-        except InputProblem as problem:
-            raise InputProblem(f"effects[{i}]: {problem}", file=name) from None
+        effect = _effect(extra, f"effects[{i}]", name)
         if effect in chosen:
             raise InputProblem(f"effects[{i}]: '{effect.name}' is listed twice", file=name)
         chosen.append(effect)
@@ -120,6 +121,26 @@ def parse_parameters(data: bytes, name: str) -> Parameters:
     if len(chosen) > 1:
         _check_together(found, name)
     return found
+
+
+def _effect(extra: ExtraEffect, where: str, file: str) -> Effect:
+    """The effect of the catalogue that is named, or of the law that is given."""
+    if (extra.law is not None) != (extra.effect == NAME):
+        raise InputProblem(f"{where}: '{NAME}', and it alone, has a law", file=file)
+    if extra.law is not None:
+        return to_law(extra.law, f"{where}.law", file).effect
+    from erdctl.effects import get  # only where there are any: most parameter files have none
+
+    try:
+        return get(extra.effect)
+    except InputProblem as problem:
+        raise InputProblem(f"{where}: {problem}", file=file) from None
+
+
+def _extra(effect: Effect, parameters: dict[str, Value | float]) -> ExtraEffect:
+    if isinstance(effect, LearnedEffect):
+        return ExtraEffect(NAME, parameters, to_law_document(effect.law))
+    return ExtraEffect(effect.name, parameters)
 
 
 def _completed(given: dict[str, Value | float], effect: Effect) -> dict[str, Value | float]:
@@ -197,7 +218,7 @@ def to_document(parameters: Parameters) -> ParameterFile:
         for d in DIRECTIONS
     }
     extra = [
-        ExtraEffect(e.name, {q.symbol: value(e.key(q.symbol)) for q in e.quantities})
+        _extra(e, {q.symbol: value(e.key(q.symbol)) for q in e.quantities})
         for e in parameters.model.effects
     ]
     return ParameterFile(

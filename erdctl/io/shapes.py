@@ -122,6 +122,46 @@ class FindingDocument(TypedDict):
     test: NotRequired[ToTell]
 
 
+class LawCoordinateDocument(TypedDict):
+    """What a law depends on, and what of it the log spans."""
+
+    name: str
+    unit: str
+    low: float
+    high: float
+
+
+class CurveDocument(TypedDict):
+    """A law as a table: f [unit], of a factor less 1, over z."""
+
+    z: list[float]
+    f: list[float]
+    unit: str
+
+
+class LikeLaw(TypedDict):
+    """A law that would do as well."""
+
+    slot: str
+    coordinates: list[str]
+
+
+class LearnedDocument(TypedDict):
+    """A law that the catalogue does not hold, learned from what no effect explains."""
+
+    slot: str
+    coordinates: list[LawCoordinateDocument]
+    form: str
+    equation: str
+    text: str
+    parameters: dict[str, Measured]
+    curve: CurveDocument
+    evidence: Evidence
+    heldout: Heldout
+    equivalent: list[LikeLaw]
+    test: NotRequired[ToTell]
+
+
 class Remaining(TypedDict):
     """What is left: rms and what of it can be predicted [N], rms over the noise."""
 
@@ -176,6 +216,7 @@ class DiagnosisFile(TypedDict):
     refitted: NotRequired[Scores]
     mismatch: list[Mismatch]
     findings: list[FindingDocument]
+    learned: NotRequired[list[LearnedDocument]]
     corrected: Corrected
     heldout: NotRequired[HeldoutScores]
     unseen: NotRequired[list[LeftOut]]

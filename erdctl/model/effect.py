@@ -74,6 +74,8 @@ class Effect:
     slot : where it enters the model, with the function that does it, see `erdctl.model.slots`
     quantities : its parameters; those marked linear are amplitudes of `columns`, in its order
     columns : forces for unit amplitudes that the effect adds, in any slot
+    smooth : near its off values the force changes in proportion to its parameters, so that a start
+        is read from the rest at once
     of_speed : what it does depends on xdot alone, sample by sample
     equation, source, validity : text for people
     said : its main numbers as a phrase, e.g. "{g} of free play"; {f:%} in per cent
@@ -108,6 +110,7 @@ class Effect:
     guesses: StartsFunction | None = field(default=None, repr=False)
     most: MostFunction | None = field(default=None, repr=False)
     of_speed: bool = False
+    smooth: bool = False
     companions: tuple[str, ...] = ()
     equivalents: tuple[str, ...] = ()
     includes: tuple[str, ...] = ()
@@ -151,6 +154,11 @@ class Effect:
     def amplitudes(self) -> tuple[Quantity, ...]:
         """The parameters in which the force is linear."""
         return tuple(q for q in self.quantities if q.linear)
+
+    @property
+    def sizes(self) -> tuple[Quantity, ...]:
+        """The parameters to which, near its off values, the force changes in proportion."""
+        return tuple(q for q in self.quantities if q.linear or (self.smooth and q.off == 0.0))
 
     def key(self, symbol: str) -> str:
         """Name of a parameter among those of a whole model, e.g. `coulomb_friction.F_c`."""

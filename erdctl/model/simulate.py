@@ -12,6 +12,7 @@ from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import DIRECTIONS, Array, Recording
 from erdctl.core.signals import Signals
 from erdctl.model.divergence import refuse_diverged
+from erdctl.model.learned.law import LearnedEffect
 from erdctl.model.parameters import Parameters
 
 UNITS = {"x": "m", "xdot": "m/s", "duty": ""}
@@ -80,4 +81,22 @@ def remarks(parameters: Parameters, recording: Recording) -> list[str]:
                 f"{name} spans {seen_low:.3g}..{seen_high:.3g} {UNITS[name]}, but the parameters"
                 f" were identified on {low:.3g}..{high:.3g}"
             )
+    return [*out, *_beyond_laws(parameters, recording)]
+
+
+def _beyond_laws(parameters: Parameters, recording: Recording) -> list[str]:
+    """Where learned laws are asked for more than they were learned on."""
+    out = []
+    for effect in parameters.model.effects:
+        if isinstance(effect, LearnedEffect):
+            curve, p = effect.law.curve, effect.local(parameters.values)
+            least, most, part = curve.beyond(Signals.of(recording), p)
+            if part > 0.0:
+                low, high = curve.range
+                unit = f" {curve.kind.unit}".removesuffix(" 1")
+                out.append(
+                    f"{curve.kind.words} spans {least:.3g}..{most:.3g}{unit}, but a law of it was"
+                    f" learned on {low:.3g}..{high:.3g}; beyond, for {100 * part:.2g} % of the"
+                    " samples, it stays at its end value"
+                )
     return out

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from erdctl.core.recording import Array, Recording
-from erdctl.diagnose.diagnosis import fit_errors
+from erdctl.diagnose.fit_errors import fit_errors
 from erdctl.diagnose.hypothesis import fit_hypothesis
 from erdctl.diagnose.problem import prepare
 from erdctl.diagnose.record_effects import NONE_VARY, Varying

@@ -37,6 +37,7 @@ class Result:
     first_place : the first place of the mismatch is one of the misfit or of the effect's own force
     flags : what the plant says makes the case unfair or undecidable
     cannot_tell : whether the diagnosis says that these data cannot decide
+    learned : what the diagnosis learned of a rest that it could not name, as slot(coordinate)
     printed : of a sparse case: what the diagnosis prints with an interval, where its model is the
         true one, so that the plant knows what it should be
     """
@@ -61,6 +62,7 @@ class Result:
     fresh: Errors
     first_place: bool | None = None
     cannot_tell: bool = False
+    learned: tuple[str, ...] = ()
     printed: tuple[Printed, ...] = ()
 
 
@@ -131,6 +133,10 @@ def scored(
             [*key["regions"], *key["effect_regions"]],
         ),
         cannot_tell=bool(document.get("cannot_tell")),
+        learned=tuple(
+            f"{law['slot']}({', '.join(z['name'] for z in law['coordinates'])})"
+            for law in document.get("learned", ())
+        ),
         printed=_printed(document, key),
     )
 
@@ -177,7 +183,8 @@ def _errors(sealed: Sealed, found: Diagnosis, key: Mapping[str, Any]) -> Errors:
         missed: Array = true - model.force(signals, values)
         return float(np.sqrt(np.mean(missed**2)))
 
-    base, corrected = found.selection.base, found.selection.best
+    end = found.selection if found.learned is None else found.learned.selection
+    base, corrected = found.selection.base, end.best
     best = None
     if key["effects"] and all(e["catalogued"] for e in key["effects"]):
         truth = [structure(e["name"]) for e in key["effects"]]

@@ -35,6 +35,7 @@ class NullResult:
     kind : of noise or rig error;  only_noise : whether a right model leaves only noise
     named : effects that are wrong for this kind;  rig : codes of what the rig checks said
     measures : the largest statistics, by the names of their thresholds
+    learned : whether a law was learned of what is none
     """
 
     seed: int
@@ -44,6 +45,7 @@ class NullResult:
     named: tuple[str, ...]
     rig: tuple[str, ...]
     measures: Mapping[str, float]
+    learned: bool = False
 
     @property
     def adequate(self) -> bool:
@@ -53,7 +55,7 @@ class NullResult:
     @property
     def line(self) -> str:
         """The null in one line."""
-        said = " + ".join(self.named) or "nothing"
+        said = " + ".join((*self.named, *["a law"] * self.learned)) or "nothing"
         rig = f"  rig {', '.join(self.rig)}" if self.rig else ""
         return f"seed {self.seed}  {self.kind}  named {said}  {self.verdict}{rig}"
 
@@ -78,6 +80,7 @@ def examine(seed: int) -> NullResult:
         tuple(f.effect.name for f in found.findings if not _is_right(f, null.kind.right)),
         tuple(dict.fromkeys(f.code for f in found.rig.faults)),
         measures(found),
+        found.learned is not None,
     )
 
 
@@ -121,7 +124,7 @@ def tables(results: Sequence[NullResult]) -> Iterator[Table]:
     rows = [_row(kind, [r for r in results if r.kind == kind]) for kind in kinds]
     noise = [r for r in results if r.only_noise]
     rows += [_row("all", results), _row("all that is only noise", noise)]
-    yield "False alarms, by kind", ["", "nulls", "named", "not adequate", "seeds"], rows
+    yield "False alarms, by kind", ["", "nulls", "named", "learned", "not adequate", "seeds"], rows
     names = dict.fromkeys(n for r in noise for n in r.measures)
     yield (
         "Statistics of the best single effect and of the rest, over what is only noise",
@@ -131,10 +134,11 @@ def tables(results: Sequence[NullResult]) -> Iterator[Table]:
 
 
 def _row(label: str, results: Sequence[NullResult]) -> list[str]:
-    wrong = [r for r in results if r.named or (r.only_noise and not r.adequate)]
+    wrong = [r for r in results if r.named or r.learned or (r.only_noise and not r.adequate)]
     count = max(len(results), 1)
-    named, off = sum(bool(r.named) for r in results), sum(not r.adequate for r in results)
-    share = [f"{n} ({100 * n / count:.1f} %)" for n in (named, off)]
+    named, learned = sum(bool(r.named) for r in results), sum(r.learned for r in results)
+    off = sum(not r.adequate for r in results)
+    share = [f"{n} ({100 * n / count:.1f} %)" for n in (named, learned, off)]
     return [label, str(len(results)), *share, " ".join(str(r.seed) for r in wrong)]
 
 

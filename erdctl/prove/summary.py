@@ -51,6 +51,7 @@ class Summary:
     pairs: Tally
     nulls: tuple[Tally, ...]
     unknowns: Tally
+    unknown_bands: tuple[Tally, ...]
     motions: tuple[Tally, ...]
     concealments: tuple[Tally, ...]
     confusions: tuple[Confusion, ...]
@@ -64,6 +65,7 @@ def summarise(results: Sequence[Result], failed: Sequence[Failed] = ()) -> Summa
     """Figures of some results."""
     singles = [r for r in results if r.kind == "single"]
     nulls = [r for r in results if r.kind == "null"]
+    unknowns = [r for r in results if r.kind == "unknown"]
     colours = sorted({r.colour for r in nulls})
     return Summary(
         whole=group("all cases", results),
@@ -71,7 +73,8 @@ def summarise(results: Sequence[Result], failed: Sequence[Failed] = ()) -> Summa
         effects=_effects(singles),
         pairs=group("pairs", [r for r in results if r.kind == "pair"]),
         nulls=(*_split("", nulls, colours, lambda r: r.colour), group("all", nulls)),
-        unknowns=group("unknown", [r for r in results if r.kind == "unknown"]),
+        unknowns=group("all", unknowns),
+        unknown_bands=_split("", unknowns, BAND_NAMES, _band),
         motions=tuple(
             g
             for kind in ("single", "pair", "null", "unknown", "crowded", "sparse")

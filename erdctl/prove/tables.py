@@ -24,6 +24,7 @@ def line(outcome: Outcome) -> str:
             f"seed {r.seed}", r.key_sha256[:12], f"{r.kind}: {hidden_text(r)}",
             f"said: {said_text(r)}", f"named {_yes(r.named)}", r.verdict,
             f"located {_yes(r.located)}", f"nrmse {errors}",
+            *([f"learned {' + '.join(r.learned)}"] if r.learned else []),
         ]
     )  # fmt: skip
 
@@ -59,13 +60,13 @@ def _every(s: Summary) -> Iterator[Table]:
         ["", "cases", "adequate"],
         [[g.label, str(g.cases), _rate(g.adequate)] for g in s.nulls if g.cases],
     )
-    yield "Outside the catalogue", [
-        "", "cases", "unexplained", "explained by a wrong name", "adequate", "located",
-        "first place",
+    yield "Outside the catalogue, by the misfit of the paper's model over the noise", [
+        "misfit over noise", "cases", "unexplained", "explained by a wrong name", "adequate",
+        "located", "first place", "learned", "error removed",
     ], [
         [g.label, str(g.cases), _rate(g.unexplained), _rate(g.explained), _rate(g.adequate),
-         _rate(g.located), _rate(g.first_place)]
-        for g in (s.unknowns,) if g.cases
+         _rate(g.located), _rate(g.first_place), _rate(g.learned), _part(g.cut)]
+        for g in (*s.unknown_bands, s.unknowns) if g.cases
     ]  # fmt: skip
     yield "Crowded: a strong effect among faint ones, records that scatter", [
         "", "cases", "strong one first", "spurious per case", "attainable reduction",
@@ -84,7 +85,7 @@ def _every(s: Summary) -> Iterator[Table]:
         for g in s.sparse
     ]  # fmt: skip
     split = ["", "cases", "named first", "all found", "right verdict", "located", "first place",
-             "spurious per case"]  # fmt: skip
+             "spurious per case", "learned"]  # fmt: skip
     for title, groups in (
         ("By kind and motion (measured: xdot from a noisy, quantised x)", s.motions),
         ("Single effects, by concealment", s.concealments),
@@ -92,7 +93,7 @@ def _every(s: Summary) -> Iterator[Table]:
     ):
         yield title, split, [
             [g.label, str(g.cases), _rate(g.named), _rate(g.all_found), _rate(g.right),
-             _rate(g.located), _rate(g.first_place), _digits(g.spurious, 2)]
+             _rate(g.located), _rate(g.first_place), _digits(g.spurious, 2), _rate(g.learned)]
             for g in groups if g.cases
         ]  # fmt: skip
     yield (
@@ -117,6 +118,10 @@ def _rate(rate: Rate) -> str:
 
 def _removed(g: Tally) -> str:
     return "-" if g.removed is None else f"{100 * g.removed:.0f} % ({g.removed_of})"
+
+
+def _part(value: float | None) -> str:
+    return "-" if value is None else f"{100 * value:.0f} %"
 
 
 def _digits(value: float | None, digits: int) -> str:

@@ -34,6 +34,7 @@ class Tally:
     right : verdict as it should be for what is hidden
     first_place : the place listed first is a true one, of the misfit or of the effect's own force
     removed : attainable reduction: the error removed, over what the true structure removes; median
+    learned : something was learned;  cut : part of the paper's error that is removed; median
     """
 
     label: str
@@ -50,6 +51,8 @@ class Tally:
     spurious: float | None
     removed: float | None
     removed_of: int
+    learned: Rate
+    cut: float | None
 
 
 def group(label: str, results: Sequence[Result]) -> Tally:
@@ -78,6 +81,8 @@ def group(label: str, results: Sequence[Result]) -> Tally:
         spurious=mean(r.spurious for r in results) if results else None,
         removed=median(parts) if parts else None,
         removed_of=len(parts),
+        learned=Rate(sum(bool(r.learned) for r in results), len(results)),
+        cut=median(r.fresh.cut for r in results) if results else None,
     )
 
 

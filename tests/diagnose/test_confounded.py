@@ -9,7 +9,7 @@ from typing import Any
 import pyarrow.parquet as pq
 
 from erdctl.diagnose.corrected import parameters
-from erdctl.diagnose.diagnosis import fit_errors
+from erdctl.diagnose.fit_errors import fit_errors
 from erdctl.diagnose.hypothesis import fit_hypothesis
 from erdctl.diagnose.problem import prepare
 from erdctl.effects import get, names

@@ -12,8 +12,9 @@ from rig import campaign, noisy
 from erdctl.diagnose.backward_step import as_good_as_explored, eliminate
 from erdctl.diagnose.carry_over import to_other_records
 from erdctl.diagnose.comparison import compare
-from erdctl.diagnose.diagnosis import diagnose, fit_errors
+from erdctl.diagnose.diagnosis import diagnose
 from erdctl.diagnose.executor import executor
+from erdctl.diagnose.fit_errors import fit_errors
 from erdctl.diagnose.forward_step import Exploration, Explored, key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis, over_records, slopes
 from erdctl.diagnose.look_alikes import is_preferred
@@ -127,7 +128,7 @@ def test_an_effect_of_which_nothing_is_left_between_samples_is_no_finding(
     assert {f.effect.name for f in diagnose(log, catalogue).findings} == {
         "coulomb_friction", "quadratic_damping",
     }  # fmt: skip
-    module = sys.modules[fit_errors.__module__]
+    module = sys.modules[diagnose.__module__]
 
     def none_left(problem: Problem, h: Hypothesis) -> tuple[Fit, RecordEffects | None]:
         last, effects = fit_errors(problem, h)

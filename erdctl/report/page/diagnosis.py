@@ -48,7 +48,7 @@ def diagnosis_page(
     """
     assert recording.force is not None
     doc, levels = document, Levels.of(recording)
-    changed = bool(doc["findings"])
+    changed = _changed(doc)
     given = "params" in doc["provenance"]
     name = "the given model's structure" if given else "the paper's model"
     plain_name = "given" if given else "paper's model"
@@ -146,6 +146,8 @@ def _answers(doc: Json, name: str, peak: float) -> Json:
             )
         case _:
             head = f"{start} does not hold, and nothing in the catalogue explains what it misses."
+    if _laws(doc):
+        head += " What the data say of that was learned, and has no name."
     if verdict == "adequate":
         holds = f"Yes. Its error is {digits(rms, 3)} N rms, the noise {digits(noise, 3)} N rms."
         where = "Nowhere: no misfit beyond the noise."
@@ -167,8 +169,22 @@ def _answers(doc: Json, name: str, peak: float) -> Json:
         )
     return {
         "head": head, "holds": holds, "where": where, "why": why,
-        "causes": [_cause(f) for f in doc["findings"]], "better": _better(doc, peak),
+        "causes": [
+            *(_cause(f) for f in doc["findings"]),
+            *({"number": f["equation"], "text": _sentence(f["text"])} for f in _laws(doc)),
+        ],
+        "better": _better(doc, peak),
     }  # fmt: skip
+
+
+def _laws(doc: Json) -> list[Json]:
+    """What was learned of a misfit that no effect explains."""
+    return list(doc.get("learned", []))
+
+
+def _changed(doc: Json) -> bool:
+    """Whether the corrected model is another one."""
+    return bool(doc["findings"] or _laws(doc))
 
 
 def _cause(f: Json) -> Json:
@@ -197,7 +213,7 @@ def _better(doc: Json, peak: float) -> Json:
 
     of_peak = f"per cent of the peak force of {with_unit(peak, 'N', 3)}; noise {noise} rms"
     unit = "NRMSE on data that the fit has not seen"
-    if not doc["findings"]:
+    if not _changed(doc):
         return {
             "question": "How well does it predict?", "before": "",
             "after": f"{before['nrmse']:.4f}", "unit": unit,
@@ -229,8 +245,8 @@ def _levels(doc: Json, r: Recording, levels: Levels, plain_name: str) -> Json:
     most = max(v for row in rows for v in (row["before"], row["after"], row["noise"]) if v)
     return {
         "rows": rows, "most": most, "noise": "noise",
-        "before": plain_name if doc["findings"] else "",
-        "after": "corrected" if doc["findings"] else plain_name,
+        "before": plain_name if _changed(doc) else "",
+        "after": "corrected" if _changed(doc) else plain_name,
     }  # fmt: skip
 
 

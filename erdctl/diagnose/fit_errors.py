@@ -1,0 +1,34 @@
+"""The last step of a fit on all samples, and the errors of what it found."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from erdctl.diagnose.hypothesis import Hypothesis
+from erdctl.diagnose.problem import Problem
+from erdctl.diagnose.record_effects import RecordEffects
+from erdctl.estimate.covariance import Fit
+from erdctl.estimate.last_step import assess
+from erdctl.estimate.onsets import onset_intervals, placed
+
+
+def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEffects | None]:
+    """The last step on all samples and the errors of a hypothesis, and of its record effects."""
+    model = hypothesis.model
+    block, record_effects = hypothesis.problem.block, hypothesis.record_effects
+    shared = block if record_effects is None else record_effects.shared(block)
+    held, onsets = set(problem.held), set(placed(model))
+    bounded = set(model.quantities).difference(hypothesis.free, held, onsets)
+    at_once = {n: model.quantities[n].low for n in hypothesis.instant - held}
+    levels = None if record_effects is None else record_effects.levels(problem.free)
+    fit = assess(
+        model, [shared], {**hypothesis.values, **at_once}, fixed=held | onsets,
+        bounded=sorted(bounded), levels=levels, threads=1,
+    )  # fmt: skip
+    if onsets:
+        # Found by a search of all times: no curvature says how well.
+        found = onset_intervals(model, shared, fit.values, hypothesis.problem.held)
+        fit = replace(fit, intervals={**fit.intervals, **found})
+    if record_effects is not None and fit.level_errors is not None:
+        record_effects = record_effects.with_errors(problem.free, fit.level_errors)
+    return fit, record_effects

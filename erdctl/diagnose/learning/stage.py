@@ -1,0 +1,130 @@
+"""The stage of a diagnosis behind the catalogue: what is learned, and whether it carries over."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from erdctl.core.recording import Array
+from erdctl.diagnose import scores, thresholds
+from erdctl.diagnose.executor import Executor
+from erdctl.diagnose.findings import Finding, findings
+from erdctl.diagnose.fit_errors import fit_errors
+from erdctl.diagnose.hypothesis import Hypothesis
+from erdctl.diagnose.learning.learn import learn, learned_in
+from erdctl.diagnose.problem import Problem
+from erdctl.diagnose.record_effects import RecordEffects
+from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
+from erdctl.diagnose.search import Selection, on_all, refit
+from erdctl.diagnose.unseen import Unseen, on_unseen
+from erdctl.estimate.covariance import Fit
+from erdctl.model.composed import Model
+from erdctl.model.effect import Effect
+from erdctl.model.learned.law import Law, LearnedEffect
+
+
+@dataclass(frozen=True, eq=False)
+class LearnedLaw:
+    """One law that a model lacks.
+
+    finding : what it is worth, and the drive that would tell it from its look-alikes
+    alike : laws that would do as well in its place
+    tau : the time constant of its coordinate, if that has one [s]
+    z, f : (k,) the curve [N], or [1] of a factor less 1
+    """
+
+    law: Law
+    finding: Finding
+    alike: tuple[Law, ...]
+    tau: float | None
+    z: Array
+    f: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Learned:
+    """A model with what was learned beside what was named.
+
+    selection : of effects and laws;  findings : of the effects that are named still
+    unseen : errors by what was left out, of the model to answer for and of this one
+    """
+
+    selection: Selection
+    laws: tuple[LearnedLaw, ...]
+    findings: tuple[Finding, ...]
+    unseen: tuple[Unseen, ...]
+    fit: Fit
+    record_effects: RecordEffects | None
+    lack_of_fit: LackOfFit
+
+
+def learned(
+    problems: tuple[Problem, Problem, Problem],
+    aside: Problem | None,
+    named: Selection,
+    start: tuple[Hypothesis, Hypothesis],
+    candidates: Sequence[Effect],
+    rest: LackOfFit,
+    executor: Executor,
+    seed: int,
+) -> Learned | None:
+    """What can be learned of a rest; None if nothing carries over.
+
+    problems : the thinned one, what the search may see, and all samples
+    aside : what neither fit nor search has seen, if there is any
+    named : the model that leaves the rest, and the one to answer for
+    start : these two on the thinned problem, that to answer for first
+    candidates : the effects that the log can show;  rest : what is to be learned of
+    """
+    thin, seen, problem = problems
+    line = None if rest.spectral_line is None else rest.spectral_line.frequency
+    found = learn(thin, *start, candidates, line, executor, seed)
+    if not learned_in(found.named):
+        return None
+    known = {n: named.look_alikes.get(n) or alike for n, alike in found.look_alikes.items()}
+    found = refit(seen, replace(found, look_alikes=known, singles=named.singles), executor)
+    # What predicts anything worse than the model without it is no correction.
+    parts = on_unseen(aside, named.best, found.best)
+    if not learned_in(found.named) or any(u.worse for u in parts):
+        return None
+    said = findings(seen, found)
+    unseen = on_unseen(aside, found.base, found.best)
+    if aside is not None:
+        found = on_all(problem, found, executor)
+    fit, record_effects = fit_errors(problem, found.best)
+    # Nor what pays where records settle, which no fit weighs.
+    pair = (scores.of(problem, fit.model, fit.values), scores.of(problem, *_of(named.best)))
+    if pair[0].overall.rms > pair[1].overall.rms:
+        return None
+    return Learned(
+        selection=found,
+        laws=tuple(_law(found, f) for f in said if isinstance(f.effect, LearnedEffect)),
+        findings=tuple(f for f in said if not isinstance(f.effect, LearnedEffect)),
+        unseen=unseen,
+        fit=fit,
+        record_effects=record_effects,
+        lack_of_fit=lack_of_fit_test(found.best.problem, found.best.residual, seed),
+    )
+
+
+def _of(hypothesis: Hypothesis) -> tuple[Model, dict[str, float]]:
+    return hypothesis.model, hypothesis.values
+
+
+def _law(found: Selection, finding: Finding) -> LearnedLaw:
+    effect = finding.effect
+    assert isinstance(effect, LearnedEffect)
+    law, p = effect.law, effect.local(found.best.values)
+    z = np.linspace(*law.curve.range, thresholds.CURVE_POINTS)
+    sizes = np.array([p[q.symbol] for q in law.curve.amplitudes(law.unit)])
+    others = [h.effects[-1] for _, h in found.look_alikes[effect.name]]
+    return LearnedLaw(
+        law=law,
+        finding=finding,
+        alike=tuple(e.law for e in learned_in(others)),
+        tau=p.get("tau"),
+        z=z,
+        f=sizes @ law.curve.at(z, p),
+    )

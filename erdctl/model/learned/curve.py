@@ -1,0 +1,149 @@
+"""A curve over one coordinate: through values at knots, or in a closed form of the field.
+
+Outside the range in which it was learned a curve stays at its end value.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from erdctl.core.quantity import Quantity, Scale
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.model.learned.coordinates import KINDS, CoordinateKind, along
+from erdctl.model.learned.forms import FORMS
+from erdctl.model.slots import Values
+
+MOST = 1e9  # N, of an added force
+LARGEST = 10.0  # of a factor
+REMEMBERED = 100_000  # samples, up to which a spline is not evaluated again
+MARGIN = 0.05  # of a range, that is no extrapolation yet
+SHORTEST, LONGEST = 1e-4, 1e5  # s, of a memory
+
+
+@dataclass(frozen=True)
+class Curve:
+    """f(z) = sum of amplitudes times rows(z, other parameters).
+
+    coordinate : a name in `KINDS`
+    knots : (k,) rising values of z, the first and the last the ends of the range seen
+    form : of the field, a name in `FORMS`; None for a natural cubic spline through one value at
+        each knot
+    zero_first : whether a spline is 0 at the first knot, where another parameter of the model makes
+        up for a constant
+    tau : where the search of the coordinate's time constant begins [s]
+    """
+
+    coordinate: str
+    knots: tuple[float, ...]
+    form: str | None = None
+    zero_first: bool = False
+    tau: float = 1.0
+
+    @property
+    def name(self) -> str:
+        """For the name of an effect."""
+        what = self.form or f"spline{len(self.knots)}"
+        return f"{self.coordinate}_{what}"
+
+    @property
+    def kind(self) -> CoordinateKind:
+        """What is known of the coordinate."""
+        return KINDS[self.coordinate]
+
+    def amplitudes(self, unit: str) -> list[Quantity]:
+        """Those of the rows, in a unit: N, or 1 of a factor."""
+        most = LARGEST if unit == "1" else MOST
+        # A factor that is 1 at the first knot is never negative.
+        low = -1.0 if unit == "1" and self.form is None else -most
+        if self.form is not None:
+            titles = {"a": "size"}
+        else:
+            first = int(self.zero_first)
+            at = self.kind.unit
+            titles = {
+                f"f_{k + 1}": f"at {self.knots[k]:.4g} {at}" for k in range(first, len(self.knots))
+            }
+        return [
+            Quantity(
+                symbol=symbol, unit=unit, title=title, low=low, high=most, linear=unit != "1",
+                start=0.0 if self.form is None else 0.3,
+            )
+            for symbol, title in titles.items()
+        ]  # fmt: skip
+
+    def shape(self) -> list[Quantity]:
+        """All other parameters."""
+        out = []
+        if self.kind.late:
+            out.append(
+                Quantity(
+                    symbol="tau", unit="s", title="time constant of the memory",
+                    low=SHORTEST, high=LONGEST, start=self.tau, off=self.tau, scale=Scale.LOG,
+                )
+            )  # fmt: skip
+        if self.form is not None:
+            out += FORMS[self.form].parameters(self.kind.unit, *self.range)
+        return out
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """What the coordinate spanned where the curve was learned."""
+        return self.knots[0], self.knots[-1]
+
+    def beyond(self, s: Signals, p: Values) -> tuple[float, float, float]:
+        """Least and largest value of the coordinate, and the part of the samples out of range."""
+        z, (low, high) = along(self.coordinate, s, p.get("tau")), self.range
+        z, margin = z[np.isfinite(z)], MARGIN * (high - low)
+        if z.size == 0:
+            return low, high, 0.0
+        out = (z < low - margin) | (z > high + margin)
+        return float(z.min()), float(z.max()), float(np.mean(out))
+
+    @property
+    def equation(self) -> str:
+        """In z, the coordinate within its range, and the parameters."""
+        if self.form is None:
+            return "f(z)"
+        return FORMS[self.form].equation
+
+    def rows(self, s: Signals, p: Values) -> Array:
+        """(k, n) what an amplitude of 1, and 0 for the others, gives."""
+        tau = p["tau"] if self.kind.late else None
+        if self.form is None:
+            known = _known if len(s) <= REMEMBERED else _through
+            return known(self.coordinate, s, tau, self.knots)[int(self.zero_first) :]
+        return self.at(along(self.coordinate, s, tau), p)
+
+    def at(self, z: Array, p: Values) -> Array:
+        """(k, n) the same at values of the coordinate (n,).
+
+        Check: at its own knot each is 1, at the others 0, and beyond the last one it stays.
+        >>> c = Curve("x", (0.0, 1.0, 2.0), zero_first=True)
+        >>> c.at(np.array([0.0, 1.0, 2.0, 5.0]), {}).round(9).tolist()
+        [[0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 1.0]]
+        """
+        if self.form is None:
+            return _spline(z, self.knots)[int(self.zero_first) :]
+        low, high = self.range
+        z = np.clip(z, low, high)
+        return FORMS[self.form].value(z, max(abs(low), abs(high)), p)[None]
+
+
+def _spline(z: Array, knots: tuple[float, ...]) -> Array:
+    """(k, n) natural cubic splines through 1 at one of the knots and 0 at the others."""
+    from scipy.interpolate import CubicSpline
+
+    spline = CubicSpline(np.array(knots), np.eye(len(knots)), bc_type="natural")
+    return np.ascontiguousarray(spline(np.clip(z, knots[0], knots[-1])).T)
+
+
+def _through(coordinate: str, s: Signals, tau: float | None, knots: tuple[float, ...]) -> Array:
+    return _spline(along(coordinate, s, tau), knots)
+
+
+# A search moves one parameter at a time, and most of them move no coordinate.
+_known = lru_cache(maxsize=4)(_through)
