@@ -27,12 +27,16 @@ def parameters(found: Diagnosis) -> Parameters:
 
 
 def _remarks(found: Diagnosis) -> tuple[str, ...]:
-    samples = len(found.problem.recording)
-    if samples <= MOST_SAMPLES or not found.fit.model.effects:
+    samples, effects = len(found.problem.recording), found.fit.model.effects
+    by_slopes = (
+        "the intervals of effects are by the slopes of the force, and by no profile of the cost"
+    )
+    if any(e.smooth for e in effects):
+        return (f"beside a curve that was learned {by_slopes}",)
+    if samples <= MOST_SAMPLES or not effects:
         return ()
     return (
-        f"a log of {samples} samples: the intervals of effects are by the slopes of the force, and"
-        f" by no profile of the cost, which is followed up to {MOST_SAMPLES} samples",
+        f"a log of {samples} samples: {by_slopes}, which is followed up to {MOST_SAMPLES} samples",
     )
 
 

@@ -194,6 +194,9 @@ def diagnose(
     if more is not None:
         best, fit, record_effects = more.selection.best, more.fit, more.record_effects
         unseen, lack_of_fit, found = more.unseen, more.lack_of_fit, more.findings
+        again = {f.effect.name for f in found}  # what a law leaves of the misfit, they take
+        withdrawn = tuple(e for e in withdrawn if e.name not in again)
+        taken = taken if withdrawn else None
     refitted = scores.of(problem, base.model, base.values)
     corrected = scores.of(problem, fit.model, fit.values)
     undetected: tuple[Detectable, ...] = ()

@@ -49,6 +49,8 @@ def with_intervals(
     ]  # fmt: skip
     if not (asked or bounded) or sum(len(b.force) for b in blocks) > MOST_SAMPLES:
         return found
+    if any(e.smooth for e in model.effects):
+        return found  # whose many sizes would be searched anew at every point of every profile
     data, values = _Data.of(found, blocks, finer), dict(found.values)
     intervals: dict[str, tuple[float, float]] = {}
     rows = data.rows(values)

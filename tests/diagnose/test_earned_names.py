@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -30,7 +31,9 @@ def found(part: float) -> Diagnosis:
     return diagnose(log, [get("quadratic_damping"), get("coulomb_friction")])
 
 
-def test_what_leaves_more_than_it_takes_is_not_named() -> None:
+def test_what_leaves_more_than_it_takes_is_not_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    module = sys.modules[diagnose.__module__]
+    monkeypatch.setattr(module, "learned", lambda *_: None)  # or the groove would be learned
     it = found(0.15)
     assert it.verdict is Verdict.UNEXPLAINED
     assert it.findings == ()
@@ -40,6 +43,16 @@ def test_what_leaves_more_than_it_takes_is_not_named() -> None:
     assert f"the search had chosen {', '.join(names)} for" in remaining_text(it)
     assert it.corrected == it.carried
     assert to_json(it)["withdrawn"] == names
+
+
+def test_once_a_law_takes_the_rest_the_effect_has_its_name() -> None:
+    it = found(0.15)
+    assert it.verdict is Verdict.UNEXPLAINED
+    assert [f.effect.name for f in it.findings] == ["quadratic_damping"]
+    assert (it.withdrawn, it.taken) == ((), None)
+    assert it.learned is not None
+    assert "the search had chosen" not in remaining_text(it)
+    assert it.corrected.overall.rms < 1.05 * NOISE
 
 
 def test_what_takes_more_is_named_beside_what_stays() -> None:
