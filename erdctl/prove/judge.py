@@ -107,8 +107,9 @@ def scored(
     match = naming((*mended, *findings), hidden)
     first = match.first
     if "strong" in key:
+        # What a check of the rig says of the velocity has no place among the findings.
         strong = [h for h in hidden if h.effect == key["strong"]]
-        first = naming((*mended, *findings)[:1], strong).first
+        first = any(naming(of[:1], strong).first for of in (findings, mended))
     return Result(
         number=sealed.number,
         seed=sealed.seed,

@@ -156,6 +156,16 @@ def test_in_a_crowd_the_strong_one_has_to_be_first() -> None:
     assert (strong.named, strong.matched, strong.spurious) == (True, 1, 1)
 
 
+def test_a_check_of_the_rig_stands_before_no_finding() -> None:
+    """A faint noise of the velocity, that the rig's check mends, is no first name."""
+    rig = {"rig": [{"code": "velocity_noise"}]}
+    crowd = key(("rub", 6.0), ("velocity_noise", 0.3), kind="crowded", strong="rub")
+    found = scored(sealed(), document("explained", ("rub",)) | rig, crowd, ERRORS)
+    assert (found.named, found.matched, found.spurious) == (True, 2, 0)
+    missed = scored(sealed(), document("explained", ("drift",)) | rig, crowd, ERRORS)
+    assert (missed.named, missed.matched, missed.spurious) == (False, 1, 1)
+
+
 def test_what_a_sparse_diagnosis_prints_is_held_against_the_plant() -> None:
     """Only of a model that is the plant's, and with the law's own value of a paper's parameter."""
     side = {"k_nom": 100.0, "c_vis": 10.0, "T_d": 0.02, "sigma": 5.0, "beta": 1.0}
