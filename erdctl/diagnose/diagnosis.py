@@ -105,6 +105,7 @@ def diagnose(
     free: Varying = NONE_VARY,
     accepted: Sequence[str] = (),
     limits: bool = True,
+    learning: bool = True,
     jobs: int = 1,
     progress: Progress = lambda stage, what: None,
 ) -> Diagnosis:
@@ -116,6 +117,8 @@ def diagnose(
     accepted : rig checks that the user says are right as they are
     limits : whether to say from which size on what was not named would have shown; no other answer
         rests on that
+    learning : whether to learn what no effect explains; which effects are found does not rest on
+        that, but for those that stand in for a law
     jobs : processes that try hypotheses; the results are the same for any number
     """
     rig = look(recording).accept(accepted)
@@ -169,7 +172,7 @@ def diagnose(
         left = _matters(problem, selection, lack_of_fit)
         cannot_tell = bool(selection.named) and one_condition(recording)
         more: Learned | None = None
-        if left and not (rig.blocking or cannot_tell):
+        if learning and left and not (rig.blocking or cannot_tell):
             start = searched.base, _on_thin(thin, searched.best, selection.best)
             unfitted = problem.of(aside) if aside else None
             more = learned(

@@ -43,7 +43,7 @@ def concealed(effect: str | None) -> plant.Case:
 
 @cache
 def diagnosed(effect: str | None, free: Varying) -> Diagnosis:
-    return diagnose(recording(concealed(effect)), [get(n) for n in FEW], free=free)
+    return diagnose(recording(concealed(effect)), [get(n) for n in FEW], free=free, learning=False)
 
 
 def true_gains(case: plant.Case) -> np.ndarray:
