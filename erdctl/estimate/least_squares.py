@@ -148,7 +148,8 @@ class _Projected:
         shape: Sequence[str],
         anchor: Array | None = None,
     ) -> None:
-        self.model, self.block, self.anchor = model, block, anchor
+        self.model, self.block = model, block
+        self.anchor = anchor if any(e.smooth for e in model.effects) else None
         linear = [n for n in model.linear if n not in held]
         self.linear = linear if model.separable else []
         self.names = list(shape) if model.separable else [*shape, *linear]
