@@ -9,7 +9,8 @@ motion and duty, which is added to what was measured, noise, misfit and all.
     local noise^2 = mean of (what the diagnosis left)^2, weighted by the square of that force
 
 Against it stand nulls: the recording with nothing added but what was left of it turned over, group
-by group at random, so that a name is chance.
+by group at random, so that a name is chance. What is asked is which effects are named, so no
+diagnosis learns laws.
 """
 
 from __future__ import annotations
@@ -93,14 +94,15 @@ def host(recording: Recording, every: int, seed: int, jobs: int, progress: Progr
     if recording.force is None:
         raise UsageProblem("prove --on needs a log with a measured force")
     thin = _thinned(recording, every)
-    found = diagnose(thin, catalogue(), limits=False, jobs=jobs, progress=progress)
+    found = diagnose(thin, catalogue(), limits=False, learning=False, jobs=jobs, progress=progress)
     if found.rig.blocking:
         texts = "; ".join(f.text for f in found.rig.blocking)
         raise UsageProblem(f"nothing can be hidden in this log before its rig is right: {texts}")
     given = parameters(found)
     more = diagnose(
-        thin, catalogue(), given=given, most=2, limits=False, jobs=jobs, progress=progress
-    )
+        thin, catalogue(), given=given, most=2, limits=False, learning=False, jobs=jobs,
+        progress=progress,
+    )  # fmt: skip
     again = tuple(f.effect.name for f in more.findings)
     # What a parameter would need is for people, and holds functions that no process can be sent.
     lean = replace(found, problem=replace(found.problem, needs={}))
@@ -219,7 +221,10 @@ class Hiding:
         """A trial with what the diagnosis says beyond what is there anyway."""
         most = min(1 + len(self.host.again), MOST)
         try:
-            found = diagnose(recording, catalogue(), given=self.host.given, most=most, limits=False)
+            found = diagnose(
+                recording, catalogue(), given=self.host.given, most=most, limits=False,
+                learning=False,
+            )  # fmt: skip
         except ErdctlError as problem:
             return replace(trial, skipped=f"cannot be diagnosed: {problem}")
         new = [f for f in found.findings if f.effect.name not in self.host.again]
