@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -30,7 +31,12 @@ from erdctl.diagnose.residual.places import places
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
 from erdctl.diagnose.search import Selection, on_all, refit, search
-from erdctl.diagnose.slight_lag import freed
+from erdctl.diagnose.slight_lag import (
+    earned_by_lags,
+    freed,
+    to_be_searched_with_lags,
+    without_lags_held,
+)
 from erdctl.diagnose.thin import thinned
 from erdctl.diagnose.unseen import Unseen, kept_aside, on_unseen
 from erdctl.estimate.covariance import Fit
@@ -142,8 +148,16 @@ def diagnose(
     allowed: dict[str, float] = {}
     for effect in testable:
         allowed |= effect.allowed(problem.block.signals, problem.block.force)
-    with executor((thin, seen, problem), jobs, progress, allowed) as workers:
+    with ExitStack() as pools:
+        workers = pools.enter_context(executor((thin, seen, problem), jobs, progress, allowed))
         searched = search(thin, testable, most, workers, seed, given)
+        if given is None and to_be_searched_with_lags(thin, searched):
+            lagging = [without_lags_held(p) for p in (thin, seen, problem)]
+            others = pools.enter_context(executor(lagging, jobs, progress, allowed))
+            with_lags = search(lagging[0], testable, most, others, seed)
+            if earned_by_lags(thin, searched, with_lags):
+                searched, workers = with_lags, others
+                thin, seen, problem = lagging
         chosen: Selection | None = refit(seen, searched, workers)
         while chosen is not None:
             selection = chosen

@@ -19,10 +19,9 @@ def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEff
     shared = block if record_effects is None else record_effects.shared(block)
     held, onsets = set(problem.held), set(placed(model))
     bounded = set(model.quantities).difference(hypothesis.free, held, onsets)
-    at_once = {n: model.quantities[n].low for n in hypothesis.instant - held}
     levels = None if record_effects is None else record_effects.levels(problem.free)
     fit = assess(
-        model, [shared], {**hypothesis.values, **at_once}, fixed=held | onsets,
+        model, [shared], hypothesis.values, fixed=held | onsets,
         bounded=sorted(bounded), levels=levels, threads=1,
     )  # fmt: skip
     if onsets:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from erdctl.core.recording import Array, Index
+from erdctl.core.recording import DIRECTIONS, Array, Index
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem, mask_doubtful
 from erdctl.diagnose.record_effects import RecordEffects, estimate
@@ -15,6 +15,8 @@ from erdctl.estimate.least_squares import Fitted, at_bound, fit
 from erdctl.estimate.linearisation import jacobian
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
+
+LAGS = tuple(f"{d}.T_d" for d in DIRECTIONS)  # of the yield force
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +72,7 @@ class Hypothesis:
         there a leap: without that sample's group, or of the whole fit, to seconds.
         """
         shortest = thresholds.INSTANT * self.problem.block.signals.finest_step
-        return {n for n, v in self.values.items() if n.endswith(".T_d") and v < shortest}
+        return {n for n in LAGS if self.values[n] < shortest}
 
     @property
     def score(self) -> float:
@@ -168,10 +170,21 @@ def _fitted(
     full = {n: given.get(n, q.start) for n, q in model.quantities.items()}
     block = problem.block if record_effects is None else record_effects.shared(problem.block)
     tolerance = thresholds.SETTLED / max(int(np.count_nonzero(block.weight)), 1)
-    found = fit(
-        model, block, start=full, fixed=problem.held, max_evaluations=max_evaluations,
-        tolerance=tolerance, anchor=whole,
-    )  # fmt: skip
+
+    def searched(begin: Mapping[str, float], at_once: Sequence[str], steps: int) -> Fitted:
+        return fit(
+            model, block, start=begin, fixed=problem.held.keys() | set(at_once),
+            max_evaluations=steps, tolerance=tolerance, anchor=whole,
+        )  # fmt: skip
+
+    none = all(full[n] == 0.0 for n in LAGS)
+    found = searched(full, LAGS if none else (), max_evaluations)
+    short = all(found.values[n] < block.signals.finest_step for n in LAGS)
+    if short and problem.held.keys().isdisjoint(LAGS) and not none:
+        # However short, a lag is over by the next sample; that there is none is another model.
+        without = searched({**found.values, **dict.fromkeys(LAGS, 0.0)}, LAGS, 1)
+        if without.cost < found.cost:
+            found = searched(without.values, LAGS, max_evaluations)
     if record_effects is None:
         return found
     residual = found.residual * record_effects.along(block.signals.starts)[0]

@@ -217,8 +217,14 @@ SETTLED = 1e-3
 
 # Lag [s] that a log without steps of the duty may be fitted with.
 # Decides: whether it is one of the fluid, or stands in for something else.
-# Origin: the longest that ER dampers are published with, see `core.blocks.SETTLE`.
-LONGEST_LAG = 0.06
+# Origin: theory; as long as records are given to settle, see `core.blocks.SETTLE`. Published lags
+# of ER dampers end at 0.06 s, but what is asked here is asked only where nothing else is missing.
+LONGEST_LAG = 0.3
+
+# Misfit over noise, rms, up to which effects are searched for again with such a lag free.
+# Decides: whether another search is worth its time; real dampers leave several times as much.
+# Origin: budget.
+LITTLE_BUT_NOISE = 1.0
 
 # Starts of each companion that are combined, and combinations that are searched to the end.
 # Origin: budget.

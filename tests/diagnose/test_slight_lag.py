@@ -46,3 +46,18 @@ def test_it_takes_the_place_of_nothing_else() -> None:
     assert log.force is not None
     problem = prepare(replace(log, force=log.force + 3e4 * log.x * np.abs(log.x)))
     assert freed(problem).held.keys() >= LAGS
+
+
+def test_beside_an_effect_it_is_no_second_one() -> None:
+    """Held at 0, the lag had the name of a second effect wherever a first one was hidden."""
+    log = noisy(steady(), seed=3, rms=0.1)
+    assert log.force is not None
+    log = replace(log, force=log.force + 60.0 * log.xdot * np.abs(log.xdot))
+    names = ("position_dependent_damping", "signed_yield_lag", "quadratic_damping", "cavitation")
+    found = diagnose(log, [get(n) for n in names], limits=False)
+    assert [f.effect.name for f in found.findings] == ["quadratic_damping"]
+    assert found.verdict is Verdict.EXPLAINED
+    T_c, T_r = (found.fit.values[n] for n in sorted(LAGS))
+    c_2 = found.fit.values["quadratic_damping.c_2"]
+    assert abs(c_2 - 60.0) < 5.0
+    assert 0.02 < T_c < 0.06 and 0.02 < T_r < 0.06
