@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from erdctl.diagnose.comparison import compare, compare_alike, is_better, ranked
+from erdctl.diagnose.comparison import compare_alike, is_better, ranked
 from erdctl.diagnose.executor import Task
 from erdctl.diagnose.forward_step import Exploration, key_of
 from erdctl.diagnose.hypothesis import Hypothesis
@@ -45,10 +45,10 @@ def eliminate(x: Exploration, best: Hypothesis) -> Hypothesis:
             best = min(harmful)[-1]
             continue
         # Where the present one misses the best hypothesis already, that keeps nothing.
-        behind = compare(x.problem, best, top).significant
+        behind = compare_alike(x.problem, best, top).significant
         idle = [
             h for *_, h in sorted(useless)
-            if behind or not compare(x.problem, h, top).significant
+            if behind or not compare_alike(x.problem, h, top).significant
         ]  # fmt: skip
         if not idle:
             return best
@@ -62,7 +62,7 @@ def second_pass(x: Exploration, best: Hypothesis, most: int) -> Hypothesis:
     if len(x.added(best)) >= most:
         return best
     more = [h for k, h in x.explored.items() if k > key and len(k) == len(key) + 1]
-    better = [h for h in more if compare(x.problem, best, h).significant]
+    better = [h for h in more if compare_alike(x.problem, best, h).significant]
     return eliminate(x, ranked(better)[0]) if better else best
 
 
@@ -83,7 +83,7 @@ def as_good_as_explored(x: Exploration, best: Hypothesis) -> Hypothesis:
         ]  # fmt: skip
         for other in ranked(h for h in even if is_preferred(x.problem, h, best)):
             left = eliminate(x, other)
-            if left is other or not compare(x.problem, left, best).significant:
+            if left is other or not compare_alike(x.problem, left, best).significant:
                 best = left
                 break
     return best

@@ -19,7 +19,7 @@ from erdctl.diagnose.backward_step import (
 )
 from erdctl.diagnose.carry_over import carries_over_as_well, to_other_motions, to_other_records
 from erdctl.diagnose.companion_effects import companion_sets, joint_task
-from erdctl.diagnose.comparison import compare, compare_alike, critical_of, ranked
+from erdctl.diagnose.comparison import compare_alike, critical_of, ranked
 from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.forward_step import Exploration, Explored, forward_step, key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
@@ -97,7 +97,7 @@ def search(
         # It must be worth a name itself, or the next elimination leaves neither of the two.
         preferred = [
             f for f in found
-            if is_preferred(problem, f[1], best) and compare(problem, rest, f[1]).significant
+            if is_preferred(problem, f[1], best) and compare_alike(problem, rest, f[1]).significant
             and carries_over_as_well(x, f[1], best)
         ]  # fmt: skip
         if preferred:
@@ -206,4 +206,4 @@ def _base(problem: Problem, given: Parameters | None, executor: Executor) -> Hyp
 
 def _replaces(problem: Problem, best: Hypothesis, joint: Hypothesis) -> bool:
     """Whether effects that come together replace what was found one by one."""
-    return compare(problem, best, joint).significant or is_preferred(problem, joint, best)
+    return compare_alike(problem, best, joint).significant or is_preferred(problem, joint, best)
