@@ -60,4 +60,5 @@ def test_beside_an_effect_it_is_no_second_one() -> None:
     T_c, T_r = (found.fit.values[n] for n in sorted(LAGS))
     c_2 = found.fit.values["quadratic_damping.c_2"]
     assert abs(c_2 - 60.0) < 5.0
-    assert 0.02 < T_c < 0.06 and 0.02 < T_r < 0.06
+    assert 0.02 < T_c < 0.06
+    assert 0.02 < T_r < 0.06
