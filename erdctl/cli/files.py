@@ -12,7 +12,7 @@ from typing import Any
 from erdctl.core.errors import InputProblem
 from erdctl.io.identity import STDIN, STDOUT, Named
 
-READS = frozenset({"log", "logs", "params", "before", "geometry", "arguments"})
+READS = frozenset({"log", "logs", "params", "before", "geometry", "arguments", "source"})
 WRITES = frozenset({"output", "report", "manifest", "plot"})
 # Names a directory that must be empty, so that nothing is in it to write over.
 FOLDERS = frozenset({"keep"})
@@ -22,7 +22,7 @@ MOST = 3  # files that a message names
 # Texts that name no file.
 OTHERS = frozenset({
     "maps", "fault", "drive", "kind", "record", "span", "normalise", "only", "exclude", "name",
-    "concealment", "motion", "colour", "text", "where", "date", "damper", "operator",
+    "concealment", "motion", "colour", "text", "where", "date", "damper", "operator", "new_name",
 })  # fmt: skip
 
 

@@ -34,7 +34,7 @@ def decode(data: bytes, kind: type[T], *, name: str, schema: str) -> T:
     name : for messages;  schema : what its field "schema" must say
     Raises InputProblem with the path of the field that is missing or wrong, or is there twice.
     """
-    raw = _parsed(data, name)
+    raw = parsed(data, name)
     found = raw.get("schema") if isinstance(raw, dict) else None
     if found != schema:
         says = f"it says {str(found)[:80]!r}" if found is not None else 'it has no field "schema"'
@@ -57,7 +57,8 @@ def converted(raw: object, kind: type[T], *, name: str, path: str = "") -> T:
         raise InputProblem(message, file=name) from None
 
 
-def _parsed(data: bytes, name: str) -> Any:
+def parsed(data: bytes, name: str) -> Any:
+    """What a JSON document holds; InputProblem for one that is none."""
     if not data.strip():
         raise InputProblem("empty; expected a JSON document", file=name)
     try:

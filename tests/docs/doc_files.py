@@ -5,6 +5,7 @@ Each is made in the folder in which an example runs, and only if the example nam
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -71,6 +72,18 @@ def lab_tdms(path: Path) -> None:
         ])  # fmt: skip
 
 
+def learned(path: Path) -> None:
+    """Parameters with a law that was learned: less viscosity with each pass over a place."""
+    document = json.loads((FIXTURES / "table_2.json").read_text())
+    law = {
+        "slot": "viscous", "coordinates": [{"name": "passes"}], "form": "saturation",
+        "knots": [0.0, 9.0],
+    }  # fmt: skip
+    sizes = {"a": {"value": -0.3, "unit": "1"}, "w": {"value": 4.0, "unit": "1"}}
+    document["effects"] = [{"effect": "learned", "law": law, "parameters": sizes}]
+    path.write_text(json.dumps(document))
+
+
 FILES: dict[str, Make] = {
     "bench.csv": bench("sine_2Hz_11mm_pwm0", "steps_1", "steps_3"),
     "bench.parquet": bench("sine_2Hz_11mm_pwm0", "steps_1", "steps_3"),
@@ -89,6 +102,7 @@ FILES: dict[str, Make] = {
     "old.json": copy("table_2.json"),
     "new.json": copy("table_2.json"),
     "geometry.json": copy("geometry_inove.json"),
+    "learned.json": learned,
 }
 
 

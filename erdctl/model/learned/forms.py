@@ -14,7 +14,7 @@ from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.model.slots import Values
 
-STEEPEST = 50.0  # exp of it is a number
+STEEPEST = 50.0  # exp of it, and of less it, is a number that a size can make up for
 
 
 class Form(NamedTuple):
@@ -104,7 +104,8 @@ FORMS: Mapping[str, Form] = {
         lambda z, Z, p: 0.5 * (1.0 + np.tanh((z - p["m"]) / p["w"])),
     ),
     "bell": Form(
-        "a exp(-((z - m)/w)^2)", _both, lambda z, Z, p: np.exp(-(((z - p["m"]) / p["w"]) ** 2))
+        "a exp(-((z - m)/w)^2)", _both,
+        lambda z, Z, p: np.exp(-np.minimum(((z - p["m"]) / p["w"]) ** 2, STEEPEST)),
     ),
     "sine": Form(
         "a sin(2 pi (z - m)/w)", _period,

@@ -13,9 +13,12 @@ from scipy.signal import lfilter
 from erdctl.core.recording import Recording
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
+from erdctl.diagnose.learning.closed_forms import closed_forms
 from erdctl.effects import get
 from erdctl.io.diagnosis import to_json
 from erdctl.io.parameters import parse_parameters
+from erdctl.model.learned.curve import Curve
+from erdctl.model.learned.law import Law, LawSlot
 from erdctl.model.simulate import simulate
 
 FEW = ["coulomb_friction", "fluid_inertia", "quadratic_damping"]
@@ -118,3 +121,17 @@ def test_an_effect_beside_a_law_keeps_its_name() -> None:
     assert both.fit.values["compression.k_nom"] == pytest.approx(
         TRUTH["compression.k_nom"], rel=0.1
     )
+
+
+def test_closed_forms_of_any_curve_are_numbers() -> None:
+    """A bell far narrower than the curve has no value that no size makes up for."""
+    rng = np.random.default_rng(4)
+    knots = tuple(np.linspace(0.0051, 0.0168, 8).tolist())
+    law = Law(LawSlot.FRICTION, Curve("largest_x", knots))
+    for _ in range(20):
+        values = dict(zip((f"f_{k + 1}" for k in range(8)), rng.standard_normal(8), strict=True))
+        strokes = rng.uniform(knots[0], knots[-1], 6)  # one of each record, and nothing between
+        z = np.sort(rng.choice(strokes, 400))
+        with np.errstate(over="raise", invalid="raise", divide="raise"):
+            found = closed_forms(law, values, z)
+        assert all(np.isfinite(v) for _, own in found for v in own.values())
