@@ -76,3 +76,15 @@ def real(name: str, shared: Path) -> Path:
     if not path.exists():
         pytest.skip(f"the real recording {name} is not at hand (expected in ../shared/data)")
     return path
+
+
+def gas_that_warms(r: Recording, stiffness: float, tau: float) -> Recording:
+    """F + k (x - y), dy/dt = (x - y) / tau, y = x as a record begins: a gas that takes its time."""
+    assert r.force is not None
+    force = r.force.copy()
+    for part in r.slices:
+        x = r.x[part] - r.x[part][0]
+        a = np.exp(-(r.t[1] - r.t[0]) / tau)
+        mean = np.append(0.0, 0.5 * (x[1:] + x[:-1]))
+        force[part] += stiffness * (x - lfilter([1.0 - a], [1.0, -a], mean))
+    return replace(r, force=force)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
-from rig import TRUTH, campaign, noisy
+from rig import TRUTH, campaign, gas_that_warms, noisy
 from typer.testing import CliRunner
 
 from erdctl.cli.app import build
@@ -141,26 +141,10 @@ def log_of(r: Recording, path: Path) -> str:
     return str(path)
 
 
-def gas_that_warms(seed: int) -> Recording:
-    """F + k (x - y), dy/dt = (x - y) / tau, y = x as a record begins."""
-    from dataclasses import replace
-
-    from scipy.signal import lfilter
-
-    r = campaign(100.0, 8.0)
-    assert r.force is not None
-    force = r.force.copy()
-    for part in r.slices:
-        x = r.x[part] - r.x[part][0]
-        a = np.exp(-(r.t[1] - r.t[0]) / TAU)
-        mean = np.append(0.0, 0.5 * (x[1:] + x[:-1]))
-        force[part] += STIFFNESS * (x - lfilter([1.0 - a], [1.0, -a], mean))
-    return noisy(replace(r, force=force), seed=seed)
-
-
 def test_from_learned_to_named(tmp_path: Path) -> None:
     """A law learned in one log is written, declared by a package, and named in another log."""
-    first, second = (log_of(gas_that_warms(s), tmp_path / f"{s}.parquet") for s in (31, 32))
+    logs = [noisy(gas_that_warms(campaign(100.0, 8.0), STIFFNESS, TAU), seed=s) for s in (31, 32)]
+    first, second = (log_of(r, tmp_path / f"{i}.parquet") for i, r in enumerate(logs))
     package = tmp_path / "package"
     about = package / "warm_gas-1.dist-info"
     about.mkdir(parents=True)

@@ -7,8 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from rig import TRUTH, campaign, noisy
-from scipy.signal import lfilter
+from rig import TRUTH, campaign, gas_that_warms, noisy
 
 from erdctl.core.recording import Recording
 from erdctl.diagnose.corrected import parameters
@@ -25,25 +24,13 @@ FEW = ["coulomb_friction", "fluid_inertia", "quadratic_damping"]
 STIFFNESS, TAU = 600.0, 0.25  # N/m, s, of a gas that warms and cools as it is compressed
 
 
-def gas_that_warms(r: Recording) -> Recording:
-    """F + k (x - y), dy/dt = (x - y) / tau, y = x as a record begins."""
-    assert r.force is not None
-    force = r.force.copy()
-    for part in r.slices:
-        x = r.x[part] - r.x[part][0]
-        a = np.exp(-(r.t[1] - r.t[0]) / TAU)
-        mean = np.append(0.0, 0.5 * (x[1:] + x[:-1]))
-        force[part] += STIFFNESS * (x - lfilter([1.0 - a], [1.0, -a], mean))
-    return replace(r, force=force)
-
-
 def found(r: Recording) -> Diagnosis:
     return diagnose(r, [get(n) for n in FEW], limits=False)
 
 
 @pytest.fixture(scope="module")
 def warmed() -> Diagnosis:
-    return found(noisy(gas_that_warms(campaign(100.0, 8.0)), seed=31))
+    return found(noisy(gas_that_warms(campaign(100.0, 8.0), STIFFNESS, TAU), seed=31))
 
 
 def test_the_law_is_said_as_an_equation(warmed: Diagnosis) -> None:
@@ -85,7 +72,7 @@ def test_the_document_holds_what_the_contract_asks_for(warmed: Diagnosis) -> Non
 
 def test_what_it_writes_is_simulated_and_right_where_it_was_not_fitted(warmed: Diagnosis) -> None:
     written = json.dumps(to_json(warmed)["corrected"]["params"]).encode()
-    fresh = gas_that_warms(campaign(100.0, 5.0))
+    fresh = gas_that_warms(campaign(100.0, 5.0), STIFFNESS, TAU)
     corrected = simulate(parse_parameters(written, "corrected"), fresh)
     base = to_json(warmed)["baseline"]["params"]
     paper = simulate(parse_parameters(json.dumps(base).encode(), "paper"), fresh)
@@ -110,7 +97,7 @@ def test_what_the_catalogue_explains_is_not_learned() -> None:
 
 
 def test_an_effect_beside_a_law_keeps_its_name() -> None:
-    r = noisy(gas_that_warms(campaign(100.0, 8.0)), seed=34)
+    r = noisy(gas_that_warms(campaign(100.0, 8.0), STIFFNESS, TAU), seed=34)
     assert r.force is not None
     both = found(replace(r, force=r.force + 3.0 * np.sign(r.xdot)))
     assert [f.effect.name for f in both.findings] == ["coulomb_friction"]
