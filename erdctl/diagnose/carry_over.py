@@ -72,14 +72,14 @@ def to_other_motions(x: Exploration, best: Hypothesis, *, or_records: bool = Fal
             errors[key] = _error(few, kinds, h)
         return errors[key]
 
+    # All the way down: of effects that stand in for one another none alone may be the one too many.
+    least = best
     while x.added(best):
         x.executor.progress("other motions", part_of("fits without a kind of motion", 1, 1))
-        smaller = without_each(x, best)
-        least = min(smaller, key=error)
-        if error(best) < error(least):
-            break
-        best = least
-    return best
+        best = min(without_each(x, best), key=error)
+        if error(best) <= error(least):
+            least = best
+    return least
 
 
 def carries_over_as_well(x: Exploration, rival: Hypothesis, best: Hypothesis) -> bool:
