@@ -100,7 +100,7 @@ def effect_source(name: str, found: LearnedEffect, values: Values, origin: str) 
     z, (low, high) = law.curve.kind, law.curve.range
     requires, shows = REQUIRES.get(law.curve.coordinate, BY_TIME)
     quantities = [_begun(q, own) for q in found.quantities]
-    symbols = [_line(f"{q.symbol} : {q.title} [{q.unit}], {q.low:g} to {q.high:g}, "
+    symbols = [_paragraph(f"{q.symbol} : {q.title} [{q.unit}], {q.low:g} to {q.high:g}, "
                      + ("off at 0" if q.off == 0.0 else "at any value where it is off"))
                for q in quantities]  # fmt: skip
     learned = ", ".join(f"{q.symbol} = {own[q.symbol]:.4g}" for q in quantities)
@@ -292,10 +292,6 @@ def _call(begin: str, parts: list[str], end: str) -> list[str]:
 
 def _numbers(values: tuple[float, ...]) -> str:
     return f"({', '.join(repr(float(v)) for v in values)})"
-
-
-def _line(text: str) -> list[str]:
-    return _paragraph(text)
 
 
 def _paragraph(text: str) -> list[str]:

@@ -65,7 +65,7 @@ def test_the_file_acts_as_the_law(slot: LawSlot, form: str | None) -> None:
         knots = KNOTS if form is None else (KNOTS[0], KNOTS[-1])
         law = Law(slot, Curve(kind, knots, form, zero_first=form is None and not slot.adds))
         given = parameters(law)
-        text = effect_source("named", law.effect, given.values, "a log")  # type: ignore[arg-type]
+        text = effect_source("named", law.effect, given.values, "a log")
         assert max(map(len, text.splitlines())) <= 100
         names: dict[str, Any] = {}
         exec(compile(text, "named.py", "exec"), names)
