@@ -93,7 +93,7 @@ def _new(
     from pathlib import Path
 
     from erdctl.core.errors import UsageProblem
-    from erdctl.core.messages import shown, tell
+    from erdctl.core.messages import tell
     from erdctl.effects import names
     from erdctl.io.atomic import output as written
     from erdctl.io.documents import read_bytes
@@ -118,7 +118,7 @@ def _new(
     data = read_bytes(source)
     parameters = parameters_of(data, source)
     found = learned_effect(parameters, law, source)
-    origin = f"{shown(Path(source).name, 60)} (sha256 {hashlib.sha256(data).hexdigest()[:12]})"
+    origin = f"{Path(source).name} (sha256 {hashlib.sha256(data).hexdigest()[:12]})"
     texts = {
         path: effect_source(name, found, parameters.values, origin),
         beside: test_source(name, found, parameters),

@@ -73,9 +73,11 @@ def earned_by_lags(problem: Problem, held: Selection, free: Selection) -> bool:
         return False
     if _leaves_a_misfit(best):
         return False
+    if fewer and better:
+        return True
     start = {**best.values, **dict.fromkeys(names, 0.0)}
     without = fit_hypothesis(problem, best.effects, [start])
-    return (fewer and better) or compare(problem, without, best).significant
+    return compare(problem, without, best).significant
 
 
 def _slight(problem: Problem) -> list[str]:

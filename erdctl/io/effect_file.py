@@ -7,6 +7,7 @@ values are those of the law; what it is called, and its source in the literature
 from __future__ import annotations
 
 import keyword
+import re
 from dataclasses import replace
 from itertools import product
 from textwrap import wrap
@@ -121,7 +122,7 @@ def effect_source(name: str, found: LearnedEffect, values: Values, origin: str) 
         *_paragraph(f"z : {z.words} [{z.unit}], from {low:.4g} to {high:.4g}, where it was"
                     " learned; beyond these the law stays at its end value"),
         *(line for s in symbols for line in s),
-        *_paragraph(f"Learned from {origin}: {learned}"),
+        *_paragraph(f"Learned from {_plain(origin)}: {learned}"),
         "",
         "Source: to be filled in.",
         '"""',
@@ -292,6 +293,11 @@ def _call(begin: str, parts: list[str], end: str) -> list[str]:
 
 def _numbers(values: tuple[float, ...]) -> str:
     return f"({', '.join(repr(float(v)) for v in values)})"
+
+
+def _plain(text: str) -> str:
+    """A text that ends no string and escapes nothing, whatever a file is called."""
+    return re.sub(r"[^\w .,()+-]", "_", text, flags=re.ASCII)
 
 
 def _paragraph(text: str) -> list[str]:

@@ -127,6 +127,15 @@ def test_what_is_refused_writes_nothing(folder: Path, words: tuple[str, ...], sa
     assert Path("test_there.py").read_text() == "mine"
 
 
+def test_the_name_of_a_file_is_no_code(folder: Path) -> None:
+    name = 'a""" + raise_() + """\\.json'
+    Path("bore.json").rename(name)
+    assert command("new", "bore_wear", "--from", name)[0] == 0
+    names: dict[str, Any] = {}
+    exec(compile(Path("bore_wear.py").read_text(), "bore_wear.py", "exec"), names)
+    assert "Learned from a___ + raise_() + ____.json" in names["__doc__"]
+
+
 def test_a_law_is_chosen(folder: Path) -> None:
     other = Law(LawSlot.FORCE, Curve("x", KNOTS))
     Path("two.json").write_bytes(encode(to_document(parameters(BORE, other))))
