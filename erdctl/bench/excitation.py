@@ -18,6 +18,7 @@ from erdctl.score.nrmse import percents
 
 ENOUGH = 10  # samples of a kind below which there is no telling anything
 SAME_LEVEL = 1.05  # duties within this ratio are one level with a noisy record of it
+NO_STEP = 1.002  # duties within this ratio tell nothing from each other
 PIECE = 50_000  # samples of a stretch over which accelerations are taken
 ACCELERATION_SAMPLES = 1_000_000  # stretches of a longer log stand for the whole
 SHARE = 0.05  # of the acceleration; less that no spring makes is what the slope leaves of a sine

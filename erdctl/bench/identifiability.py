@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import pi
 from typing import Generic, TypeVar
 
-from erdctl.bench.excitation import ENOUGH, SAME_LEVEL, Excitation, Survey
+from erdctl.bench.excitation import ENOUGH, NO_STEP, SAME_LEVEL, Excitation, Survey
 from erdctl.core.recording import DIRECTIONS, Recording
 from erdctl.model.effect import Effect, Requirement
 
@@ -78,7 +78,8 @@ class Demand(Generic[S]):
     found : the measure of a log, or of one direction of it;  reason : why it is needed, in words
     drive : a `--drive` that offers it;  spared : what makes it unnecessary
     confounded : without it the data fix the parameter, but only together with another, then held
-    slight : without it the data may hold something of the parameter, but too little to tell a value
+    slight : whether a log without it may hold something of the parameter, but too little to tell
+        a value
     """
 
     what: str
@@ -89,7 +90,7 @@ class Demand(Generic[S]):
     reason: str = ""
     spared: Callable[[S], bool] = lambda _: False
     confounded: bool = False
-    slight: bool = False
+    slight: Callable[[S], bool] = lambda _: False
 
     def check(self, subject: S, bench: Bench) -> Check:
         """The demand, checked on a log."""
@@ -151,7 +152,7 @@ _STEPS = Demand[Excitation](
     " much as the yield forces of the two directions differ; record steps of the duty while the"
     " piston moves",
     # One state serves both directions: held at 0, the lag after a reversal can be a misfit.
-    slight=True,
+    slight=lambda _: True,
 )  # fmt: skip
 _STROKE = Demand[Excitation](
     "range of the deflection", "m", 1e-6, lambda e: e.stroke, lambda b: b.sine(),
@@ -170,7 +171,7 @@ def _levels(*, confounded: bool) -> Demand[Excitation]:
         lambda b: b.levels,
         "the log has one duty level, which fixes sigma*v^beta at that level but neither of the two;"
         " record at least two levels",
-        confounded=confounded,
+        confounded=confounded, slight=lambda e: e.ratio > NO_STEP,
     )  # fmt: skip
 
 
@@ -222,7 +223,11 @@ def parameters(survey: Survey) -> list[Cover]:
         for symbol, demands in PARAMETERS.items():
             checks = tuple(d.check(excitation, bench) for d in demands)
             first = next((d for d, c in zip(demands, checks, strict=True) if not c.met), None)
-            lack = None if first is None else Lack(first.reason, first.confounded, first.slight)
+            lack = (
+                None
+                if first is None
+                else Lack(first.reason, first.confounded, first.slight(excitation))
+            )
             out.append(Cover(f"{direction}.{symbol}", checks, lack))
     return out
 

@@ -127,7 +127,10 @@ def mask_doubtful(problem: Problem, model: Model, values: Values) -> Problem:
 def prepare(recording: Recording, free: Varying = NONE_VARY) -> Problem:
     """The problem of a recording with a measured force."""
     needs = unmet(recording)
-    held = held_values(needs)
+    # Levels that differ by little do not tell a beta; but with another than theirs the force misses
+    # them by more than noise, and that gets the name of an effect. Of lags see `slight_lag`.
+    free_beta = {n for n, need in needs.items() if need.slight and n.endswith(".beta")}
+    held = {n: v for n, v in held_values(needs).items() if n not in free_beta}
     block = whole(recording)
     unsure = uncertain(block.signals)
     block.weight[unsure] = 0.0

@@ -14,7 +14,7 @@ from dataclasses import replace
 
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import compare
-from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
+from erdctl.diagnose.hypothesis import LAGS, Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.predictability import lack_of_fit_test
 from erdctl.diagnose.search import Selection
@@ -82,7 +82,7 @@ def earned_by_lags(problem: Problem, held: Selection, free: Selection) -> bool:
 
 def _slight(problem: Problem) -> list[str]:
     """Lags that are held at 0 though the data may hold something of them."""
-    return [n for n, need in problem.needs.items() if need.slight and n in problem.held]
+    return [n for n in LAGS if n in problem.held and problem.needs[n].slight]
 
 
 def _short(names: list[str], hypothesis: Hypothesis) -> bool:
