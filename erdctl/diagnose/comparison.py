@@ -34,6 +34,7 @@ class Comparison:
     settling : mean square of the fits' residuals over all samples, those without weight too, over
         that of the worse one
     scatter : standard error of a mean square from as many groups, over itself
+    apart : mean square of what the two fits differ by, over that of what the better one leaves
     """
 
     gain: float
@@ -45,6 +46,7 @@ class Comparison:
     after: float
     settling: float
     scatter: float
+    apart: float
 
     @property
     def significant(self) -> bool:
@@ -77,11 +79,14 @@ class Comparison:
 
     @property
     def tied(self) -> bool:
-        """Whether the two cannot be told apart: neither by places, nor by energy, nor by size."""
-        if self.gain < thresholds.LEAST_GAIN:
+        """Whether the two cannot be told apart: neither by places, nor by energy, nor by size.
+
+        Nor can two fits that are one force on this log, whatever either loses where it is left out.
+        """
+        if min(self.gain, self.apart) < thresholds.LEAST_GAIN:
             return True
-        apart = self.t_stretches > thresholds.T_TIE or self.energy.z > thresholds.T_TIE
-        return not (apart or self.gain > self.scatter)
+        differ = self.t_stretches > thresholds.T_TIE or self.energy.z > thresholds.T_TIE
+        return not (differ or self.gain > self.scatter)
 
 
 def compare(problem: Problem, worse: Hypothesis, better: Hypothesis) -> Comparison:
@@ -96,7 +101,12 @@ def compare(problem: Problem, worse: Hypothesis, better: Hypothesis) -> Comparis
     scatter = float(np.sqrt(2.0 / problem.count))
     left = [float(np.mean(h.residual**2)) for h in (worse, better)]
     settling = left[1] / max(left[0], 1e-300)
-    return Comparison(gain, t_stretches, t_groups, energy, size, before, after, settling, scatter)
+    missed = (worse.residual - better.residual) ** 2, better.residual**2
+    apart, rest = (float(np.dot(weight, m)) for m in missed)
+    return Comparison(
+        gain, t_stretches, t_groups, energy, size, before, after, settling, scatter,
+        apart / max(rest, 1e-300),
+    )  # fmt: skip
 
 
 def compare_alike(problem: Problem, worse: Hypothesis, better: Hypothesis) -> Comparison:

@@ -140,7 +140,8 @@ def _without_each(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> Hyp
     """
     part = mask_doubtful(problem, hypothesis.model, hypothesis.values)
     missed = left_out_exactly(part, kinds, hypothesis)
-    return replace(hypothesis, problem=part, cross_validated=missed)
+    fitted = replace(hypothesis.fitted, residual=missed)  # of as many samples as the part has
+    return replace(hypothesis, problem=part, fitted=fitted, cross_validated=missed)
 
 
 def _unseen(

@@ -89,7 +89,7 @@ def test_a_gain_in_some_places_must_not_cost_the_others(
 ) -> None:
     """Large where it is, but most stretches get worse: it stands in for something else."""
     energy = EnergyTest(lambda: 13.6, 1.0, Clusters(6.0, 16.5), Clusters(3.4, 6.2))
-    found = Comparison(0.16, elsewhere, 0.0, energy, 0.009, 297.5, 248.5, 0.84, 0.29)
+    found = Comparison(0.16, elsewhere, 0.0, energy, 0.009, 297.5, 248.5, 0.84, 0.29, 0.2)
     assert found.significant is significant
 
 
@@ -97,5 +97,5 @@ def test_a_gain_in_some_places_must_not_cost_the_others(
 def test_a_model_must_not_pay_where_no_fit_weighs(settling: float, significant: bool) -> None:
     """A fading viscosity of 1.7e6 N s/m gained 25 % and missed 1,800 N where records settled."""
     energy = EnergyTest(lambda: 13.6, 1.0, Clusters(6.0, 16.5), Clusters(3.4, 6.2))
-    found = Comparison(0.25, 4.0, 4.3, energy, 0.009, 79.3, 48.7, settling, 0.29)
+    found = Comparison(0.25, 4.0, 4.3, energy, 0.009, 79.3, 48.7, settling, 0.29, 0.2)
     assert found.significant is significant
