@@ -41,7 +41,8 @@ def to_other_records(x: Exploration, best: Hypothesis) -> Hypothesis:
     of_record = _of_record(few)
     while x.added(best):
         whole = over_records(best)
-        smaller = [*without_each(x, best), x.explored[key_of(x.base.effects)]]
+        fewer = [h for h in without_each(x, best) if x.executor.possible(h.values)]
+        smaller = [*fewer, x.explored[key_of(x.base.effects)]]
         gains = [compare(x.problem, over_records(h), whole).gain for h in smaller]
         worst = min(range(len(gains)), key=lambda i: (gains[i], i))
         if gains[worst] > 0.0:
@@ -69,7 +70,8 @@ def to_other_motions(x: Exploration, best: Hypothesis, *, or_records: bool = Fal
     def error(h: Hypothesis) -> float:
         key = frozenset(e.name for e in h.effects)
         if key not in errors:
-            errors[key] = _error(few, kinds, h)
+            allowed = x.executor.possible(h.values)
+            errors[key] = _error(few, kinds, h) if allowed else float("inf")
         return errors[key]
 
     # All the way down: of effects that stand in for one another none alone may be the one too many.

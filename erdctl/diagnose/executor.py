@@ -76,11 +76,12 @@ class Executor:
 
     def fit(self, problem: Problem, tasks: Sequence[Task]) -> list[Hypothesis | None]:
         """A hypothesis for each task; None where no model can hold its effects, or no such log."""
+        found = self._fits(problem, tasks)
+        return [h if h and self.possible(h.values) else None for h in found]
 
-        def possible(found: Hypothesis) -> bool:
-            return all(found.values.get(name, most) <= most for name, most in self.most.items())
-
-        return [h if h and possible(h) else None for h in self._fits(problem, tasks)]
+    def possible(self, values: Values) -> bool:
+        """Whether the log allows values of parameters."""
+        return all(values.get(name, most) <= most for name, most in self.most.items())
 
     def _fits(self, problem: Problem, tasks: Sequence[Task]) -> list[Hypothesis | None]:
         """A hypothesis for each task; None for effects that no model can hold together."""
@@ -111,10 +112,16 @@ class Executor:
             ) from None
 
     def fit_compatible(self, problem: Problem, tasks: Sequence[Task]) -> list[Hypothesis]:
-        """The same for effects that have been together in one model before."""
+        """The same for effects that have been together in one model before.
+
+        One that asks for what the log does not allow, now that others have gone, predicts nothing.
+        """
         found = [h for h in self._fits(problem, tasks) if h is not None]
         assert len(found) == len(tasks), "effects of a hypothesis can act together"
-        return found
+        nothing = problem.block.force
+        return [
+            h if self.possible(h.values) else replace(h, cross_validated=nothing) for h in found
+        ]
 
     def _here(self, problem: Problem, task: Task, number: int, count: int) -> Hypothesis | None:
         self.progress(task.stage, part_of(task.name, number, count))
