@@ -25,6 +25,8 @@ from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 from erdctl.model.slots import TermSlot, Values
 
+STEP = np.log(1.5)  # of a grid, below which two starts are next to each other
+
 
 @dataclass(frozen=True)
 class Candidate:
@@ -68,7 +70,10 @@ class Screen:
                 return None
             found.append((gain, {effect.key(s): v for s, v in guess.items()}))
         found.sort(key=lambda f: -f[0])
-        best = found[: thresholds.SEARCHED_STARTS]
+        best = found[:1]
+        for f in found[1:]:  # what begins next to a better one ends where that does
+            if len(best) < thresholds.SEARCHED_STARTS and all(_apart(f[1], b[1]) for b in best):
+                best.append(f)
         if any(v > self.most.get(name, v) for name, v in best[0][1].items()):
             return None
         return Candidate(effect, found[0][0], tuple(guess for _, guess in best))
@@ -208,3 +213,9 @@ def _axis(q: Quantity, problem: Problem) -> list[float]:
             values = [p * q.start for p in thresholds.MULTIPLES]
     inside = sorted({min(max(v, q.low), q.high) for v in values})
     return inside or [q.start]
+
+
+def _apart(one: Values, other: Values) -> bool:
+    """Whether two starts differ by more than a step of a fine grid in any parameter."""
+    pairs = [(one[n], other[n]) for n in one]
+    return any(a != b and not (a * b > 0.0 and abs(np.log(a / b)) < STEP) for a, b in pairs)

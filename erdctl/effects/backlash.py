@@ -24,7 +24,10 @@ Automatica 38 (2002) 1633-1649; the play operator of Krasnosel'skii and Pokrovsk
 
 from __future__ import annotations
 
+import numpy as np
+
 from erdctl.core.quantity import Quantity, Scale
+from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import MotionSlot, Values
@@ -45,6 +48,14 @@ def free_play(p: Values) -> float:
     return p["g"]
 
 
+def gaps(s: Signals, rest: Array) -> list[dict[str, float]]:
+    """Starts of a search, close together: which samples lie in the play changes with every step."""
+    stroke = max(float(np.ptp(s.x)), 1e-6)
+    return [
+        {"g": float(np.clip(part * stroke, 1e-7, 0.05))} for part in np.geomspace(1e-4, 0.3, 30)
+    ]
+
+
 EFFECT = Effect(
     name="backlash",
     stage=Stage.MOTION,
@@ -63,5 +74,6 @@ EFFECT = Effect(
             low=1e-7, high=0.05, start=1e-4, scale=Scale.LOG,
         ),
     ),
+    guesses=gaps,
     companions=("mount_compliance", "coulomb_friction"),
 )  # fmt: skip

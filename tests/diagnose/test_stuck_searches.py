@@ -13,7 +13,7 @@ from erdctl.diagnose.executor import Executor
 from erdctl.diagnose.forward_step import Exploration, Explored, key_of, with_effect
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem, prepare
-from erdctl.diagnose.screening import Candidate
+from erdctl.diagnose.screening import Candidate, Screen
 from erdctl.effects import get
 from erdctl.estimate.least_squares import NEAR, SHORTEST, at_bound
 from erdctl.estimate.starts import fresh_start
@@ -70,3 +70,12 @@ def test_a_smaller_model_is_searched_for_from_where_the_larger_ended(problem: Pr
     assert np.ptp(lesser.residual) < np.ptp(base.residual)
     (again,) = without_each(search, larger)
     assert again is lesser
+
+
+def test_starts_of_a_fine_grid_are_taken_from_different_valleys(problem: Problem) -> None:
+    """The two best of 30 gaps that go up by 1.3 would be neighbours, and end in one place."""
+    base = fit_hypothesis(problem, (), [{}])
+    candidate = Screen(problem, base).candidate(get("backlash"))
+    assert candidate is not None
+    one, other = sorted(start["backlash.g"] for start in candidate.starts)
+    assert other > 1.5 * one
