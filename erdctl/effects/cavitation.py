@@ -43,8 +43,8 @@ def cavitation(s: Signals, p: Values) -> dict[str, Array]:
     if x_v == 0.0:
         return {}
     void, gone = _void(s, x_v, p["g"])
-    sample = np.minimum(s.path[0], 2.0 * void)
     edge, to_go = p["e"] * x_v, void - gone
+    sample = np.minimum(np.maximum(s.path[0] - edge, 0.0), 2.0 * void)
     over = _area(to_go + 0.5 * sample, edge) - _area(to_go - 0.5 * sample, edge)
     here = np.clip(to_go / max(edge, NEGLIGIBLE), 0.0, 1.0)  # of a sample that does not travel
     travels = sample > NEGLIGIBLE
