@@ -5,7 +5,9 @@
 x, xdot : stroke and speed of the piston [m], [m/s];  z : (n,) state, -1..1 [1]
 F_c : friction [N], F_c >= 0, off at 0;  x_d : pre-sliding distance [m], > 0
 Solved exactly along |x|, each side of a reversal for itself. A record that begins in motion has
-slid long (z = sign(xdot)), one that begins at rest has no force in its seal (z = 0).
+the z with which it comes by that place again in that direction, after two reversals at least, as if
+that had gone on before; where it never does, it has slid long (z = sign(xdot)). One that begins at
+rest has no force in its seal (z = 0).
 Valid for rate-independent seals; LuGre adds a fall of friction with speed.
 Check: x_d = 0.1 mm, z = 1; 0.1 mm after the reversal z = -1 + 2 exp(-1) = -0.2642.
 >>> s = signals([0.1, 0.0, -0.1], step=2e-3)  # the reversal at the second sample
@@ -18,10 +20,13 @@ Source: P. R. Dahl, Solid friction damping of mechanical vibrations, AIAA Journa
 
 from __future__ import annotations
 
+from functools import lru_cache
+from itertools import pairwise
+
 import numpy as np
 
 from erdctl.core.quantity import Quantity, Scale
-from erdctl.core.recording import Array
+from erdctl.core.recording import Array, Index
 from erdctl.core.signals import Signals
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.kernels import follow
@@ -34,8 +39,42 @@ def presliding_friction(s: Signals, p: Values) -> Array:
     way = np.where(s.compressing, 1.0, -1.0)
     i, _ = s.turns
     before = np.maximum(path[i] - after, 0.0)
-    at_first = np.sign(s.xdot[s.starts[:-1]])
-    return follow(way, path, i, before, after, at_first, s.starts)[None]
+    slid = np.sign(s.xdot[s.starts[:-1]])
+    z = follow(way, path, i, before, after, slid, s.starts)
+    record, again, part, travel = _again(s)
+    if len(record):
+        then = (1.0 - part) * z[again - 1] + part * z[again]
+        kept = np.exp(-travel / p["x_d"])  # of what it began with
+        first = slid.copy()
+        first[record] = (then - kept * slid[record]) / (1.0 - kept)
+        z = follow(way, path, i, before, after, first, s.starts)
+    return z[None]
+
+
+@lru_cache(maxsize=4)
+def _again(s: Signals) -> tuple[Index, Index, Array, Array]:
+    """Where records that begin in motion first come by their first place again, in its direction.
+
+    Returns (k,) the records, (k,) the samples behind that, (k,) parts of the step up to it, and
+    (k,) distances travelled until then [m].
+    """
+    found = []
+    turned, path = s.turns[0], s.path[0]
+    for record, (a, b) in enumerate(pairwise(s.starts.tolist())):
+        way = np.sign(s.xdot[a])
+        turns = turned[(turned >= a) & (turned < b)] + 1
+        if way == 0.0 or len(turns) < 2:
+            continue
+        ahead = way * (s.x[turns[1] : b] - s.x[a])
+        along = way * s.xdot[turns[1] + 1 : b] > 0.0
+        passed = np.flatnonzero((ahead[:-1] < 0.0) & (ahead[1:] >= 0.0) & along)
+        if len(passed):
+            i = passed[0]
+            part, before = ahead[i] / (ahead[i] - ahead[i + 1]), turns[1] + i
+            travel = float(path[a:before].sum() + part * path[before])
+            found.append((record, before + 1, part, travel))
+    columns = np.array(found).reshape(-1, 4).T
+    return columns[0].astype(np.intp), columns[1].astype(np.intp), columns[2], columns[3]
 
 
 EFFECT = Effect(

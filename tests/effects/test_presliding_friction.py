@@ -39,9 +39,20 @@ def test_state_equals_an_ode_solver(rate: float, x_d: float) -> None:
         v = amplitude * w * np.cos(w * t)
         return [(v - z[0] * abs(v)) / x_d]
 
+    z = unit_forces("presliding_friction", s, {"x_d": x_d})[0]
     solution = solve_ivp(
-        slope, (0.0, s.t[-1]), [1.0], method="LSODA", t_eval=s.t, rtol=1e-9, atol=1e-10,
+        slope, (0.0, s.t[-1]), [z[0]], method="LSODA", t_eval=s.t, rtol=1e-9, atol=1e-10,
         max_step=1e-3,
     )  # fmt: skip
-    z = unit_forces("presliding_friction", s, {"x_d": x_d})[0]
     assert np.sqrt(np.mean((z - solution.y[0]) ** 2)) < (4e-3 if rate > 1000 else 1e-2)
+
+
+@pytest.mark.parametrize("first", [0, 31, 60, 77])
+def test_a_record_begins_as_if_its_motion_had_gone_on_before(first: int) -> None:
+    """Of a long sine the part from the sample `first` of its third cycle on, and that alone."""
+    long = sine(1.0, 0.01, 6.0, 100.0)
+    a = 200 + first
+    alone = signals(long.xdot[a:], x=long.x[a:], step=0.01)
+    whole, cut = (unit_forces("presliding_friction", s, {"x_d": 0.02})[0] for s in (long, alone))
+    assert abs(whole[a]) < 0.5  # it has not slid long
+    assert cut == pytest.approx(whole[a:], abs=0.02)
