@@ -6,19 +6,23 @@ simulated in fine steps between the samples. The speed is a cubic spline through
 the deflection is its integral, held to that of the log by what changes slowly of their difference,
 so that the noise of a deflection channel does not become motion. Before and after a record the
 motion goes on as its mirror image. D is what an independent simulation of the effect gives; added
-to a recording, it is an effect under that recording's own noise.
+to a recording, it is an effect under that recording's own noise. What the damper of the log has by
+all that is known (`also_with`) is in both simulations: behind a soft mount a friction adds another
+force than before it.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 from scipy.ndimage import uniform_filter1d
+from scipy.optimize import minimize
 from scipy.signal import savgol_filter
 
 from erdctl.plant.campaign import CampaignRecord, DutyProgramme
@@ -32,6 +36,7 @@ Random = np.random.Generator
 
 SLOW = 0.25  # s, over which the deflection holds the integral of the speed
 BENT = 0.02  # s, over which the acceleration is the slope of the speed
+NEAR = 0.05  # of the values of a law that a plant's effect is to have
 STILL = Trajectory("tones", (), (), ())  # in place of the closed form that a recording has not
 
 
@@ -70,6 +75,17 @@ class OnLog:
         ]
         return np.concatenate(parts)
 
+    def also_with(self, twin: Twin, values: Mapping[str, float]) -> OnLog | None:
+        """The stage with an effect in its damper whose law has some values, by their symbols.
+
+        None where this effect's law is another one, or never has such values.
+        """
+        plant = _with_law(self.base, twin, values, self.scales)
+        if plant is None:
+            return None
+        plain = forces(plant, self.over)
+        return replace(self, base=plant, plain=plain, scales=_scales(self.over, plain))
+
     def parameters(self, twin: Twin, s: float, shape: Mapping[str, float]) -> dict[str, float]:
         """What a twin shows of itself at a strength, in SI units."""
         plant = twin.build(self.base, s, shape, self.scales)
@@ -95,6 +111,28 @@ def stage(records: Sequence[Logged], sides: Sequence[Mapping[str, float]]) -> On
     plain = forces(base, over)
     at = tuple(r.t - r.t[0] for r in records)
     return OnLog(base, over, at, plain, _scales(over, plain))
+
+
+def _with_law(plant: Plant, twin: Twin, values: Mapping[str, float], by: Scales) -> Plant | None:
+    """A plant with the effect whose law comes nearest to some values, if that is near."""
+    law, names = twin.law, list(twin.shape)
+    if law is None:
+        return None
+    low, high = (np.array([twin.shape[n][i] for n in names]) for i in (0, 1))
+
+    def built(at: Array) -> Plant:
+        shape = dict(zip(names, np.clip(at[1:], low, high).tolist(), strict=True))
+        return twin.build(plant, math.exp(at[0]), shape, by)
+
+    def off(at: Array) -> float:
+        found = law(built(at))[1]
+        return max((abs(found.get(k, 0.0) / v - 1.0) for k, v in values.items() if v), default=0.0)
+
+    # A shape may be a choice, as of a sign, which no simplex walks across: one from every corner.
+    corners = product((0.05, 0.95), repeat=len(names))
+    starts = [[math.log(twin.start), *(low + np.array(c) * (high - low))] for c in corners]
+    best = min((minimize(off, s, method="Nelder-Mead") for s in starts), key=lambda m: m.fun)
+    return built(best.x) if best.fun < NEAR else None
 
 
 def _scales(over: Sequence[Ride], plain: Array) -> Scales:

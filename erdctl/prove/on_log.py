@@ -123,14 +123,18 @@ class Hiding:
 
     def __init__(self, host: Host) -> None:
         self.host = host
-        r, base = host.recording, host.found.selection.base
+        r, best = host.recording, host.found.selection.best
         records = [
             Logged(name, r.t[part], r.x[part], r.xdot[part], r.duty[part])
             for name, part in zip(r.names, r.slices, strict=True)
         ]
-        sides = [{q: base.values[f"{d}.{q}"] for q in QUANTITIES} for d in DIRECTIONS]
+        sides = [{q: best.values[f"{d}.{q}"] for q in QUANTITIES} for d in DIRECTIONS]
         self.stage: OnLog = stage(records, sides)
-        best = host.found.selection.best
+        twins = [(every()[e.name], e) for e in best.effects if e.name in every()]
+        self.present = [twin for twin, _ in twins]
+        for twin, effect in twins:
+            there = self.stage.also_with(twin, effect.local(best.values))
+            self.stage = there or self.stage
         self.injection = Injection(host.found.problem, best)
         self.rest = best.residual
 
@@ -142,6 +146,10 @@ class Hiding:
         if there:
             return [Trial(name, s, skipped=f"{there[0]} is in the log already") for s in sizes]
         lacking = [self.host.found.untestable.get(n) for n in same]
+        beside = [t.name for t in self.present if not twin.goes_with(t)]
+        if beside:
+            why = f"one damper has not both it and {beside[0]}, which is in the log"
+            return [Trial(name, s, skipped=why) for s in sizes]
         if all(lacking):
             return [Trial(name, s, skipped=f"cannot be tested: {lacking[0]}") for s in sizes]
         shape = twin.drawn(np.random.default_rng([self.host.seed, crc32(name.encode())]))

@@ -59,3 +59,38 @@ def test_gaps_and_jitter_keep_every_sample(on_log: OnLog) -> None:
     added = stage([holed], sides).added(twin, 0.05, {})
     assert added.shape == kept.shape
     assert np.median(np.abs(added / whole - 1.0)) < 0.05
+
+
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("mount_compliance", {"s_m": 2e-6}),
+        ("time_skew", {"tau": -0.008}),
+        ("coulomb_friction", {"F_c": 300.0}),
+        ("backlash", {"g": 4e-4}),
+    ],
+)
+def test_the_damper_of_a_log_has_what_is_known_of_it(
+    on_log: OnLog, name: str, values: dict[str, float]
+) -> None:
+    """Of the values that a law was found to have, whatever strengths are usually hidden."""
+    there = on_log.also_with(effect(name), values)
+    law = effect(name).law
+    assert there is not None
+    assert law is not None
+    found = law(there.base)[1]
+    for symbol, value in values.items():
+        assert found[symbol] == pytest.approx(value, rel=0.05)
+    assert np.abs(there.plain - on_log.plain).max() > 0.0
+
+
+def test_behind_a_soft_mount_an_effect_adds_another_force(on_log: OnLog) -> None:
+    soft = on_log.also_with(effect("mount_compliance"), {"s_m": 1e-4})
+    assert soft is not None
+    twin, other = effect("quadratic_damping"), {}
+    before, behind = (s.added(twin, twin.start, other) for s in (on_log, soft))
+    assert np.std(behind - before) > 0.05 * np.std(before)
+
+
+def test_a_law_that_no_twin_has_is_left_out(on_log: OnLog) -> None:
+    assert on_log.also_with(effect("gas_polytropic"), {"gamma": 40.0, "a": 1e6}) is None
