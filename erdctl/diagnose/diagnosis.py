@@ -18,7 +18,7 @@ from erdctl.core.recording import Recording
 from erdctl.diagnose import scores, thresholds
 from erdctl.diagnose.conditions import one_condition
 from erdctl.diagnose.detectable import Detectable, detectable
-from erdctl.diagnose.executor import executor
+from erdctl.diagnose.executor import Executor, executor
 from erdctl.diagnose.findings import Finding, earned, findings, part_taken
 from erdctl.diagnose.fit_errors import fit_errors
 from erdctl.diagnose.forward_step import key_of
@@ -145,16 +145,17 @@ def diagnose(
     aside = kept_aside(recording, testable)
     seen = problem.of([r for r in range(len(recording.names)) if r not in aside])
     thin = thinned(seen, thresholds.SEARCH_SAMPLES)
+    untested = [e for e in candidates if e.name in missing]
     allowed: dict[str, float] = {}
-    for effect in testable:
+    for effect in candidates:
         allowed |= effect.allowed(problem.block.signals, problem.block.force)
     with ExitStack() as pools:
         workers = pools.enter_context(executor((thin, seen, problem), jobs, progress, allowed))
-        searched = search(thin, testable, most, workers, seed, given)
+        searched = search(thin, testable, most, workers, seed, given, untested)
         if given is None and to_be_searched_with_lags(thin, searched):
             lagging = [without_lags_held(p) for p in (thin, seen, problem)]
             others = pools.enter_context(executor(lagging, jobs, progress, allowed))
-            with_lags = search(lagging[0], testable, most, others, seed)
+            with_lags = search(lagging[0], testable, most, others, seed, None, untested)
             if earned_by_lags(thin, searched, with_lags):
                 searched, workers = with_lags, others
                 thin, seen, problem = lagging
@@ -170,7 +171,7 @@ def diagnose(
             if aside:
                 selection = on_all(problem, selection, workers)
             fit, record_effects = fit_errors(problem, selection.best)
-            idle = next((e for e in selection.named if _idle(e, fit)), None)
+            idle = next((e for e in selection.named if _idle(e, fit, workers)), None)
             chosen = refit(seen, chosen, workers, idle) if idle else None
         progress("lack of fit", part_of("regression of the residual", 1, 1))
         lack_of_fit, taken = _left(selection, seed), None
@@ -250,13 +251,15 @@ def diagnose(
     )
 
 
-def _idle(effect: Effect, fit: Fit) -> bool:
-    """Whether the last step leaves nothing of an effect.
+def _idle(effect: Effect, fit: Fit, workers: Executor) -> bool:
+    """Whether the last step leaves nothing of an effect, or more than the log allows.
 
     It then made up for steps of the log that are long for what happens in them; between samples,
-    where the damper is, there is none of it.
+    where the damper is, there is none of it. Or for something else that is missing.
     """
-    return all(fit.values[name] == off for name, off in effect.off.items())
+    own = {effect.key(q.symbol): fit.values[effect.key(q.symbol)] for q in effect.quantities}
+    gone = all(fit.values[name] == off for name, off in effect.off.items())
+    return gone or not workers.possible(own)
 
 
 def _left(selection: Selection, seed: int) -> LackOfFit:

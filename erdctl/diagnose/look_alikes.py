@@ -32,14 +32,18 @@ def look_alikes(
     effect: Effect,
     candidates: Sequence[Effect],
     singles: Sequence[Hypothesis],
+    untested: Sequence[Effect] = (),
 ) -> list[tuple[str, Hypothesis]]:
     """Effects that do as well in the place of one, the best first, each with its hypothesis.
 
     singles : hypotheses of one effect, the best first
+    untested : effects that the log cannot show by themselves: of two duties, say, no law of the
+        duty can be told. None takes a name, but what does as well is told
     """
     others = tuple(e for e in best.effects if e is not effect)
     likely = [h.effects[-1] for h in singles[: thresholds.LOOK_ALIKES]]
     likely += [c for c in candidates if c.name in effect.equivalents]
+    likely += untested
     names, rest = key_of(best.effects), key_of(others)
     likely += [c for c in candidates if rest | {c.name} in x.explored]
     keys = {e.name: rest | {e.name} for e in likely if e.name not in names}
@@ -50,7 +54,10 @@ def look_alikes(
     if new:
         parent = x.explored[rest]
         screen = Screen(x.problem, parent, x.executor.most)
-        worth = [c for c in (screen.candidate(e) for e in new) if c is not None]
+        promises = [screen.candidate(e) for e in new]
+        worth = [
+            c for c in promises if c is not None and (c.gain > 0.0 or c.effect not in untested)
+        ]
         tasks = [with_effect("look-alikes", parent, c) for c in worth]
         for hypothesis in x.executor.fit(x.problem, tasks):
             if hypothesis is not None:

@@ -21,6 +21,7 @@ from erdctl.diagnose.carry_over import carries_over_as_well, to_other_motions, t
 from erdctl.diagnose.companion_effects import companion_sets, joint_task
 from erdctl.diagnose.comparison import compare_alike, critical_of, ranked
 from erdctl.diagnose.executor import Executor, Task
+from erdctl.diagnose.form_error import beyond_form_error
 from erdctl.diagnose.forward_step import Exploration, Explored, forward_step, key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.look_alikes import is_preferred, look_alikes
@@ -68,8 +69,12 @@ def search(
     executor: Executor,
     seed: int = 0,
     given: Parameters | None = None,
+    untested: Sequence[Effect] = (),
 ) -> Selection:
-    """Search for the effects, at most `most`, by which the recording differs from a given model."""
+    """Search for the effects, at most `most`, by which the recording differs from a given model.
+
+    untested : effects that the log cannot show, which are no candidates but may be look-alikes
+    """
     base = _base(problem, given, executor)
     x = Exploration(problem, base, Explored([base]), executor)
     best, left, singles = _forward_selection(x, base, candidates, most, seed)
@@ -89,15 +94,17 @@ def search(
     best = second_pass(x, best, most)
     best = as_good_as_explored(x, best)
     best = to_other_motions(x, best)
+    best = beyond_form_error(x, best)
     alike: dict[str, tuple[tuple[str, Hypothesis], ...]] = {}
     for effect in x.added(best):
-        found = look_alikes(x, best, effect, candidates, singles)
+        found = look_alikes(x, best, effect, candidates, singles, untested)
         name = effect.name
         rest = x.explored[key_of(best.effects) - {name}]
         # It must be worth a name itself, or the next elimination leaves neither of the two.
         preferred = [
             f for f in found
-            if is_preferred(problem, f[1], best) and compare_alike(problem, rest, f[1]).significant
+            if f[0] not in key_of(untested) and is_preferred(problem, f[1], best)
+            and compare_alike(problem, rest, f[1]).significant
             and carries_over_as_well(x, f[1], best)
         ]  # fmt: skip
         if preferred:
@@ -134,6 +141,7 @@ def refit(
     best, last = explored[kept], None
     while best is not last:  # each may leave what the other one drops
         last, best = best, to_other_records(x, resolved(x, eliminate(x, best)))
+        best = beyond_form_error(x, best)
     names = [e.name for e in x.added(best)]
     without = {n: explored[key_of(best.effects) - {n}] for n in names}
     alike = {n: found.look_alikes[n] for n in names}

@@ -147,6 +147,13 @@ LEAST_GAIN = 0.004
 # Origin: more than they leave.
 LEAST_TAKEN = 0.5
 
+# Part of the square that all named effects take together; records from which on a law that does not
+# carry over shows.
+# Decides: whether a further name, in a log of few records, may be the error of another one's form.
+# Origin: the force that a catalogue's law gives is right to a tenth; as many records as one may be
+# left out of and still leave three.
+FORM_PART, MANY_RECORDS = 0.01, 4
+
 # Reduction of the cross-validated error over the range of the force.
 # Decides: whether a gain may be the rounding of a simulation.
 # Origin: simulations agree with an independent solution within 1e-4 of the range.
