@@ -25,8 +25,6 @@ from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 from erdctl.model.slots import TermSlot, Values
 
-STEP = np.log(1.5)  # of a grid, below which two starts are next to each other
-
 
 @dataclass(frozen=True)
 class Candidate:
@@ -217,5 +215,6 @@ def _axis(q: Quantity, problem: Problem) -> list[float]:
 
 def _apart(one: Values, other: Values) -> bool:
     """Whether two starts differ by more than a step of a fine grid in any parameter."""
+    step = thresholds.NEXT_START
     pairs = [(one[n], other[n]) for n in one]
-    return any(a != b and not (a * b > 0.0 and abs(np.log(a / b)) < STEP) for a, b in pairs)
+    return any(a != b and not (a * b > 0.0 and 1.0 / step < a / b < step) for a, b in pairs)

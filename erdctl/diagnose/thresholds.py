@@ -264,9 +264,10 @@ ENERGY_PARTS = (0.03, 0.3)
 # Origin: budget; a delay of a sample moves whole jumps, one of a part of it goes with the slope.
 DELAYS, PART_OF_STEP = 6, 0.2
 
-# Starts of an effect's grid, and how many of them are searched from.
-# Origin: budget.
-MOST_STARTS, SEARCHED_STARTS = 30, 2
+# Starts of an effect's grid, how many of them are searched from, and the factor by which these
+# differ in some parameter.
+# Origin: budget; neighbours on the finest grid are a factor of 1.32 apart.
+MOST_STARTS, SEARCHED_STARTS, NEXT_START = 30, 2, 1.5
 
 # Size of what a direction of the Jacobian adds to those before it, relative to the largest.
 # Decides: what the present model can take of the residual, beyond which an effect must explain.
