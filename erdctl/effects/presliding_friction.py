@@ -46,7 +46,8 @@ def presliding_friction(s: Signals, p: Values) -> Array:
         then = (1.0 - part) * z[again - 1] + part * z[again]
         kept = np.exp(-travel / p["x_d"])  # of what it began with
         first = slid.copy()
-        first[record] = (then - kept * slid[record]) / (1.0 - kept)
+        # Within bounds also where a step is long for x_d, and the line across it no exponential.
+        first[record] = np.clip((then - kept * slid[record]) / (1.0 - kept), -1.0, 1.0)
         z = follow(way, path, i, before, after, first, s.starts)
     return z[None]
 
