@@ -26,8 +26,19 @@ from scipy.optimize import minimize
 from scipy.signal import savgol_filter
 
 from erdctl.plant.campaign import CampaignRecord, DutyProgramme
-from erdctl.plant.plant import Plant, Side
-from erdctl.plant.simulate import LEAD_IN, LEAD_OUT, LEAST_SUBSTEPS, LONGEST_STEP, Ride, forces
+from erdctl.plant.channel import recorded
+from erdctl.plant.hooks import Hooks
+from erdctl.plant.own import Applied
+from erdctl.plant.plant import ForceChannel, Plant, Side
+from erdctl.plant.simulate import (
+    LEAD_IN,
+    LEAD_OUT,
+    LEAST_SUBSTEPS,
+    LONGEST_STEP,
+    Ride,
+    fine_grid,
+    forces,
+)
 from erdctl.plant.trajectory import Trajectory
 from erdctl.plant.twin import Scales, Twin
 
@@ -37,6 +48,8 @@ Random = np.random.Generator
 SLOW = 0.25  # s, over which the deflection holds the integral of the speed
 BENT = 0.02  # s, over which the acceleration is the slope of the speed
 NEAR = 0.05  # of the values of a law that a plant's effect is to have
+FAR = 100.0  # times the largest force of the damper so far
+FURTHER = 1e5  # times a shape's least and largest, as it is drawn, that a law may have
 STILL = Trajectory("tones", (), (), ())  # in place of the closed form that a recording has not
 
 
@@ -69,21 +82,52 @@ class OnLog:
         """(n,) force that an effect of a strength adds at the samples of the log [N]."""
         force = forces(twin.build(self.base, s, shape, self.scales), self.over) - self.plain
         ends = np.cumsum([r.record.samples for r in self.over])[:-1]
-        parts = [
+        return self._on_samples(np.split(force, ends))
+
+    def with_effect(self, twin: Twin, s: float, shape: Mapping[str, float], force: Array) -> Array:
+        """(n,) the force of the log (n,) as it would be with an effect of a strength [N].
+
+        What a force channel does, it does to all that was recorded, to steps and noise that no
+        damper here has as well; an average of the plain damper's force alone would leave them
+        standing. All else adds its force.
+        """
+        channel = _channel(twin.build(self.base, s, shape, self.scales), self.base)
+        if channel is None:
+            return force + self.added(twin, s, shape)
+        own = channel.own
+        changed = []
+        for r, t, f in zip(self.over, self.at, self._by_record(force), strict=True):
+            fine = np.interp((np.arange(len(r.x)) - r.lead_in) * r.h, t, f)
+            through = Applied(own, fine_grid(r, 0.0, 0.0)).recorded(fine) if own else fine
+            grid = r.h, r.lead_in, r.substeps, r.record.samples
+            changed.append(
+                recorded(through, *grid, channel.channel) - recorded(fine, *grid, ForceChannel())
+            )
+        return force + self._on_samples(changed)
+
+    def _by_record(self, values: Array) -> list[Array]:
+        """Values (n,) at the samples of the log, by record."""
+        return np.split(values, np.cumsum([len(t) for t in self.at])[:-1])
+
+    def _on_samples(self, parts: Sequence[Array]) -> Array:
+        """(n,) values at the samples of the log of what is given at even steps, by record."""
+        return np.concatenate([
             np.interp(t, np.arange(r.record.samples) / r.record.rate, part)
-            for t, r, part in zip(self.at, self.over, np.split(force, ends), strict=True)
-        ]
-        return np.concatenate(parts)
+            for t, r, part in zip(self.at, self.over, parts, strict=True)
+        ])  # fmt: skip
 
     def also_with(self, twin: Twin, values: Mapping[str, float]) -> OnLog | None:
         """The stage with an effect in its damper whose law has some values, by their symbols.
 
-        None where this effect's law is another one, or never has such values.
+        None where this effect's law is another one, never has such values, or gives with them a
+        force that no log has.
         """
         plant = _with_law(self.base, twin, values, self.scales)
         if plant is None:
             return None
         plain = forces(plant, self.over)
+        if not np.abs(plain).max() < FAR * np.abs(self.plain).max():
+            return None
         return replace(self, base=plant, plain=plain, scales=_scales(self.over, plain))
 
     def parameters(self, twin: Twin, s: float, shape: Mapping[str, float]) -> dict[str, float]:
@@ -118,10 +162,16 @@ def _with_law(plant: Plant, twin: Twin, values: Mapping[str, float], by: Scales)
     law, names = twin.law, list(twin.shape)
     if law is None:
         return None
-    low, high = (np.array([twin.shape[n][i] for n in names]) for i in (0, 1))
+    # What is drawn to be hidden is one thing, what a log shows another: of all sizes.
+    ratio = [twin.shape[n][0] > 0.0 for n in names]
+    ends = [
+        (math.log(a / FURTHER), math.log(b * FURTHER)) if r else (a, b)
+        for r, (a, b) in zip(ratio, (twin.shape[n] for n in names), strict=True)
+    ]
 
     def built(at: Array) -> Plant:
-        shape = dict(zip(names, np.clip(at[1:], low, high).tolist(), strict=True))
+        own = [min(max(u, a), b) for u, (a, b) in zip(at[1:].tolist(), ends, strict=True)]
+        shape = {n: math.exp(u) if r else u for n, u, r in zip(names, own, ratio, strict=True)}
         return twin.build(plant, math.exp(at[0]), shape, by)
 
     def off(at: Array) -> float:
@@ -130,9 +180,24 @@ def _with_law(plant: Plant, twin: Twin, values: Mapping[str, float], by: Scales)
 
     # A shape may be a choice, as of a sign, which no simplex walks across: one from every corner.
     corners = product((0.05, 0.95), repeat=len(names))
-    starts = [[math.log(twin.start), *(low + np.array(c) * (high - low))] for c in corners]
+    starts = [
+        [math.log(twin.start), *(a + c * (b - a) for c, (a, b) in zip(at, ends, strict=True))]
+        for at in corners
+    ]
     best = min((minimize(off, s, method="Nelder-Mead") for s in starts), key=lambda m: m.fun)
     return built(best.x) if best.fun < NEAR else None
+
+
+def _channel(plant: Plant, base: Plant) -> Plant | None:
+    """Of two plants that differ in the force channel alone, one with what they differ by."""
+    new = tuple(o for o in plant.own if o not in base.own)
+    others = plant._replace(channel=base.channel, own=base.own)
+    more = (replace(o.hooks, recorded=None) != Hooks(o.hooks.name) for o in new)
+    if others != base or any(more):
+        return None
+    fields = zip(ForceChannel._fields, plant.channel, base.channel, strict=True)
+    differ = {name: value for name, value, before in fields if value != before}
+    return base._replace(channel=ForceChannel(**differ), own=new)
 
 
 def _scales(over: Sequence[Ride], plain: Array) -> Scales:

@@ -3,7 +3,8 @@
 First the recording is diagnosed as it is. What that names is there anyway, and is part of the model
 that everything after it must answer for. Then each effect is hidden in several sizes: an
 independent simulation (`erdctl.plant`) says what it would add to the force on the recording's own
-motion and duty, which is added to what was measured, noise, misfit and all.
+motion and duty, which is added to what was measured, noise, misfit and all. An effect of the force
+channel, as an average or a delay, is applied to what was measured itself.
 
     size = rms of what the model cannot absorb of the added force / local noise
     local noise^2 = mean of (what the diagnosis left)^2, weighted by the square of that force
@@ -25,7 +26,7 @@ import numpy as np
 from erdctl.core.blocks import thinned
 from erdctl.core.errors import ErdctlError, UsageProblem
 from erdctl.core.progress import Progress
-from erdctl.core.recording import DIRECTIONS, Array, Recording
+from erdctl.core.recording import DIRECTIONS, Recording
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.detectable import Injection
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
@@ -155,9 +156,9 @@ class Hiding:
         shape = twin.drawn(np.random.default_rng([self.host.seed, crc32(name.encode())]))
         out, at = [], log(twin.start)
         for size in sizes:
-            trial, at, added = self._sought(twin, shape, size, at)
+            trial, at = self._sought(twin, shape, size, at)
             if trial.skipped is None:
-                trial = self._judged(trial, self._recorded(added), twin)
+                trial = self._judged(trial, self._recorded(twin, shape, exp(at)), twin)
             out.append(trial)
         return out
 
@@ -173,31 +174,29 @@ class Hiding:
 
     def _sought(
         self, twin: Twin, shape: Mapping[str, float], size: float, at: float
-    ) -> tuple[Trial, float, Array]:
+    ) -> tuple[Trial, float]:
         """An effect as strong as it must be for a size, by halves of a bracket and secants."""
         low, high = log(twin.low), log(twin.high)
-        best: tuple[float, Trial, float, Array] | None = None
+        best: tuple[float, Trial, float] | None = None
         for _ in range(STEPS):
-            trial, added = self._measured(twin, shape, exp(at), size)
+            trial = self._measured(twin, shape, exp(at), size)
             off = log(max(trial.size, 1e-12) / size)
             if best is None or abs(off) < best[0]:
-                best = abs(off), trial, at, added
+                best = abs(off), trial, at
             if abs(off) < CLOSE or high - low < 1e-3:
                 break
             low, high = (low, at) if off > 0.0 else (at, high)
             following = at - off
             at = following if low < following < high else 0.5 * (low + high)
         assert best is not None
-        off, trial, at, added = best
+        off, trial, at = best
         if off > 5 * CLOSE:
             nearest = f"the nearest is {trial.size:.2g}"
             trial = replace(trial, skipped=f"not {size:g} times the noise on this log: {nearest}")
-        return trial, at, added
+        return trial, at
 
-    def _measured(
-        self, twin: Twin, shape: Mapping[str, float], s: float, wanted: float
-    ) -> tuple[Trial, Array]:
-        """What an effect of a strength is on this log, and the force that it adds."""
+    def _measured(self, twin: Twin, shape: Mapping[str, float], s: float, wanted: float) -> Trial:
+        """What an effect of a strength is on this log."""
         added = self.stage.added(twin, s, shape)
         r = self.host.recording
         here = _thinned(replace(r, force=added), self.host.every).force
@@ -209,7 +208,7 @@ class Hiding:
         rms = float(np.sqrt(energy / weight.sum()))
         shown = self.stage.parameters(twin, s, shape)
         units = {path.split(".")[1]: unit for path, unit in twin.shows.items()}
-        trial = Trial(
+        return Trial(
             effect=twin.name,
             wanted=wanted,
             size=rms / local if local > 0.0 else 0.0,
@@ -218,12 +217,13 @@ class Hiding:
             beyond=rms,
             local=local,
         )
-        return trial, added
 
-    def _recorded(self, added: Array) -> Recording:
+    def _recorded(self, twin: Twin, shape: Mapping[str, float], s: float) -> Recording:
+        """The recording as it would be with an effect of a strength."""
         r = self.host.recording
         assert r.force is not None
-        return _thinned(replace(r, force=r.force + added), self.host.every)
+        force = self.stage.with_effect(twin, s, shape, r.force)
+        return _thinned(replace(r, force=force), self.host.every)
 
     def _judged(self, trial: Trial, recording: Recording, twin: Twin | None) -> Trial:
         """A trial with what the diagnosis says beyond what is there anyway."""

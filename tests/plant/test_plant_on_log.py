@@ -68,6 +68,7 @@ def test_gaps_and_jitter_keep_every_sample(on_log: OnLog) -> None:
         ("time_skew", {"tau": -0.008}),
         ("coulomb_friction", {"F_c": 300.0}),
         ("backlash", {"g": 4e-4}),
+        ("presliding_friction", {"F_c": 117.0, "x_d": 2e-7}),
     ],
 )
 def test_the_damper_of_a_log_has_what_is_known_of_it(
@@ -94,3 +95,36 @@ def test_behind_a_soft_mount_an_effect_adds_another_force(on_log: OnLog) -> None
 
 def test_a_law_that_no_twin_has_is_left_out(on_log: OnLog) -> None:
     assert on_log.also_with(effect("gas_polytropic"), {"gamma": 40.0, "a": 1e6}) is None
+
+
+def test_what_the_force_channel_does_it_does_to_all_that_was_recorded(on_log: OnLog) -> None:
+    """Steps that the plain damper has not, as those of a rig, are averaged with the rest."""
+    twin = effect("force_smoothing")
+    rig = np.concatenate([np.where(np.arange(len(r.t)) % 50 < 25, 20.0, -20.0) for r in logged()])
+    force = on_log.plain + rig
+    averaged = on_log.with_effect(twin, 0.3, {}, force)
+    left = averaged - on_log.plain - on_log.added(twin, 0.3, {})
+    assert np.std(left) < 0.5 * np.std(rig)
+
+
+@pytest.mark.parametrize("name", ["coulomb_friction", "time_skew", "force_offset", "force_drift"])
+def test_an_effect_in_a_plain_log_is_what_it_adds_to_a_plain_damper(
+    on_log: OnLog, name: str
+) -> None:
+    twin = effect(name)
+    shape = {k: 0.25 * (3 * a + b) for k, (a, b) in twin.shape.items()}
+    added = on_log.added(twin, twin.start, shape)
+    force = on_log.with_effect(twin, twin.start, shape, on_log.plain)
+    assert (
+        np.std(force - on_log.plain - added) < 0.3 * np.std(added) + 1e-9
+    )  # jumps between samples
+    assert np.mean(force - on_log.plain) == pytest.approx(np.mean(added), abs=0.1 * np.ptp(added))
+
+
+def test_a_channel_of_the_log_is_not_applied_again(on_log: OnLog) -> None:
+    """What was recorded late is late already: a drift is all that is new."""
+    late = on_log.also_with(effect("time_skew"), {"tau": 0.008})
+    assert late is not None
+    twin, shape = effect("force_drift"), {k: a for k, (a, _) in effect("force_drift").shape.items()}
+    drifted = late.with_effect(twin, twin.start, shape, late.plain)
+    assert drifted - late.plain == pytest.approx(late.added(twin, twin.start, shape), abs=1e-6)
