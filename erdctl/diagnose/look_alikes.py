@@ -10,6 +10,7 @@ from erdctl.diagnose.executor import Task
 from erdctl.diagnose.forward_step import Exploration, key_of, with_effect
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
+from erdctl.diagnose.residual.predictability import lack_of_fit_test
 from erdctl.diagnose.screening import Screen
 from erdctl.model.effect import Effect
 
@@ -62,11 +63,28 @@ def look_alikes(
         for hypothesis in x.executor.fit(x.problem, tasks):
             if hypothesis is not None:
                 x.explored.keep(hypothesis)
+    room = _misfit_leaves(x, rest, best)
     found = {}
     for name, key in keys.items():
         other = x.explored.get(key)
-        if other is not None and (
-            compare(x.problem, other, best).tied or is_preferred(x.problem, other, best)
-        ):
+        if other is None:
+            continue
+        gain = compare(x.problem, other, best)
+        near = gain.before - gain.after <= room
+        if gain.tied or near or is_preferred(x.problem, other, best):
             found[key] = name
     return [(found[key_of(h.effects)], h) for h in ranked(x.explored[key] for key in found)]
+
+
+def _misfit_leaves(x: Exploration, rest: frozenset[str], best: Hypothesis) -> float:
+    """Difference of mean squares that two hypotheses may have and still be alike [N^2].
+
+    Where noise alone is left their residuals tell them apart, and this is 0. What is left of
+    physics speaks for either by chance, however many samples repeat it: then only what is beyond
+    the scatter of a mean square over the groups does, of what is left, or of what the effect takes
+    if that is less.
+    """
+    if not lack_of_fit_test(best.problem, best.residual).significant:
+        return 0.0
+    worth = compare(x.problem, x.explored[rest], best)
+    return worth.scatter * min(worth.after, worth.before - worth.after)
