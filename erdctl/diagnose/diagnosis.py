@@ -20,7 +20,7 @@ from erdctl.diagnose.conditions import one_condition
 from erdctl.diagnose.detectable import Detectable, detectable
 from erdctl.diagnose.executor import Executor, executor
 from erdctl.diagnose.findings import Finding, earned, findings, part_taken
-from erdctl.diagnose.fit_errors import fit_errors
+from erdctl.diagnose.fit_errors import fit_errors, may_be_absent
 from erdctl.diagnose.forward_step import key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.learning.stage import Learned, learned
@@ -258,8 +258,7 @@ def _idle(effect: Effect, fit: Fit, workers: Executor) -> bool:
     where the damper is, there is none of it. Or for something else that is missing.
     """
     own = {effect.key(q.symbol): fit.values[effect.key(q.symbol)] for q in effect.quantities}
-    gone = all(fit.values[name] == off for name, off in effect.off.items())
-    return gone or not workers.possible(own)
+    return may_be_absent(effect, fit) or not workers.possible(own)
 
 
 def _left(selection: Selection, seed: int) -> LackOfFit:

@@ -7,9 +7,10 @@ from dataclasses import replace
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.record_effects import RecordEffects
-from erdctl.estimate.covariance import Fit
+from erdctl.estimate.covariance import Fit, estimates
 from erdctl.estimate.last_step import assess
 from erdctl.estimate.onsets import onset_intervals, placed
+from erdctl.model.effect import Effect
 
 
 def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEffects | None]:
@@ -31,3 +32,18 @@ def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEff
     if record_effects is not None and fit.level_errors is not None:
         record_effects = record_effects.with_errors(problem.free, fit.level_errors)
     return fit, record_effects
+
+
+def may_be_absent(effect: Effect, fit: Fit) -> bool:
+    """Whether nothing of an effect is left, or nothing within the error of its one parameter.
+
+    Of several each may be off in a law that is there; of one it says that the law is not told.
+    """
+    off = effect.off
+    if all(fit.values[name] == value for name, value in off.items()):
+        return True
+    if len(off) > 1:
+        return False
+    ((name, value),) = off.items()
+    interval = estimates(fit, {})[name].interval
+    return interval is not None and interval[0] <= value <= interval[1]
