@@ -11,6 +11,7 @@ from erdctl.core.recording import DIRECTIONS, Array, Index
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem, mask_doubtful
 from erdctl.diagnose.record_effects import RecordEffects, estimate
+from erdctl.diagnose.told import as_begun, as_told
 from erdctl.estimate.least_squares import Fitted, at_bound, fit
 from erdctl.estimate.linearisation import jacobian
 from erdctl.model.composed import Model
@@ -197,10 +198,15 @@ def fitted_from(problem: Problem, hypothesis: Hypothesis, steps: int, whole: Arr
 
     whole : (n,) weights of all samples, see `least_squares.fit`
     """
-    found = _fitted(
-        problem, hypothesis.model, hypothesis.values, steps, hypothesis.record_effects, whole
-    )
-    return found.residual
+    own, record_effects = hypothesis.model, hypothesis.record_effects
+    start = as_begun(own, hypothesis.values)
+    found = _fitted(problem, own, start, steps, record_effects, whole)
+    s, rest = problem.block.signals, problem.block.weight
+    model, values = as_told(own, found.values, s, rest, whole)
+    told = model.force(s, values) - own.force(s, found.values) if model is not own else 0.0
+    if record_effects is not None:
+        told *= record_effects.along(s.starts)[0]
+    return found.residual - told
 
 
 def over_records(hypothesis: Hypothesis) -> Hypothesis:
@@ -222,13 +228,29 @@ def weighed_as(hypothesis: Hypothesis, weight: Array) -> Hypothesis:
     """
     problem = hypothesis.problem
     part = replace(problem, block=problem.block._replace(weight=weight))
-    J, root = slopes(hypothesis), np.sqrt(weight)
-    scale = np.sqrt(np.einsum("ij,ij,j->i", J, J, weight))
-    J = J[scale > 0.0] / scale[scale > 0.0, None]
-    rest = hypothesis.residual * root
-    step = np.linalg.lstsq((J * root).T, rest, rcond=thresholds.CV_SINGULAR)[0]
-    missed = left_out(part, J, hypothesis.residual - step @ J)
+    _, missed = _one_step(part, slopes(hypothesis), hypothesis.residual)
     return replace(hypothesis, problem=part, cross_validated=missed)
+
+
+def with_columns(hypothesis: Hypothesis, columns: Array) -> Hypothesis:
+    """The same with forces (k, n) of free sizes beside its own, by a Gauss-Newton step.
+
+    Its `fitted` has the values from before the step, and the residual behind it.
+    """
+    rows = np.vstack([slopes(hypothesis), columns])
+    left, missed = _one_step(hypothesis.problem, rows, hypothesis.residual)
+    fitted = replace(hypothesis.fitted, residual=left)
+    return replace(hypothesis, fitted=fitted, cross_validated=missed)
+
+
+def _one_step(problem: Problem, J: Array, residual: Array) -> tuple[Array, Array]:
+    """Residuals (n,) after a Gauss-Newton step along rows (k, n), and cross-validated."""
+    weight = problem.block.weight
+    root, scale = np.sqrt(weight), np.sqrt(np.einsum("ij,ij,j->i", J, J, weight))
+    J = J[scale > 0.0] / scale[scale > 0.0, None]
+    step = np.linalg.lstsq((J * root).T, residual * root, rcond=thresholds.CV_SINGULAR)[0]
+    left = residual - step @ J
+    return left, left_out(problem, J, left)
 
 
 def _cross_validated(fitted: Hypothesis) -> Array:

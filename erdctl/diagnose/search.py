@@ -24,6 +24,7 @@ from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.form_error import beyond_form_error
 from erdctl.diagnose.forward_step import Exploration, Explored, forward_step, key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
+from erdctl.diagnose.levels_of_records import not_of_records
 from erdctl.diagnose.look_alikes import is_preferred, look_alikes
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
@@ -141,7 +142,7 @@ def refit(
     best, last = explored[kept], None
     while best is not last:  # each may leave what the other one drops
         last, best = best, to_other_records(x, resolved(x, eliminate(x, best)))
-        best = beyond_form_error(x, best)
+        best = not_of_records(x, beyond_form_error(x, best))
     names = [e.name for e in x.added(best)]
     without = {n: explored[key_of(best.effects) - {n}] for n in names}
     alike = {n: found.look_alikes[n] for n in names}

@@ -35,10 +35,24 @@ ASIDE_FROM, ASIDE_OF = 12, 6
 # Origin: budget.
 CARRY_SAMPLES, STEPS_CARRY, MOST_KINDS, CARRY_FITS = 12_000, 12, 6, 12
 
+# Part of the weight of the samples near a knot from which on a learned curve is told there by a fit
+# that leaves others out, and part of its size with which a closed form begins in such a fit.
+# Decides: whether a law only says which record is which.
+# Origin: the first is that of the anchor of `least_squares`, below which a value stays where all
+# data had it; the second need only be small, and not 0, where a shape has no slope.
+TOLD, BEGUN = 0.05, 0.05
+
 # Ridge of the jackknife, as a part of the weight of all data.
 # Decides: how far a parameter moves that a left-out group alone determines.
 # Origin: none; without it the step goes to infinity.
 CV_RIDGE = 0.05
+
+# Chance with which levels of records, a gain and a zero of each, may follow a law for nothing, and
+# records from which on an effect is asked for more.
+# Decides: whether what tells records apart has a name, and whether a law of it is learned.
+# Origin: theory; 0.05, and some 200 laws are looked at. Of fewer records even a zero that all of
+# them share would be no more than chance.
+CHANCE_OF_LEVELS, LEVELS_FROM = 2.5e-4, 5
 
 # Mean square over all samples, those without weight too, over that of a model that is worse where
 # it is weighed, up to which this is no harm.

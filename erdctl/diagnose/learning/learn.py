@@ -21,6 +21,7 @@ from erdctl.diagnose.forward_step import Exploration, Explored, key_of, with_eff
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.learning.closed_forms import closed_forms
 from erdctl.diagnose.learning.laws import finer, laws, swings
+from erdctl.diagnose.levels_of_records import beyond_levels
 from erdctl.diagnose.look_alikes import is_preferred
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.predictability import lack_of_fit_test
@@ -62,7 +63,11 @@ def learn(
             promising += swings(problem, line)
         more = _fitted(x, best, promising, stage)
         critical = critical_of(problem, best, more)
-        better = [h for h in more if compare_alike(problem, best, h).beyond(critical)]
+        better = [
+            h for h in more
+            if compare_alike(problem, best, h).beyond(critical)
+            and beyond_levels(problem, best, h, critical)
+        ]  # fmt: skip
         if not better:
             break
         found = _sharpened(x, best, better[0], stage)

@@ -1,0 +1,131 @@
+"""What only tells records apart has no name, and no law of it is learned or carries over."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trajectories
+from rig import noisy, recording
+
+from erdctl.core.recording import Array, Recording, concatenate
+from erdctl.diagnose.carry_over import left_out_exactly
+from erdctl.diagnose.comparison import compare_alike
+from erdctl.diagnose.diagnosis import diagnose
+from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
+from erdctl.diagnose.levels_of_records import beyond_levels
+from erdctl.diagnose.problem import Problem, prepare
+from erdctl.diagnose.told import as_told
+from erdctl.effects import get
+from erdctl.estimate.starts import fresh_start
+from erdctl.model.composed import Model
+from erdctl.model.learned.curve import Curve
+from erdctl.model.learned.law import Law, LawSlot, LearnedEffect
+
+STROKES = np.array([0.004, 0.007, 0.009, 0.012, 0.015, 0.018])  # m, one of each record
+ZEROS = np.array([2.0, -1.5, 0.5, -2.0, 1.0, 0.0])  # N, in no order of the strokes
+
+
+def swept(stroke: Array, count: int = 1) -> Recording:
+    t = np.arange(500) / 100.0
+    random, out = np.random.default_rng(5), []
+    for i, amplitude in enumerate(np.repeat(stroke, count)):
+        tones = trajectories.sine(0.6 + 0.3 * (i % 4), float(amplitude), 0.4 * i)
+        duty = trajectories.random_hold(random, t, (0.0, 0.1, 0.2, 0.3))
+        out.append(recording(t, tones.x(t), tones.velocity(t), duty, f"{i}", tones.velocity_at))
+    return concatenate(out)
+
+
+def plus(r: Recording, force: Array) -> Problem:
+    assert r.force is not None
+    return prepare(noisy(replace(r, force=r.force + force), seed=9))
+
+
+def names(r: Recording, force: Array, *candidates: str) -> list[str]:
+    log = noisy(replace(r, force=force), seed=21)
+    found = diagnose(log, [get(n) for n in candidates], limits=False, learning=False)
+    return [f.effect.name for f in found.findings]
+
+
+def test_records_whose_gains_differ_have_no_fade() -> None:
+    r = swept(STROKES)
+    assert r.force is not None
+    gains = 1.0 + 0.06 * np.random.default_rng(1).standard_normal(6)
+    assert names(r, r.force * np.repeat(gains, np.diff(r.starts)), "thermal_fade") == []
+
+
+@pytest.mark.parametrize("records", [2, 6])
+def test_a_zero_that_all_records_share_has_its_name(records: int) -> None:
+    r = swept(STROKES[:records])
+    assert r.force is not None
+    assert names(r, r.force - 0.5, "force_offset", "thermal_fade") == ["force_offset"]
+
+
+def law(coordinate: str, knots: Array) -> LearnedEffect:
+    return Law(LawSlot.FORCE, Curve(coordinate, tuple(knots.tolist()))).effect
+
+
+def fit(problem: Problem, *effects: LearnedEffect) -> Hypothesis:
+    return fit_hypothesis(problem, effects, [fresh_start(0.05, 0.4)])
+
+
+@pytest.fixture(scope="module")
+def scattered() -> tuple[Problem, Hypothesis, Hypothesis]:
+    """Records with zeros of their own, and a law of the largest deflection that tells them."""
+    r = swept(STROKES)
+    problem = plus(r, np.repeat(ZEROS, np.diff(r.starts)))
+    return problem, fit(problem), fit(problem, law("largest_x", STROKES))
+
+
+def test_what_tells_records_apart_is_better_on_what_is_left_out_and_no_law(
+    scattered: tuple[Problem, Hypothesis, Hypothesis],
+) -> None:
+    problem, base, labels = scattered
+    assert compare_alike(problem, base, labels).significant
+    assert not beyond_levels(problem, base, labels)
+
+
+def test_what_acts_within_records_is_a_law() -> None:
+    r = swept(STROKES)
+    problem = plus(r, 3.0 * np.sin(np.pi * r.x / 0.018) ** 2)
+    curve = law("abs_x", np.linspace(0.0, 0.018, 6))
+    assert beyond_levels(problem, fit(problem), fit(problem, curve))
+
+
+def test_what_the_levels_of_many_records_follow_is_a_law() -> None:
+    """A softening with the largest stroke, which two records of each stroke have alike."""
+    r = swept(np.linspace(0.004, 0.018, 10), 2)
+    largest = np.concatenate([np.maximum.accumulate(np.abs(r.x[s])) for s in r.slices])
+    problem = plus(r, 400.0 * largest)
+    curve = law("largest_x", np.linspace(0.004, 0.018, 4))
+    assert beyond_levels(problem, fit(problem), fit(problem, curve))
+
+
+def test_a_record_that_is_left_out_is_predicted_by_what_the_others_tell(
+    scattered: tuple[Problem, Hypothesis, Hypothesis],
+) -> None:
+    problem, base, labels = scattered
+    starts = problem.block.signals.starts
+    each = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    before, after = (
+        float(np.mean(left_out_exactly(problem, each, h) ** 2)) for h in (base, labels)
+    )
+    assert after > 0.9 * before  # a half of it with the value that the record itself had told
+
+
+def test_a_curve_stays_at_its_end_value_beyond_what_is_told() -> None:
+    problem = prepare(noisy(swept(STROKES), seed=3))
+    s = problem.block.signals
+    effect = law("largest_x", STROKES)
+    values = dict(fit(problem).values) | {effect.key(f"f_{k + 1}"): float(k) for k in range(6)}
+    whole = np.ones(len(s))
+    rest = np.where(np.arange(len(s)) < s.starts[4], whole, 0.0)  # the four shortest strokes
+    told, own = as_told(Model((effect,)), values, s, rest, whole)
+    (curve,) = (e.law.curve for e in told.effects if isinstance(e, LearnedEffect))
+    assert curve.knots == tuple(STROKES[:4].tolist())
+    assert [own[effect.key(f"f_{k + 1}")] for k in range(4)] == [0.0, 1.0, 2.0, 3.0]
+    beyond = np.asarray(told.force(s, own) - Model().force(s, own))[s.starts[5] + 300 :]
+    assert beyond == pytest.approx(3.0)
+    same, _ = as_told(Model((effect,)), values, s, whole, whole)
+    assert same.effects == (effect,)
