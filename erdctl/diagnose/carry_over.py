@@ -25,6 +25,8 @@ from erdctl.diagnose.hypothesis import Hypothesis, fitted_from, over_records
 from erdctl.diagnose.kinds_of_excitation import kinds_of_motion
 from erdctl.diagnose.problem import Problem, mask_doubtful
 from erdctl.diagnose.thin import thinned
+from erdctl.estimate.linearisation import jacobian
+from erdctl.model.learned.law import LearnedEffect
 
 
 def to_other_records(x: Exploration, best: Hypothesis) -> Hypothesis:
@@ -104,13 +106,32 @@ def left_out_exactly(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> 
     """(n,) residual of each kind (n,) of the samples by a fit to all others, from the whole fit."""
     out = np.zeros(len(kinds))
     weight = problem.block.weight
+    told = _told_by(problem, kinds, hypothesis)
     for k in range(int(kinds.max()) + 1):
         block = problem.block._replace(weight=np.where(kinds == k, 0.0, weight))
-        rest = replace(problem, block=block)
+        alone = [name for name, share in told.items() if share[k] > 1.0 - thresholds.TOLD]
+        held = {**problem.held, **{name: hypothesis.values[name] for name in alone}}
+        rest = replace(problem, block=block, held=held)
         found = fitted_from(rest, hypothesis, thresholds.STEPS_CARRY, weight)
         found = np.where(np.isfinite(found), found, block.force)  # what diverges predicts nothing
         out[kinds == k] = found[kinds == k]
     return out
+
+
+def _told_by(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> dict[str, Array]:
+    """(k,) part that each kind has of what all samples tell of a parameter, by its name.
+
+    By the squares of the slopes of the force. Of what is anchored in any fit, and of learned laws,
+    which have a rule of their own (`told`), nothing is said.
+    """
+    effects = hypothesis.effects
+    other = {e.key(q.symbol) for e in effects if e.smooth for q in e.sizes}
+    other |= {n for e in effects if isinstance(e, LearnedEffect) for n in e.off}
+    names = [n for n in hypothesis.free if n not in other]
+    J = jacobian(hypothesis.model, problem.block.signals, hypothesis.values, names)
+    square = problem.block.weight * J**2
+    by = np.array([np.bincount(kinds, row) for row in square]).reshape(len(names), -1)
+    return dict(zip(names, by / np.maximum(by.sum(axis=1, keepdims=True), 1e-300), strict=True))
 
 
 def _error(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> float:

@@ -93,3 +93,27 @@ def test_what_diverges_without_a_kind_of_motion_predicts_nothing(
     assert kinds is not None
     monkeypatch.setattr(carry_over, "fitted_from", diverged)
     assert left_out_exactly(problem, kinds, fit(problem)) == pytest.approx(problem.block.force)
+
+
+def test_what_one_kind_of_motion_alone_can_tell_is_not_held_against_it() -> None:
+    """The duty steps at one motion only: a dead time is told there, and by nothing else."""
+    t = np.arange(600) / 100.0
+    random, out = np.random.default_rng(11), []
+    for i, (frequency, amplitude) in enumerate(MOTIONS):
+        tones = trajectories.sine(frequency, amplitude, 0.3 * i)
+        for k in range(2):
+            duty = trajectories.random_hold(random, t, STEPS) if i == 1 else np.full(len(t), 0.3)
+            x, xdot = tones.x(t), tones.velocity(t)
+            late = np.concatenate([np.full(15, duty[0]), duty[:-15]])
+            one = recording(t, x, xdot, late, f"{i}-{k}", tones.velocity_at)
+            out.append(replace(one, duty=duty))
+    problem = prepare(noisy(concatenate(out), seed=7))
+    base = fit_hypothesis(problem, [], [fresh_start(0.05, 0.4)])
+    best = fit_hypothesis(problem, [get("input_delay")], [{**base.values, "input_delay.tau": 0.15}])
+    kinds = kinds_of_motion(problem.recording)
+    assert kinds is not None
+    before, after = (float(np.mean(left_out_exactly(problem, kinds, h) ** 2)) for h in (base, best))
+    assert after < 0.5 * before
+    with executor((problem,), 1, lambda stage, what: None) as here:
+        x = Exploration(problem, base, Explored([base, best]), here)
+        assert [e.name for e in to_other_motions(x, best).effects] == ["input_delay"]
