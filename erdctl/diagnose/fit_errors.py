@@ -35,9 +35,10 @@ def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEff
 
 
 def may_be_absent(effect: Effect, fit: Fit) -> bool:
-    """Whether nothing of an effect is left, or nothing within the error of its one parameter.
+    """Whether nothing of an effect is left, or of its one parameter not even the sign is told.
 
-    Of several each may be off in a law that is there; of one it says that the law is not told.
+    Of several parameters each may be off in a law that is there. An interval that ends where the
+    parameter has its bound is open to that side, and says nothing of what would be beyond.
     """
     off = effect.off
     if all(fit.values[name] == value for name, value in off.items()):
@@ -46,4 +47,4 @@ def may_be_absent(effect: Effect, fit: Fit) -> bool:
         return False
     ((name, value),) = off.items()
     interval = estimates(fit, {})[name].interval
-    return interval is not None and interval[0] <= value <= interval[1]
+    return interval is not None and interval[0] < value < interval[1]

@@ -31,17 +31,25 @@ ONE_KIND = (4.0, -1.0, -1.0, -1.0)  # N, constant in the records of each motion
 
 def log() -> Recording:
     """Friction everywhere, and a constant force that each kind of motion has of its own."""
-    t = np.arange(500) / 100.0
     random, out = np.random.default_rng(4), []
-    for i, (frequency, amplitude) in enumerate(MOTIONS):
-        tones = trajectories.sine(frequency, amplitude, 0.3 * i)
+    for i in range(len(MOTIONS)):
         for k in range(3):
-            duty = trajectories.random_hold(random, t, STEPS) if k else np.zeros(len(t))
-            x, xdot = tones.x(t), tones.velocity(t)
-            one = recording(t, x, xdot, duty, f"{i}-{k}", tones.velocity_at)
+            one = moved(i, k, random if k else 0.0)
             assert one.force is not None
-            out.append(replace(one, force=one.force + 1.5 * np.sign(xdot) + ONE_KIND[i]))
+            out.append(replace(one, force=one.force + 1.5 * np.sign(one.xdot) + ONE_KIND[i]))
     return noisy(concatenate(out), seed=6)
+
+
+def moved(i: int, k: int, control: np.random.Generator | float, late: int = 0) -> Recording:
+    """One record of a motion, its control held or stepping at random, felt some samples late."""
+    t = np.arange(500) / 100.0
+    tones = trajectories.sine(*MOTIONS[i], 0.3 * i)
+    duty = np.full(len(t), control) if isinstance(control, float) else (
+        trajectories.random_hold(control, t, STEPS)
+    )  # fmt: skip
+    felt = np.concatenate([np.full(late, duty[0]), duty[: len(t) - late]])
+    one = recording(t, tones.x(t), tones.velocity(t), felt, f"{i}-{k}", tones.velocity_at)
+    return replace(one, duty=duty)
 
 
 @pytest.fixture(scope="module")
@@ -97,16 +105,11 @@ def test_what_diverges_without_a_kind_of_motion_predicts_nothing(
 
 def test_what_one_kind_of_motion_alone_can_tell_is_not_held_against_it() -> None:
     """The duty steps at one motion only: a dead time is told there, and by nothing else."""
-    t = np.arange(600) / 100.0
-    random, out = np.random.default_rng(11), []
-    for i, (frequency, amplitude) in enumerate(MOTIONS):
-        tones = trajectories.sine(frequency, amplitude, 0.3 * i)
-        for k in range(2):
-            duty = trajectories.random_hold(random, t, STEPS) if i == 1 else np.full(len(t), 0.3)
-            x, xdot = tones.x(t), tones.velocity(t)
-            late = np.concatenate([np.full(15, duty[0]), duty[:-15]])
-            one = recording(t, x, xdot, late, f"{i}-{k}", tones.velocity_at)
-            out.append(replace(one, duty=duty))
+    random = np.random.default_rng(11)
+    out = [
+        moved(i, k, random if i == 1 else STEPS[(i + k) % 4], late=15)
+        for i in range(len(MOTIONS)) for k in (0, 1)
+    ]  # fmt: skip
     problem = prepare(noisy(concatenate(out), seed=7))
     base = fit_hypothesis(problem, [], [fresh_start(0.05, 0.4)])
     best = fit_hypothesis(problem, [get("input_delay")], [{**base.values, "input_delay.tau": 0.15}])

@@ -36,3 +36,16 @@ def test_one_of_several_parameters_may_be_off() -> None:
     fit, _ = fit_errors(problem, fit_hypothesis(problem, [effect], [fresh_start(0.05, 0.4)]))
     assert abs(fit.values[effect.key("d_2")]) < 3.0 * fit.stderr[effect.key("d_2")]
     assert not may_be_absent(effect, fit)
+
+
+def test_an_interval_that_is_open_to_a_bound_says_nothing() -> None:
+    """Under misfit the profile of an average may be open to 0, however much the average takes."""
+    r = noisy(campaign(100.0, 6.0), seed=10)
+    problem = prepare(r)
+    effect = get("force_smoothing")
+    (name,) = effect.off
+    start = {**fresh_start(0.05, 0.4), name: 0.1}
+    fit, _ = fit_errors(problem, fit_hypothesis(problem, [effect], [start], 1))
+    there = replace(fit, values={**fit.values, name: 0.1})
+    assert not may_be_absent(effect, replace(there, intervals={name: (0.0, 0.3)}))
+    assert not may_be_absent(effect, replace(there, intervals={name: (0.05, 0.3)}))
