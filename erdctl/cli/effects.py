@@ -102,8 +102,8 @@ def _new(
         effect_source,
         learned_effect,
         parameters_of,
-        test_source,
     )
+    from erdctl.io.effect_test_file import test_source
 
     if name is None or source is None or as_json:
         raise UsageProblem("write it as: erdctl effects new NAME --from diagnosis.json -o FILE.py")

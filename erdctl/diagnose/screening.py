@@ -39,18 +39,22 @@ class Screen:
     """Looks at effects to add to one hypothesis; what they share is computed once.
 
     most : values of parameters above which an effect is none, by name
+    every : of the samples one in so many is looked at
     """
 
-    def __init__(self, problem: Problem, parent: Hypothesis, most: Values | None = None) -> None:
+    def __init__(
+        self, problem: Problem, parent: Hypothesis, most: Values | None = None, every: int = 1
+    ) -> None:
         self.problem, self.parent, self.most = problem, parent, most or {}
+        self.every = slice(None, None, every)
         self.root = np.sqrt(parent.problem.block.weight)
         signals = problem.block.signals
         self.lever = self.root  # of a force of the model on a weighted residual
         if parent.record_effects is not None:
             self.lever = self.root * parent.record_effects.along(signals.starts)[0]
         J = jacobian(parent.model, signals, parent.values, parent.free) * self.lever
-        self.basis = _orthonormal(J)
-        self.residual = self._beyond(parent.residual[None] * self.root)[0]
+        self.basis = _orthonormal(J[:, self.every])
+        self.residual = self._beyond((parent.residual[None] * self.root)[:, self.every])[0]
         self.square = float(self.residual @ self.residual)
         self.force = parent.model.force(signals, parent.values)
 
@@ -92,23 +96,28 @@ class Screen:
 
     def _smooth(self, effect: Effect) -> Candidate | None:
         """What changes the force in proportion to its sizes, all else of it at its start."""
-        signals, parent = self.problem.block.signals, self.parent
+        signals = self.problem.block.signals
         start = {q.symbol: q.start for q in effect.quantities}
         sizes = effect.sizes
-        rows = list(effect.added(signals, start))
         try:
-            model = Model((*parent.effects, effect))
-            values = {**parent.values, **{effect.key(s): v for s, v in start.items()}}
-            for q in sizes:
-                if not q.linear:
-                    step = {effect.key(q.symbol): thresholds.SMOOTH_STEP}
-                    moved = model.force(signals, {**values, **step})
-                    rows.append((moved - self.force) / thresholds.SMOOTH_STEP)
+            rows = [*effect.added(signals, start), *self._slopes(effect, start)]
         except IncompatibleEffects:
             return None
         gain, found = self._taken(rows, [q.low for q in sizes], [q.high for q in sizes])
         start |= {q.symbol: float(v) for q, v in zip(sizes, found, strict=True)}
         return Candidate(effect, gain, ({effect.key(s): v for s, v in start.items()},))
+
+    def _slopes(self, effect: Effect, start: dict[str, float]) -> list[Array]:
+        """(n,) slopes of the force by the sizes that are no amplitudes."""
+        signals, step = self.problem.block.signals, thresholds.SMOOTH_STEP
+        model = Model((*self.parent.effects, effect))
+        values = {**self.parent.values, **{effect.key(s): v for s, v in start.items()}}
+        out = []
+        for q in effect.sizes:
+            if not q.linear:
+                moved = model.force(signals, {**values, effect.key(q.symbol): step})
+                out.append((moved - self.force) / step)
+        return out
 
     def _gain(self, effect: Effect, guess: dict[str, float]) -> float:
         """Part of the residual's square that an effect takes, in the amounts that suit best.
@@ -132,19 +141,23 @@ class Screen:
     ) -> tuple[float, Array]:
         """Part of the residual's square that some changes (k, n) of the force take, and (k,) of
         each how much."""
+        from scipy.linalg import qr
         from scipy.optimize import lsq_linear
 
-        X = self._beyond(np.array(rows) * self.lever)
+        X = self._beyond(np.array(rows)[:, self.every] * self.lever[self.every])
         scale = np.sqrt(np.einsum("ij,ij->i", X, X))
         use = scale > 0.0
         much = np.zeros(len(rows))
         if not use.any():
             return 0.0, much
         bounds = np.array(low)[use] * scale[use], np.array(high)[use] * scale[use]
-        scaled = (X[use] / scale[use, None]).T
-        found = lsq_linear(scaled, self.residual, bounds=bounds, method="bvls")
+        # What the changes can take lies in as many directions as there are of them.
+        q, r = qr((X[use] / scale[use, None]).T, mode="economic")
+        within = self.residual @ q
+        found = lsq_linear(r, within, bounds=bounds, method="bvls")
         much[use] = found.x / scale[use]
-        return 1.0 - 2.0 * float(found.cost) / max(self.square, 1e-300), much
+        taken = float(within @ within) - 2.0 * float(found.cost)
+        return taken / max(self.square, 1e-300), much
 
     def _beyond(self, rows: Array) -> Array:
         return np.asarray(rows - (rows @ self.basis.T) @ self.basis)

@@ -300,6 +300,32 @@ SMOOTH_STEP = 1e-4
 FEW_KNOTS, MANY_KNOTS, CURVE_ENDS = 6, 12, 0.005
 MOST_KNOTS = 24, 48
 
+# Part of what the first law takes that a further one must.
+# Decides: whether what a law leaves is another one, or the error of its own form.
+# Origin: a curve of few knots is right to a fifth.
+LAW_PART = 0.04
+
+# Time constants of what rings: their number, the shortest over the step of a sample, and the
+# longest over the longest record.
+# Origin: they are a fourth apart, as wide as a resonance of a damping of a tenth; a period is six
+# times as long, and four of them in a record show.
+RING_TIMES, RING_STEPS, RING_LONGEST = 20, 0.5, 0.04
+
+# Samples by which laws are screened, some hundreds of them.
+# Origin: budget; a curve has few values.
+LAW_SAMPLES = 4_000
+
+# Part of the rest that a curve over one coordinate must promise to take, or else laws over any two
+# coordinates are looked at.
+# Origin: what has one coordinate is taken by a curve over it.
+MOST_OF_IT = 0.5
+
+# Knots of either coordinate of a law over two; laws of those that are screened that are fitted; the
+# part of what the best curve leaves that one over two must promise to take; and of what many knots
+# of a curve could take from which on few are as good.
+# Origin: budget; the last two none.
+KNOTS_ACROSS, SURFACES_FITTED, WIDER, AS_FEW = 4, 2, 0.1, 0.9
+
 # Points of a curve as documents give it.
 # Origin: budget.
 CURVE_POINTS = 33
@@ -322,9 +348,10 @@ FORMS_FITTED, FORM_STARTS, LEAST_FACTOR = 4, 8, 0.05
 # Origin: budget; its sign turns the phase by a half.
 SWING, PHASES = 0.05, (0.0, 0.125, 0.25, 0.375)
 
-# Laws that are fitted of those that are screened, and that one model may learn.
+# Laws that are fitted of those that are screened, effects that are fitted in the place of one, and
+# laws that one model may learn.
 # Origin: budget.
-LAWS_FITTED, MOST_LAWS = 8, 3
+LAWS_FITTED, NAMES_FITTED, MOST_LAWS = 5, 3, 3
 
 # --- record effects (a gain and an offset of each record) ---------------------------------------
 

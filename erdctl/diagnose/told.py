@@ -19,8 +19,9 @@ from erdctl.core.signals import Signals
 from erdctl.diagnose import thresholds
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
-from erdctl.model.learned.coordinates import along
+from erdctl.model.learned.coordinates import Memory, along
 from erdctl.model.learned.law import LearnedEffect
+from erdctl.model.learned.surface import Surface
 
 
 def as_begun(model: Model, values: Mapping[str, float]) -> dict[str, float]:
@@ -52,8 +53,10 @@ def _told(
 ) -> tuple[LearnedEffect, dict[str, float]] | None:
     """One curve through the knots that are told, with their values; None where all are."""
     law, p = effect.law, effect.local(values)
+    if isinstance(law.curve, Surface):
+        return _surface_told(effect, law.curve, p, s, rest, whole)
     curve, knots = law.curve, np.array(law.curve.knots)
-    z = along(curve.coordinate, s, p.get("tau"))
+    z = along(curve.coordinate, s, Memory.of(p))
     told = np.flatnonzero(_near(z, knots, rest, whole))
     if len(told) == len(knots):
         return None
@@ -69,6 +72,40 @@ def _told(
     return (
         replace(new.effect, name=effect.name),
         {effect.key(symbol): value for symbol, value in own.items()},
+    )
+
+
+def _surface_told(
+    effect: LearnedEffect, surface: Surface, p: Mapping[str, float], s: Signals, rest: Array,
+    whole: Array,
+) -> tuple[LearnedEffect, dict[str, float]] | None:  # fmt: skip
+    """One surface with, at knots that are not told, the value of the nearest that are.
+
+    A fit leaves these as they are, as the samples that it has say nothing of them.
+    """
+    grid = [np.array(axis.knots) for axis in surface.axes]
+    z = [along(axis.coordinate, s, Memory.of(p)) for axis in surface.axes]
+    known = np.isfinite(z[0]) & np.isfinite(z[1])
+    i, j = (np.searchsorted(0.5 * (k[:-1] + k[1:]), v[known]) for k, v in zip(grid, z, strict=True))
+    cells = len(grid[0]) * len(grid[1])
+    of = [np.bincount(i * len(grid[1]) + j, w[known], cells) for w in (rest, whole)]
+    told = of[0] > thresholds.TOLD * of[1]
+    if told[of[1] > 0.0].all():
+        return None
+    symbols = [q.symbol for q in surface.amplitudes(effect.law.unit)]
+    values = np.concatenate([np.zeros(cells - len(symbols)), [p[symbol] for symbol in symbols]])
+    if told.any():
+        at = np.array(np.unravel_index(np.arange(cells), [len(k) for k in grid])).T
+        apart = np.abs(at[:, None] - at[None, told]).sum(axis=2)
+        values = values[told][apart.argmin(axis=1)]
+    else:
+        values = np.zeros(cells)
+    whole_grid = replace(surface, zero_first=False)
+    new = replace(effect.law, curve=whole_grid)
+    own = zip((q.symbol for q in whole_grid.amplitudes(new.unit)), values.tolist(), strict=True)
+    return (
+        replace(new.effect, name=effect.name),
+        {effect.key(symbol): value for symbol, value in own},
     )
 
 

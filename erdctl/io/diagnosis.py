@@ -128,20 +128,30 @@ def _learned(found: Diagnosis, corrected: Parameters) -> dict[str, Any]:
 
 def _law(f: LearnedLaw, corrected: Parameters) -> dict[str, Any]:
     curve, worth = f.law.curve, f.finding
-    low, high = curve.range
     return {
         "slot": f.law.slot.value,
         "coordinates": [
-            {"name": curve.coordinate, "unit": curve.kind.unit, "low": low, "high": high}
+            {
+                "name": axis.coordinate,
+                "unit": axis.kind.unit,
+                "low": axis.range[0],
+                "high": axis.range[1],
+            }
+            for axis in curve.axes
         ],
         "form": curve.form or "spline",
-        "equation": f"{f.law.equation}, z {curve.kind.words}",
+        "equation": f"{f.law.equation}, {f.law.where}",
         "text": law_text(f),
         "parameters": _parameters(worth.effect, corrected),
-        "curve": {"z": f.z.tolist(), "f": f.f.tolist(), "unit": f.law.unit},
+        "curve": {
+            **{name: z.tolist() for name, z in zip("zy", f.z, strict=False)},
+            "f": f.f.tolist(),
+            "unit": f.law.unit,
+        },
         **_worth(worth),
         "equivalent": [
-            {"slot": a.slot.value, "coordinates": [a.curve.coordinate]} for a in f.alike
+            {"slot": a.slot.value, "coordinates": [axis.coordinate for axis in a.curve.axes]}
+            for a in f.alike
         ],
     }
 

@@ -9,30 +9,24 @@ from __future__ import annotations
 import keyword
 import re
 from dataclasses import replace
-from itertools import product
 from textwrap import wrap
-from typing import Any
+from typing import Any, NamedTuple
 
 import msgspec
-import numpy as np
 
 from erdctl.core.errors import UsageProblem
 from erdctl.core.quantity import Quantity, Scale
-from erdctl.core.recording import Array
-from erdctl.core.signals import Signals
 from erdctl.io import documents
 from erdctl.io.diagnosis import SCHEMA
 from erdctl.io.parameters import parse_parameters
-from erdctl.model.composed import Model
 from erdctl.model.corrected_equation import split
-from erdctl.model.learned.coordinates import along
 from erdctl.model.learned.law import Law, LawSlot, LearnedEffect
+from erdctl.model.learned.surface import Surface
 from erdctl.model.parameters import Parameters
 from erdctl.model.slots import Values
 
 WIDTH = 100
-DIGITS = 6  # of a start
-SHOWN = 12  # samples of the test's motion
+DIGITS = 6  # of a start, and of a motion
 STAGES = {LawSlot.FRICTION: "FRICTION", LawSlot.GAS: "GAS"}  # FLUID otherwise
 # What a log must hold, and over which variable a misfit shows, by the beginning of a coordinate.
 REQUIRES = {
@@ -51,6 +45,25 @@ REQUIRES = {
     "largest_x": ("STROKE", "X"),
 }
 BY_TIME = ("TIME", "TIME")
+
+
+class _Place(NamedTuple):
+    """How a slot is written: its class, what its function returns, and the law's that gives it."""
+
+    slot: str
+    returns: str
+    calls: str
+    what: str
+    more: str = ""
+
+
+ADDED = _Place("TermSlot", "Array", "columns", "(k, n) forces at unit amplitudes [N]")
+SCALED = _Place("ScaleSlot", "dict[str, Array]", "factors", "(n,) factors of groups [1]")
+PLACES = {
+    LawSlot.LAG: _Place("LagSlot", "Array", "lag", "(n,) factor of T_d [1]", ", rising=True"),
+    LawSlot.DUTY: _Place("ControlSlot", "Array", "control", "(n,) duty that acts [1]"),
+    LawSlot.DEFLECTION: _Place("MotionSlot", "Signals", "motion", "Motion of the piston"),
+}
 
 
 class _Corrected(msgspec.Struct):
@@ -98,7 +111,6 @@ def check_name(name: str, taken: tuple[str, ...]) -> None:
 def effect_source(name: str, found: LearnedEffect, values: Values, origin: str) -> str:
     """The file NAME.py; values : of the whole model;  origin : what it was learned from."""
     law, own = found.law, found.local(values)
-    z, (low, high) = law.curve.kind, law.curve.range
     requires, shows = REQUIRES.get(law.curve.coordinate, BY_TIME)
     quantities = [_begun(q, own) for q in found.quantities]
     symbols = [_paragraph(f"{q.symbol} : {q.title} [{q.unit}], {q.low:g} to {q.high:g}, "
@@ -107,20 +119,25 @@ def effect_source(name: str, found: LearnedEffect, values: Values, origin: str) 
     learned = ", ".join(f"{q.symbol} = {own[q.symbol]:.4g}" for q in quantities)
     form = "None" if law.curve.form is None else f'"{law.curve.form}"'
     more = ", zero_first=True" if law.curve.zero_first else ""
-    slot = "TermSlot()" if law.slot.adds else f"ScaleSlot({name})"
+    surface = law.curve if isinstance(law.curve, Surface) else None
+    curve = f'Curve("{law.curve.coordinate}", {_numbers(law.curve.knots)}, {form}{more})'
+    if surface is not None:
+        across = f'Curve("{surface.across.coordinate}", {_numbers(surface.across.knots)})'
+        known = f'"{surface.coordinate}", {_numbers(surface.knots)}{more}'
+        curve = f"Surface({known}, across={across})"
+    place = PLACES.get(law.slot, ADDED if law.slot.adds else SCALED)
+    slot = f"{place.slot}({'' if law.slot.adds else name}{place.more})"
     columns = f"\n    columns={name}," if law.slot.adds else ""
-    returns = "Array" if law.slot.adds else "dict[str, Array]"
-    rows = "LAW.columns(s, p)" if law.slot.adds else "LAW.factors(s, p)"
-    what = "(k, n) forces at unit amplitudes [N]" if law.slot.adds else "(n,) factors of groups [1]"
-    uses = "TermSlot" if law.slot.adds else "ScaleSlot"
     scale = ", Scale" if any(q.scale is Scale.LOG for q in quantities) else ""
     lines = [
         f'"""{found.title.removeprefix("a ").capitalize()}. To be filled in: what it is.',
         "",
         *(f"    {clause}" for clause in split(_equation(law), ", ")),
         "",
-        *_paragraph(f"z : {z.words} [{z.unit}], from {low:.4g} to {high:.4g}, where it was"
-                    " learned; beyond these the law stays at its end value"),
+        *(line for letter, axis in zip("zy", law.curve.axes, strict=False) for line in _paragraph(
+            f"{letter} : {axis.kind.words} [{axis.kind.unit}], from {axis.range[0]:.4g} to"
+            f" {axis.range[1]:.4g}, where it was learned; beyond these the law stays at its end"
+            " value")),
         *(line for s in symbols for line in s),
         *_paragraph(f"Learned from {_plain(origin)}: {learned}"),
         "",
@@ -135,15 +152,15 @@ def effect_source(name: str, found: LearnedEffect, values: Values, origin: str) 
         "from erdctl.model.effect import Effect, Requirement, Stage, Variable",
         "from erdctl.model.learned.curve import Curve",
         "from erdctl.model.learned.law import Law, LawSlot",
-        f"from erdctl.model.slots import {uses}, Values",
+        *(["from erdctl.model.learned.surface import Surface"] if surface else []),
+        f"from erdctl.model.slots import {', '.join(sorted([place.slot, 'Values']))}",
         "",
-        *_call("LAW = Law(", [f"LawSlot.{law.slot.name}",
-               f'Curve("{law.curve.coordinate}", {_numbers(law.curve.knots)}, {form}{more})'], ")"),
+        *call("LAW = Law(", [f"LawSlot.{law.slot.name}", curve], ")"),
         "",
         "",
-        f"def {name}(s: Signals, p: Values) -> {returns}:",
-        f'    """{what}."""',
-        f"    return {rows}",
+        f"def {name}(s: Signals, p: Values) -> {place.returns}:",
+        f'    """{place.what}."""',
+        f"    return LAW.{place.calls}(s, p)",
         "",
         "",
         "EFFECT = Effect(",
@@ -166,74 +183,6 @@ def effect_source(name: str, found: LearnedEffect, values: Values, origin: str) 
     return "\n".join(lines) + "\n"
 
 
-def test_source(name: str, found: LearnedEffect, parameters: Parameters) -> str:
-    """The file test_NAME.py: what the law gave on a short motion, and that it is exactly off."""
-    values = parameters.values
-    paper = {n: values[n] for n in Model().quantities}
-    own = found.local(values)
-    t, x, xdot, duty = motion(found.law, own.get("tau"))
-    force = Model((found,)).force(signals(t, x, xdot, duty), values)
-    arrays = {"T": t, "X": x, "XDOT": xdot, "DUTY": duty, "FORCE": force}
-    lines = [
-        f'"""{name} as it was learned: its force on a short motion, and that it is exactly off."""',
-        "",
-        "from __future__ import annotations",
-        "",
-        "import numpy as np",
-        "",
-        "from erdctl.core.signals import Signals",
-        "from erdctl.effects import get",
-        "from erdctl.model.composed import Model, off_values",
-        "",
-        *(line for key, row in arrays.items() for line in _array(key, row)),
-        *_call("PAPER = {", [f'"{n}": {v!r}' for n, v in paper.items()], "}"),
-        *_call("LEARNED = {", [f'"{name}.{n}": {v!r}' for n, v in own.items()], "}"),
-        "",
-        "",
-        "def motion() -> Signals:",
-        "    step = np.append(np.diff(T), 0.0)",
-        "    return Signals(T, X, XDOT, DUTY, step, np.array([0, len(T)]))",
-        "",
-        "",
-        "def test_its_force_is_what_was_learned() -> None:",
-        f'    force = Model((get("{name}"),)).force(motion(), {{**PAPER, **LEARNED}})',
-        "    np.testing.assert_allclose(force, FORCE, rtol=1e-9, atol=1e-9 * np.ptp(FORCE))",
-        "    assert not np.array_equal(force, Model().force(motion(), PAPER))",
-        "",
-        "",
-        "def test_off_is_exactly_absent() -> None:",
-        f'    model = Model((get("{name}"),))',
-        "    force = model.force(motion(), {**PAPER, **off_values(model)})",
-        "    assert np.array_equal(force, Model().force(motion(), PAPER))",
-    ]  # fmt: skip
-    return "\n".join(lines) + "\n"
-
-
-def motion(law: Law, tau: float | None) -> tuple[Array, Array, Array, Array]:
-    """(n,) time, deflection, velocity and duty of a motion to and fro on which a law shows.
-
-    Of the strokes and periods tried the least on which its coordinate moves as far as it does on
-    most of them, within the range of the law.
-    """
-    part, tried = np.linspace(0.0, 1.0, SHOWN), []
-    for amplitude, period in product(np.geomspace(1e-3, 1.0, 7), np.geomspace(1e-2, 1e2, 9)):
-        angle = 3.0 * np.pi * part
-        speed = 3.0 * np.pi / period * amplitude
-        drive = (part * period, amplitude * np.sin(angle), speed * np.cos(angle),
-                 np.where(part < 0.4, 0.1, 0.5))  # fmt: skip
-        z = np.nan_to_num(along(law.curve.coordinate, signals(*drive), tau))
-        tried.append((float(np.std(np.clip(z, *law.curve.range))), speed, drive))
-    most = max(moved for moved, _, _ in tried)
-    *_, drive = min((t for t in tried if t[0] >= 0.5 * most), key=lambda t: t[1])
-    t, x, xdot, duty = (np.array([float(f"{v:.{DIGITS}g}") for v in a]) for a in drive)
-    return t, x, xdot, duty
-
-
-def signals(t: Array, x: Array, xdot: Array, duty: Array) -> Signals:
-    """One record of these."""
-    return Signals(t, x, xdot, duty, np.append(np.diff(t), 0.0), np.array([0, len(t)]))
-
-
 def _begun(q: Quantity, own: Values) -> Quantity:
     """A parameter whose search begins where it was learned; amplitudes need no start."""
     if q.linear or not q.low <= own[q.symbol] <= q.high:
@@ -249,17 +198,15 @@ def _quantity(q: Quantity) -> list[str]:
     parts += [f"off={q.off!r}"] if q.off != 0.0 else []
     parts += ["scale=Scale.LOG"] if q.scale is Scale.LOG else []
     parts += ["linear=True"] if q.linear else []
-    return [f"        {line}" for line in _call("Quantity(", parts, "),")]
+    return [f"        {line}" for line in call("Quantity(", parts, "),")]
 
 
 def _equation(law: Law) -> str:
     """What becomes of the force, with z said in words."""
-    f = law.curve.equation.replace("Z", f"{max(map(abs, law.curve.range)):.4g}")
-    if law.slot.groups:
-        what = ", ".join(f"F_{g} -> max(1 + {f}, 0) F_{g}" for g in law.slot.groups)
-    else:
-        what = f"F = ({f}) sign(xdot)" if law.slot is LawSlot.FRICTION else f"F = {f}"
-    return f"{what}, z = {law.curve.kind.words}"
+    said = law.equation.replace("Z", f"{max(map(abs, law.curve.range)):.4g}")
+    said = said.replace("F -> F + ", "F = ")
+    axes = zip("zy", law.curve.axes, strict=False)
+    return ", ".join([said, *(f"{letter} = {axis.kind.words}" for letter, axis in axes)])
 
 
 def _alters(law: Law) -> list[str]:
@@ -276,12 +223,7 @@ def _argument(name: str, text: str) -> list[str]:
     return [f"    {name}=(", *(f'        "{piece}"' for piece in pieces), "    ),"]
 
 
-def _array(name: str, values: Array) -> list[str]:
-    numbers = wrap(", ".join(repr(v) for v in values.tolist()) + ",", WIDTH - 4)
-    return [f"{name} = np.array([", *(f"    {line}" for line in numbers), "])"]
-
-
-def _call(begin: str, parts: list[str], end: str) -> list[str]:
+def call(begin: str, parts: list[str], end: str) -> list[str]:
     """A call or a list, in lines that are not too long."""
     if len(begin) + len(", ".join(parts)) + len(end) <= WIDTH - 8:
         return [begin + ", ".join(parts) + end]

@@ -132,10 +132,11 @@ class LawCoordinateDocument(TypedDict):
 
 
 class CurveDocument(TypedDict):
-    """A law as a table: f [unit], of a factor less 1, over z."""
+    """A law as a table: f [unit], of a factor less 1, over z, or over z and y."""
 
     z: list[float]
-    f: list[float]
+    y: NotRequired[list[float]]
+    f: list[float] | list[list[float]]
     unit: str
 
 

@@ -12,6 +12,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
 from erdctl.core.errors import IncompatibleEffects
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import COMPRESSION, DIRECTIONS, RELEASE, Array
@@ -115,11 +117,6 @@ class Model:
                 of_speed = multiplied(of_speed, factors)
             else:
                 scale = multiplied(scale, factors)
-        falls: Array | None = None
-        for effect, lag in self.of(LagSlot):
-            falls = (1.0 if falls is None else falls) * lag(s, effect.local(values))
-        if falls is not None and (falls == 1.0).all():
-            falls = None  # off takes the same path as absent
         return Prepared(
             effects=self.effects,
             signals=s,
@@ -127,12 +124,23 @@ class Model:
             viscous=self.replaced(ViscousSlot, s, values, s.xdot),
             sign=self.replaced(SignSlot, s, values, s.sign),
             fields=self.fields(s, values),
-            falls=falls,
+            lags=self._lags(s, values),
             scale=scale,
             of_speed=of_speed,
             gap=gap,
             values=values,
         )
+
+    def _lags(self, s: Signals, values: Values) -> tuple[Array, Array] | None:
+        """(n,) factors of T_d while the yield force rises and while it falls; None if all are 1."""
+        rises = falls = np.ones(1)
+        for effect, lag in self.of(LagSlot):
+            factor = lag(s, effect.local(values))
+            falls = falls * factor
+            rises = rises * factor if lag.rising else rises
+        if (rises == 1.0).all() and (falls == 1.0).all():
+            return None  # off takes the same path as absent
+        return np.broadcast_to(rises, len(s)).copy(), np.broadcast_to(falls, len(s)).copy()
 
     def _jointed(self, values: Values) -> bool:
         """Whether a compliance in series with the whole damper acts, whose joint may have play."""

@@ -94,15 +94,15 @@ def yield_force(
     T_c: float,
     T_r: float,
     *,
-    falls: Array | None = None,
+    lags: tuple[Array, Array] | None = None,
 ) -> Array:
     """The state F_ER of Eq. 12, solved exactly for a control held from sample to sample.
 
         T_d dF/dt + F = u,   u = compression or release, whichever way the piston moves
 
     compression, release : (n,) steady value u for either direction [N];  T_c, T_r : time constants
-    for either direction [s], 0 for none;  falls : (n,) factor of both while the force falls, with
-    which the solution is no longer linear in u
+    for either direction [s], 0 for none;  lags : (n,) factors of both while the force rises and
+    while it falls, with which the solution is no longer linear in u
     Returns (n,) F_ER [N].
 
     A step in which the piston turns is solved in two parts, before and after the turn, so the
@@ -122,16 +122,16 @@ def yield_force(
     floor = 1e-12  # s; with one time constant 0 that direction follows within any real step
     step = signals.common_step
     # A compiler costs 0.3 s to load. Where that is done, its loop is several times as fast.
-    if falls is not None or "numba" in sys.modules:
+    if lags is not None or "numba" in sys.modules:
         from erdctl.model.recurrences import forming
 
         part = np.zeros(len(up))
         part[turn] = before
         even = signals.step if step is None else np.where(signals.step > 0, step, 0.0)
-        falls = np.ones(len(up)) if falls is None else falls
+        rises, falls = (np.ones(len(up)),) * 2 if lags is None else lags
         return forming(
             compression, release, up, part, even, signals.starts,
-            max(T_c, floor), max(T_r, floor), falls,
+            max(T_c, floor), max(T_r, floor), rises, falls,
         )  # fmt: skip
     exponent: Array | float
     if step is not None and T_c == T_r:

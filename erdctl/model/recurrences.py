@@ -160,19 +160,20 @@ def fading(
 @njit(cache=True)
 def forming(
     u_c: Array, u_r: Array, compressing: npt.NDArray[np.bool_], before: Array, step: Array,
-    starts: Index, T_c: float, T_r: float, falls: Array,
+    starts: Index, T_c: float, T_r: float, rises: Array, falls: Array,
 ) -> Array:  # fmt: skip
-    """Eq. 12 with another time constant while the state falls.
+    """Eq. 12 with other time constants while the state rises and while it falls.
 
-        T dF/dt + F = u,   T = T_d while |u| >= |F|, falls T_d while |u| < |F|
+        T dF/dt + F = u,   T = rises T_d while |u| >= |F|, falls T_d while |u| < |F|
 
     u_c, u_r : (n,) steady value in either direction [N];  T_c, T_r : T_d [s] > 0
     compressing : (n,) direction;  before : (n,) part of a step that passes before the turn in it
-    step, falls : (n,) [s], [1];  starts : (r + 1,).  Returns (n,) [N], steady as a record begins.
+    step, rises, falls : (n,) [s], [1], [1];  starts : (r + 1,)
+    Returns (n,) [N], steady as a record begins.
     Check: u = 1 then 0 N, T_d = 10 ms, falls = 2: exp(-1) = 0.3679 N after 20 ms.
     >>> u, step, falls = np.array([1.0, 0.0, 0.0]), np.full(3, 0.02), np.full(3, 2.0)
     >>> up, none, starts = np.ones(3, dtype=bool), np.zeros(3), np.array([0, 3])
-    >>> forming(u, u, up, none, step, starts, 0.01, 0.01, falls).round(4).tolist()
+    >>> forming(u, u, up, none, step, starts, 0.01, 0.01, np.ones(3), falls).round(4).tolist()
     [1.0, 1.0, 0.3679]
     """
     out = np.empty(len(u_c))
@@ -199,6 +200,8 @@ def forming(
                 if abs(u) < abs(y):
                     T *= falls[i]
                     kind += 2
+                else:
+                    T *= rises[i]
                 e = span / T
                 if e != exponents[kind]:
                     exponents[kind], fades[kind] = e, np.exp(-e)

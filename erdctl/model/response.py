@@ -48,7 +48,7 @@ class Prepared:
 
     gas, viscous, sign : (n,) shapes in place of x, xdot and sign(xdot)
     fields : (n,) normalised steady yield force for either direction
-    falls : (n,) factor of T_d while the yield force falls, or None
+    lags : (n,) factors of T_d while the yield force rises and while it falls, or None
     scale, of_speed : (n,) factors of groups; behind a spring, those of speed follow the piston's
     gap : free play [m] in the joint of a compliance in series
     """
@@ -59,7 +59,7 @@ class Prepared:
     viscous: Array
     sign: Array
     fields: tuple[Array, Array]
-    falls: Array | None
+    lags: tuple[Array, Array] | None
     scale: Factors
     of_speed: Factors
     gap: float
@@ -179,7 +179,7 @@ class Prepared:
     def yield_state(self, compression: Array, release: Array) -> Array:
         """(n,) F_ER of Eq. 12 for given steady values in either direction."""
         T_c, T_r = pair(self.values, "T_d")
-        return paper.yield_force(self.signals, compression, release, T_c, T_r, falls=self.falls)
+        return paper.yield_force(self.signals, compression, release, T_c, T_r, lags=self.lags)
 
     def terms(self) -> Sequence[tuple[str, Array]]:
         """Name and (n,) unit response of every amplitude that an effect adds."""
@@ -235,10 +235,10 @@ class Prepared:
         u_c, u_r = (f * s_ for f, s_ in zip(self.fields, pair(values, "sigma"), strict=True))
         k = pair(values, "k_nom") if inner else (0.0, 0.0)
         T = [max(T_d, 1e-9) for T_d in pair(values, "T_d")]
-        falls = ones if self.falls is None else self.falls
+        rises, falls = (ones, ones) if self.lags is None else self.lags
         viscous = np.array(pair(values, "c_vis"))[:, None] * viscous
         force, stretch, v = march(
-            self.gas, s.xdot, s.step, falls, s.starts, s.compressing, s.rests,
+            self.gas, s.xdot, s.step, rises, falls, s.starts, s.compressing, s.rests,
             u_c, u_r,
             gain["gas"], gain["viscous"], gain["yield"], grid, viscous, sign, friction,
             k[0], k[1], T[0], T[1], compliance, self.gap,

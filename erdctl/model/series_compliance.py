@@ -116,7 +116,7 @@ def _moved(
 
 @njit(cache=True)
 def march(
-    x: Array, xdot: Array, step: Array, falls: Array, starts: Index,
+    x: Array, xdot: Array, step: Array, rises: Array, falls: Array, starts: Index,
     compressing: npt.NDArray[np.bool_], rests: npt.NDArray[np.bool_],
     u_c: Array, u_r: Array, g_gas: Array, g_visc: Array, g_yield: Array,
     grid: Array, viscous: Array, sign: Array, friction: Array,
@@ -165,7 +165,7 @@ def march(
                     else:
                         mean, span = 0.5 * b, dt - before
                 u = u_c[i - 1] if up else u_r[i - 1]
-                T = (T_c if up else T_r) * (falls[i - 1] if abs(u) < abs(y) else 1.0)
+                T = (T_c if up else T_r) * (falls if abs(u) < abs(y) else rises)[i - 1]
                 decay = span / T
                 if decay != last:
                     last, fade = decay, np.exp(-decay)

@@ -89,9 +89,11 @@ def _beyond_laws(parameters: Parameters, recording: Recording) -> list[str]:
     out = []
     for effect in parameters.model.effects:
         if isinstance(effect, LearnedEffect):
-            curve, p = effect.law.curve, effect.local(parameters.values)
-            least, most, part = curve.beyond(Signals.of(recording), p)
-            if part > 0.0:
+            p, s = effect.local(parameters.values), Signals.of(recording)
+            for curve in effect.law.curve.axes:
+                least, most, part = curve.beyond(s, p)
+                if part == 0.0:
+                    continue
                 low, high = curve.range
                 unit = f" {curve.kind.unit}".removesuffix(" 1")
                 out.append(

@@ -164,7 +164,14 @@ class ControlSlot(SampledSlot):
 
 
 class LagSlot(SampledSlot):
-    """(n,) factor of T_d [1] in the step that begins here, while the yield force falls."""
+    """(n,) factor of T_d [1] in the step that begins here, while the yield force falls.
+
+    rising : while it rises, too
+    """
+
+    def __init__(self, function: SamplesFunction, *, rising: bool = False) -> None:
+        super().__init__(function)
+        self.rising = rising
 
 
 class SignSlot(SampledSlot):

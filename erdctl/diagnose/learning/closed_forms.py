@@ -27,7 +27,7 @@ def closed_forms(law: Law, values: Values, z: Array) -> list[tuple[Law, dict[str
     z = np.quantile(z, np.linspace(0.0, 1.0, thresholds.CURVE_POINTS))
     sizes = np.array([values[q.symbol] for q in curve.amplitudes(law.unit)])
     target = sizes @ curve.at(z, values)
-    memory = {symbol: values[symbol] for symbol in ("tau",) if symbol in values}
+    memory = {symbol: values[symbol] for symbol in ("tau", "zeta") if symbol in values}
     found = []
     for form, facts in ((name, f) for name, f in FORMS.items() if f.bends):
         new = replace(curve, knots=curve.range, form=form, zero_first=False)

@@ -7,13 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from erdctl.core.recording import Array
+from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.screening import Candidate
-from erdctl.model.learned.coordinates import KINDS, along
+from erdctl.model.learned.coordinates import KINDS, Memory, along
 from erdctl.model.learned.curve import Curve
 from erdctl.model.learned.law import Law, LawSlot
+from erdctl.model.learned.surface import Surface
 
 
 def laws(problem: Problem) -> Iterator[Law]:
@@ -26,26 +27,77 @@ def laws(problem: Problem) -> Iterator[Law]:
     longest = float((s.t[s.starts[1:] - 1] - s.t[s.starts[:-1]]).max())
     shortest = min(thresholds.LATE_STEPS * s.typical_step, longest)
     taus = np.geomspace(shortest, longest, thresholds.LATE_TIMES).tolist()
+    ends = thresholds.RING_STEPS * s.typical_step, thresholds.RING_LONGEST * longest
+    rates = np.geomspace(min(ends), ends[1], thresholds.RING_TIMES).tolist()
     for name, kind in KINDS.items():
+        if kind.sides:
+            continue
         found = []
         if kind.late:
-            found = [(spread(problem, name, thresholds.FEW_KNOTS, tau), tau) for tau in taus]
+            times = rates if kind.rings else taus
+            few = thresholds.FEW_KNOTS
+            found = [(spread(problem, name, few, Memory(tau)), tau) for tau in times]
         else:
             counts = (thresholds.FEW_KNOTS, thresholds.MANY_KNOTS)
             many = dict.fromkeys(spread(problem, name, count, None) for count in counts)
             found = [(knots, 1.0) for knots in many]
         for knots, tau in found:
             if knots is not None:
-                for slot in LawSlot:
+                for slot in _places(problem, name):
                     yield Law(slot, Curve(name, knots, zero_first=not slot.adds, tau=tau))
 
 
-def spread(problem: Problem, name: str, count: int, tau: float | None) -> tuple[float, ...] | None:
+def _places(problem: Problem, name: str) -> Iterator[LawSlot]:
+    """The slots in which a law of a coordinate may act, as far as a log tells.
+
+    A deflection changes no faster than the motion; a time constant that nothing tells has no law;
+    what rings is a force.
+    """
+    for slot in LawSlot:
+        lags = [f"{d}.T_d" in problem.held for d in DIRECTIONS]
+        told = slot is not LawSlot.LAG or not all(lags)
+        kind = KINDS[name]
+        if kind.rings and slot is not LawSlot.FORCE:
+            continue
+        if told and (slot is not LawSlot.DEFLECTION or kind.steady):
+            yield slot
+
+
+def plain_laws(problem: Problem) -> Iterator[Law]:
+    """One law of each coordinate without memory in each slot behind the lag, to go on from."""
+    for name, kind in KINDS.items():
+        knots = spread(problem, name, thresholds.KNOTS_ACROSS, None) if not kind.late else None
+        if knots is not None and not kind.sides:
+            for slot in LawSlot:
+                if slot.adds or slot.groups:
+                    yield Law(slot, Curve(name, knots))
+
+
+def surfaces(problem: Problem, law: Law, memory: Memory | None) -> Iterator[Law]:
+    """Laws in the same slot over the coordinate of one and a second one, of few knots each."""
+    curve, few = law.curve, thresholds.KNOTS_ACROSS
+    first = spread(problem, curve.coordinate, few, memory)
+    for name, kind in KINDS.items():
+        if kind.late or name.removeprefix("abs_") == curve.coordinate.removeprefix("abs_"):
+            continue
+        second = (-1.0, 1.0) if kind.sides else spread(problem, name, few, None, least=2)
+        if first is not None and second is not None:
+            of = Surface(
+                curve.coordinate, first, zero_first=not law.slot.adds,
+                tau=curve.tau,
+                across=Curve(name, second),
+            )  # fmt: skip
+            yield replace(law, curve=of)
+
+
+def spread(
+    problem: Problem, name: str, count: int, memory: Memory | None, least: int = 3
+) -> tuple[float, ...] | None:
     """Knots where the samples lie, and evenly over what they span, half and half.
 
-    Where a coordinate has so few levels, these; None where it has not three values.
+    Where a coordinate has so few levels, these; None where it has not as many as it must at least.
     """
-    z = along(name, problem.block.signals, tau)
+    z = along(name, problem.block.signals, memory)
     z = z[(problem.block.weight > 0.0) & np.isfinite(z)]
     if z.size == 0:
         return None
@@ -54,19 +106,19 @@ def spread(problem: Problem, name: str, count: int, tau: float | None) -> tuple[
     dense = np.quantile(z, ends + part * (1.0 - 2.0 * ends))
     levels: Array = np.unique(z)
     if len(levels) <= count:
-        return tuple(levels.tolist()) if len(levels) > 2 else None
+        return tuple(levels.tolist()) if len(levels) >= least else None
     knots = 0.5 * (dense + dense[0] + part * (dense[-1] - dense[0]))
     return tuple(knots.tolist()) if (np.diff(knots) > 0.0).all() else None
 
 
-def finer(problem: Problem, law: Law, tau: float | None) -> Law | None:
+def finer(problem: Problem, law: Law, memory: Memory | None) -> Law | None:
     """The same law with twice the knots; None where the log does not fill them."""
     curve, most = law.curve, thresholds.MOST_KNOTS[law.slot.adds]
     count = 2 * len(curve.knots)
-    more = spread(problem, curve.coordinate, count, tau) if count <= most else None
+    more = spread(problem, curve.coordinate, count, memory) if count <= most else None
     if more is None or len(more) <= len(curve.knots):
         return None
-    return replace(law, curve=replace(curve, knots=more, tau=tau or 1.0))
+    return replace(law, curve=replace(curve, knots=more, tau=memory.tau if memory else 1.0))
 
 
 def swings(problem: Problem, frequency: float) -> Iterator[Candidate]:

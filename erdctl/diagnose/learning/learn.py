@@ -16,19 +16,20 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.backward_step import eliminate, without_each
 from erdctl.diagnose.carry_over import to_other_motions
 from erdctl.diagnose.comparison import compare, compare_alike, critical_of, ranked
-from erdctl.diagnose.executor import Executor
+from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.forward_step import Exploration, Explored, key_of, with_effect
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.learning.closed_forms import closed_forms
-from erdctl.diagnose.learning.laws import finer, laws, swings
+from erdctl.diagnose.learning.law_screen import LawScreen
+from erdctl.diagnose.learning.laws import finer, laws, plain_laws, surfaces, swings
 from erdctl.diagnose.levels_of_records import beyond_levels
 from erdctl.diagnose.look_alikes import is_preferred
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.predictability import lack_of_fit_test
-from erdctl.diagnose.screening import Candidate, Screen
+from erdctl.diagnose.screening import Candidate
 from erdctl.diagnose.search import Selection
 from erdctl.model.effect import Effect
-from erdctl.model.learned.coordinates import along
+from erdctl.model.learned.coordinates import Memory, along
 from erdctl.model.learned.law import Law, LearnedEffect
 
 
@@ -54,28 +55,26 @@ def learn(
     x = Exploration(problem, base, Explored([base, named]), executor)
     best = named
     rivals: dict[str, list[Hypothesis]] = {}
+    taken: list[float] = []
     for number in range(1, thresholds.MOST_LAWS + 1):
-        if number > 1 and not lack_of_fit_test(best.problem, best.residual, seed).hint:
+        if number > 1 and not _leaves_more(best, seed):
             break
         stage = f"law {number}"
-        promising = _screened(x, best, laws(problem))
-        if line is not None:
-            promising += swings(problem, line)
-        more = _fitted(x, best, promising, stage)
-        critical = critical_of(problem, best, more)
-        better = [
-            h for h in more
-            if compare_alike(problem, best, h).beyond(critical)
-            and beyond_levels(problem, best, h, critical)
-        ]  # fmt: skip
-        if not better:
+        found, others = _beside(x, best, line, stage)
+        if number == 1 and x.added(named) and (found is None or _leaves_more(found, seed)):
+            anew, instead = _in_place_of_names(x, named, line, stage)
+            if anew and is_preferred(problem, anew, found or named):
+                found, others = anew, instead
+        if found is None:
             break
-        found = _sharpened(x, best, better[0], stage)
-        rivals[found.effects[-1].name] = [
-            h for h in better[1:] if _apart(h, found) and compare(problem, h, better[0]).tied
-        ]
-        best = _catalogued(x, found, candidates, stage)
+        gain = compare(problem, best, found)
+        taken.append(gain.before - gain.after)
+        if taken[-1] < thresholds.LAW_PART * taken[0]:
+            break
+        rivals[learned_in(found.effects)[-1].name] = others
+        best = found
     if best is not named:
+        best = _catalogued(x, best, candidates)
         best = to_other_motions(x, eliminate(x, best), or_records=True)
     names = [e.name for e in x.added(best)]
     without = dict(zip(names, without_each(x, best), strict=True))
@@ -83,18 +82,65 @@ def learn(
     return Selection(x.explored[key_of(base.effects)], best, (), without, alike)
 
 
-def _catalogued(
-    x: Exploration, best: Hypothesis, candidates: Sequence[Effect], stage: str
-) -> Hypothesis:
+def _leaves_more(found: Hypothesis, seed: int) -> bool:
+    """Whether a rest is more than noise."""
+    return lack_of_fit_test(found.problem, found.residual, seed).hint
+
+
+def _beside(
+    x: Exploration, parent: Hypothesis, line: float | None, stage: str
+) -> tuple[Hypothesis | None, list[Hypothesis]]:
+    """A parent with one law more, if any carries over, and those that do as well in its place."""
+    promising = _screened(x, parent, laws(x.problem))
+    wider = _wider(x, parent, promising)
+    if line is not None:
+        promising += swings(x.problem, line)
+    more = _fitted(x, parent, [*promising, *wider], stage)
+    critical = critical_of(x.problem, parent, more)
+    better = [
+        h for h in more
+        if compare_alike(x.problem, parent, h).beyond(critical)
+        and beyond_levels(x.problem, parent, h, critical)
+    ]  # fmt: skip
+    if not better:
+        return None, []
+    found = _of_fewest(x, parent, better, stage)
+    best = better[0]
+    alike = [h for h in better if _apart(h, found) and compare(x.problem, h, best).tied]
+    return found, alike
+
+
+def _in_place_of_names(
+    x: Exploration, named: Hypothesis, line: float | None, stage: str
+) -> tuple[Hypothesis | None, list[Hypothesis]]:
+    """A law beside the model to answer for, and then what the names still say beside it.
+
+    A name that stood in for what no effect says also hides where that acts.
+    """
+    found, alike = _beside(x, x.base, line, stage)
+    if found is None:
+        return None, []
+    effects = (*x.added(named), found.effects[-1])
+    start = {**named.values, **found.values}
+    task = Task(stage, (*x.base.effects, *effects), (start,), record_effects=found.record_effects)
+    both = [h for h in x.executor.fit(x.problem, [task]) if h is not None]
+    for h in both:
+        x.explored.keep(h)
+    better = [h for h in both if is_preferred(x.problem, h, found)]
+    return (better or [found])[0], alike
+
+
+def _catalogued(x: Exploration, best: Hypothesis, candidates: Sequence[Effect]) -> Hypothesis:
     """A hypothesis with an effect in the place of each law that one says as well."""
     known = key_of(best.effects)
     for rest in without_each(x, best):
         (gone,) = (e for e in best.effects if e.name not in key_of(rest.effects))
         if isinstance(gone, LearnedEffect):
             tried = [e for e in candidates if e.name not in known]
-            for h in _fitted(x, rest, _promising(x, rest, tried), stage):
+            likely = _promising(x, rest, tried, thresholds.NAMES_FITTED)
+            for h in _fitted(x, rest, likely, "names of laws"):
                 if is_preferred(x.problem, h, best):
-                    return _catalogued(x, h, candidates, stage)
+                    return _catalogued(x, h, candidates)
     return best
 
 
@@ -108,26 +154,44 @@ def _apart(one: Hypothesis, other: Hypothesis) -> bool:
     return _what(_law(one)[0]) != _what(_law(other)[0])
 
 
-def _screened(x: Exploration, parent: Hypothesis, tried: Iterable[Law]) -> list[Candidate]:
+def _screened(
+    x: Exploration, parent: Hypothesis, tried: Iterable[Law], most: int = thresholds.LAWS_FITTED
+) -> list[Candidate]:
     """The laws that promise most beside a parent."""
     x.executor.progress("screening", part_of("laws to learn", 1, 1))
     known = key_of(parent.effects)
     taken = {_what(e.law) for e in learned_in(parent.effects) if not e.law.curve.kind.late}
     new = (law for law in tried if law.name not in known and _what(law) not in taken)
-    return _promising(x, parent, (law.effect for law in new))
+    return _promising(x, parent, (law.effect for law in new), most)
 
 
-def _what(law: Law) -> tuple[str, str]:
-    """The slot and the coordinate; a curve over x can be any over its size."""
-    return law.slot, law.curve.coordinate.removeprefix("abs_")
+def _what(law: Law) -> tuple[str, ...]:
+    """The slot and the coordinates; a curve over x can be any over its size."""
+    return law.slot, *(axis.coordinate.removeprefix("abs_") for axis in law.curve.axes)
 
 
-def _promising(x: Exploration, parent: Hypothesis, tried: Iterable[Effect]) -> list[Candidate]:
-    """The effects that promise most beside a parent."""
-    screen = Screen(x.problem, parent, x.executor.most)
-    found = [screen.candidate(effect) for effect in tried]
-    best = sorted((c for c in found if c is not None), key=lambda c: -c.gain)
-    return best[: thresholds.LAWS_FITTED]
+def _promising(
+    x: Exploration, parent: Hypothesis, tried: Iterable[Effect], most: int
+) -> list[Candidate]:
+    """The effects that promise most beside a parent; of the curves of one coordinate one."""
+    every = max(1, len(x.problem.block.force) // thresholds.LAW_SAMPLES)
+    screen = LawScreen(x.problem, parent, x.executor.most, every)
+    found = [c for c in map(screen.candidate, tried) if c is not None]
+    of: dict[object, Candidate] = {}
+    for c in found:  # those with fewer knots come first
+        kind, late = _kind(c.effect)
+        if kind not in of or (1.0 if late else thresholds.AS_FEW) * c.gain > of[kind].gain:
+            of[kind] = c
+    return sorted(of.values(), key=lambda c: -c.gain)[:most]
+
+
+def _kind(effect: Effect) -> tuple[object, bool]:
+    """What curves of few and of many knots, or over several times, have in common; whether over
+    times."""
+    if not isinstance(effect, LearnedEffect):
+        return effect.name, False
+    curve = effect.law.curve
+    return (effect.law.slot, *(axis.coordinate for axis in curve.axes)), curve.kind.late
 
 
 def _fitted(
@@ -141,19 +205,49 @@ def _fitted(
     return ranked(found)
 
 
+def _wider(x: Exploration, parent: Hypothesis, curves: Sequence[Candidate]) -> list[Candidate]:
+    """Laws over two coordinates that could take far more than any over one.
+
+    Beside those of promising curves; where none of these could take most, beside any.
+    """
+    found = [c.effect.law for c in curves if isinstance(c.effect, LearnedEffect)]
+    most = max((c.gain for c in curves), default=0.0)
+    if most < thresholds.MOST_OF_IT:
+        found += plain_laws(x.problem)
+    every = (s for law in found for s in surfaces(x.problem, law, Memory(law.curve.tau)))
+    tried = {
+        (law.slot, frozenset(a.coordinate for a in law.curve.axes)): law for law in every
+    }.values()
+    least = most + thresholds.WIDER * (1.0 - most)
+    wide = _screened(x, parent, tried, thresholds.SURFACES_FITTED)
+    return [c for c in wide if c.gain > least]
+
+
+def _of_fewest(
+    x: Exploration, parent: Hypothesis, better: Sequence[Hypothesis], stage: str
+) -> Hypothesis:
+    """The best of some laws over one coordinate, unless one over two is worth its parameters."""
+    plain = [h for h in better if len(_law(h)[0].curve.axes) == 1]
+    wide = [h for h in better if h not in plain]
+    if not plain:
+        return wide[0]
+    found = _sharpened(x, parent, plain[0], stage)
+    return wide[0] if wide and is_preferred(x.problem, wide[0], found) else found
+
+
 def _sharpened(x: Exploration, parent: Hypothesis, found: Hypothesis, stage: str) -> Hypothesis:
     """A law with more knots where these pay, and in a closed form where one does as well."""
     law, values = _law(found)
     if law.curve.form is not None:
         return found
-    while (more := finer(x.problem, law, values.get("tau"))) is not None:
+    while (more := finer(x.problem, law, Memory.of(values))) is not None:
         better = _fitted(x, parent, _screened(x, parent, [more]), stage)
         if not (better and is_preferred(x.problem, better[0], found)):
             break
         found = better[0]
         law, values = _law(found)
     s, weight = x.problem.block.signals, x.problem.block.weight
-    z = along(law.curve.coordinate, s, values.get("tau"))
+    z = along(law.curve.coordinate, s, Memory.of(values))
     z = z[(weight > 0.0) & np.isfinite(z)]
     forms = [
         Candidate(new.effect, 0.0, ({new.effect.key(symbol): v for symbol, v in own.items()},))

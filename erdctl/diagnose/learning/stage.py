@@ -23,6 +23,7 @@ from erdctl.estimate.covariance import Fit
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 from erdctl.model.learned.law import Law, LearnedEffect
+from erdctl.model.learned.surface import Surface
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,14 +33,15 @@ class LearnedLaw:
     finding : what it is worth, and the drive that would tell it from its look-alikes
     alike : laws that would do as well in its place
     tau : the time constant of its coordinate, if that has one [s]
-    z, f : (k,) the curve [N], or [1] of a factor less 1
+    z : of each coordinate (k,) values;  f : (k,) or (k, m) the curve [N], [m], or [1] of a factor
+        less 1
     """
 
     law: Law
     finding: Finding
     alike: tuple[Law, ...]
     tau: float | None
-    z: Array
+    z: tuple[Array, ...]
     f: Array
 
 
@@ -117,7 +119,13 @@ def _law(found: Selection, finding: Finding) -> LearnedLaw:
     effect = finding.effect
     assert isinstance(effect, LearnedEffect)
     law, p = effect.law, effect.local(found.best.values)
-    z = np.linspace(*law.curve.range, thresholds.CURVE_POINTS)
+    curve = law.curve
+    z = tuple(np.linspace(*axis.range, thresholds.CURVE_POINTS) for axis in curve.axes)
+    if isinstance(curve, Surface):
+        shape = len(z[0]), len(z[1])
+        rows = curve.at_both(np.repeat(z[0], shape[1]), np.tile(z[1], shape[0]))
+    else:
+        shape, rows = z[0].shape, curve.at(z[0], p)
     sizes = np.array([p[q.symbol] for q in law.curve.amplitudes(law.unit)])
     others = [h.effects[-1] for _, h in found.look_alikes[effect.name]]
     return LearnedLaw(
@@ -126,5 +134,5 @@ def _law(found: Selection, finding: Finding) -> LearnedLaw:
         alike=tuple(e.law for e in learned_in(others)),
         tau=p.get("tau"),
         z=z,
-        f=sizes @ law.curve.at(z, p),
+        f=(sizes @ rows).reshape(shape),
     )

@@ -15,6 +15,9 @@ OF = {
     LawSlot.VISCOUS: "the viscous force",
     LawSlot.GAS: "the force of the gas",
     LawSlot.FLUID: "the yield and the viscous force",
+    LawSlot.LAG: "the time constant of the yield force",
+    LawSlot.DUTY: "the duty that acts",
+    LawSlot.DEFLECTION: "a deflection",
 }
 
 
@@ -23,30 +26,19 @@ UNITS = {"m": (1e3, "mm"), "m/s": (1e3, "mm/s"), "1": (1.0, "")}
 
 def law_words(law: Law, tau: float | None = None) -> str:
     """Which law it is; tau : the time constant of its memory [s]."""
-    verb = "depends" if law.slot.adds else "change" if law.slot is LawSlot.FLUID else "changes"
-    by = "on" if law.slot.adds else "with"
+    beside = law.unit != "1"
+    verb = "depends" if beside else "change" if law.slot is LawSlot.FLUID else "changes"
+    by = "on" if beside else "with"
     over = "" if tau is None else f" (over {tau:.3g} s)"
-    that = " that" if law.slot.adds else ""
-    return f"{OF[law.slot]}{that} {verb} {by} {law.curve.kind.words}{over}"
+    that = " that" if beside else ""
+    others = "".join(f" and {axis.kind.words}" for axis in law.curve.axes[1:])
+    return f"{OF[law.slot]}{that} {verb} {by} {law.curve.kind.words}{over}{others}"
 
 
 def law_text(found: LearnedLaw) -> str:
     """A law, how far it goes, and what it is worth."""
-    law, f, worth = found.law, found.f, found.finding
-    factor, unit = UNITS.get(law.curve.kind.unit, (1.0, law.curve.kind.unit))
-    low, high = (f"{v * factor:.3g} {unit}".rstrip() for v in law.curve.range)
-    if law.slot.adds:
-        how = f", from {f[0]:.3g} N at {low} to {f[-1]:.3g} N at {high}"
-        extremes = f", between {f.min():.3g} and {f.max():.3g} N"
-    else:
-        change = (1.0 + f[-1]) / max(1.0 + f[0], thresholds.LEAST_FACTOR) - 1.0
-        how = f", by {100 * change:+.0f} % from {low} to {high}"
-        extremes = (
-            f", between {100 * f.min():+.0f} and {100 * f.max():+.0f} % of itself at its reference"
-        )
-    rises = np.diff(f) * np.sign(f[-1] - f[0])
-    between = "" if float(rises.min()) >= -thresholds.FLAT * float(np.ptp(f)) else extremes
-    text = law_words(law, found.tau) + how + between
+    law, worth = found.law, found.finding
+    text = law_words(law, found.tau) + _course(found)
     text += (
         f": leaving it out costs {100 * worth.gain.gain:.0f} % of the mean square error on data"
         f" that the fit had not seen (NRMSE {worth.before:.4f} without it, {worth.after:.4f} with"
@@ -57,3 +49,27 @@ def law_text(found: LearnedLaw) -> str:
     if worth.test is not None:
         text += worth.test.advice("them apart")
     return text
+
+
+def _course(found: LearnedLaw) -> str:
+    """How far a law goes, over which range."""
+    law, f = found.law, found.f
+    size, unit = UNITS.get(law.unit, (1.0, law.unit))
+    ends = []
+    for axis in law.curve.axes:
+        factor, of = UNITS.get(axis.kind.unit, (1.0, axis.kind.unit))
+        ends.append([f"{v * factor:.3g} {of}".rstrip() for v in axis.range])
+    low, high = (" and ".join(of) for of in zip(*ends, strict=True))
+    first, last = float(f.flat[0]), float(f.flat[-1])
+    if law.unit != "1":
+        how = f", from {size * first:.3g} {unit} at {low} to {size * last:.3g} {unit} at {high}"
+        extremes = f", between {size * f.min():.3g} and {size * f.max():.3g} {unit}"
+    else:
+        change = (1.0 + last) / max(1.0 + first, thresholds.LEAST_FACTOR) - 1.0
+        how = f", by {100 * change:+.0f} % from {low} to {high}"
+        extremes = (
+            f", between {100 * f.min():+.0f} and {100 * f.max():+.0f} % of itself at its reference"
+        )
+    rises = np.diff(f) * np.sign(last - first)
+    turns = f.ndim > 1 or float(rises.min()) < -thresholds.FLAT * float(np.ptp(f))
+    return how + (extremes if turns else "")

@@ -8,6 +8,7 @@ way since a turn or a step are infinite before the first one of a record.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -22,11 +23,30 @@ SPOTS = 64  # of the stroke, over each of which passes are counted
 Function = Callable[[Signals], Array]
 
 
+class Memory(NamedTuple):
+    """Of a coordinate that has one: time constant [s], and the damping ratio of what rings [1].
+
+    What rings has the natural frequency 1 / (2 pi tau).
+    """
+
+    tau: float
+    zeta: float = 0.1
+
+    @staticmethod
+    def of(p: Mapping[str, float]) -> Memory | None:
+        """That among some values; None where there is none."""
+        return Memory(p["tau"], p.get("zeta", 0.1)) if "tau" in p else None
+
+
 class CoordinateKind(NamedTuple):
     """One kind of coordinate: its unit, its words, and (n,) its values.
 
     late : whether it has a time constant, and `of` gives what a first-order lag follows
     less : the same, and the lag is taken from what it follows
+    steady : whether it changes no faster than the motion, so that a deflection can go with it
+    rings : `of` gives what an oscillator with that time constant is driven by: "sine", as a mass on
+        a spring, or "cosine", as what a measuring chain adds to what it measures
+    sides : it tells two sides apart and nothing between, which is a second coordinate only
     """
 
     unit: str
@@ -34,23 +54,34 @@ class CoordinateKind(NamedTuple):
     of: Function
     late: bool = False
     less: bool = False
+    steady: bool = False
+    sides: bool = False
+    rings: str = ""
 
 
-def along(kind: str, s: Signals, tau: float | None) -> Array:
-    """(n,) values of a coordinate, over a time constant [s] where it has one.
+def along(kind: str, s: Signals, memory: Memory | None) -> Array:
+    """(n,) values of a coordinate, over its memory where it has one.
 
     Check: a duty of 1 from the beginning on, over 1 s: 1 - exp(-t), 0, 0.6321, 0.8647.
     >>> s = signals(np.zeros(3), duty=np.ones(3), step=1.0)
-    >>> along("late_duty", s, 1.0).round(4).tolist()
+    >>> along("late_duty", s, Memory(1.0)).round(4).tolist()
     [0.0, 0.6321, 0.8647]
     """
     known = KINDS[kind]
-    values = known.of(s)
+    values = _plain(kind, s)
     if not known.late:
         return values
-    assert tau is not None
-    lagged = _lagged(s, values, tau, at_rest=not known.less)
+    assert memory is not None
+    if known.rings:
+        return _ringing(s, values, memory, cosine=known.rings == "cosine")
+    lagged = _lagged(s, values, memory.tau, at_rest=not known.less)
     return values - lagged if known.less else lagged
+
+
+@lru_cache(maxsize=32)
+def _plain(kind: str, s: Signals) -> Array:
+    """(n,) values before any memory: the same for all curves over them."""
+    return KINDS[kind].of(s)
 
 
 def _lagged(s: Signals, values: Array, tau: float, *, at_rest: bool) -> Array:
@@ -60,6 +91,39 @@ def _lagged(s: Signals, values: Array, tau: float, *, at_rest: bool) -> Array:
     decay = s.step / tau
     mean = 0.5 * (values + np.append(values[1:], 0.0))
     return first_order(decay, -np.expm1(-decay) * mean, initial, s.starts)
+
+
+def _ringing(s: Signals, values: Array, memory: Memory, *, cosine: bool) -> Array:
+    """(n,) an oscillator that changes of a value set swinging, at rest as a record begins.
+
+        y = sum of dv exp(-zeta w t) sin(w_d t) w/w_d,   t the time since the value changed by dv
+        y = -sum of dv exp(-zeta w t) (cos(w_d t) + zeta w/w_d sin(w_d t))
+
+    with w = 1/tau, w_d = w sqrt(1 - zeta^2); a change is spread over its step.
+    Check: 1 m/s more within 1 ms, w = 100 1/s, zeta = 0.1: after 10 ms exp(-0.1) sin(0.995) 1.005.
+    >>> v = np.ones(12)
+    >>> v[0] = 0.0
+    >>> y = _ringing(signals(v, step=1e-3), v, Memory(0.01), cosine=False)
+    >>> bool(abs(y[10] - np.exp(-0.095) * np.sin(0.945) * 1.005) < 2e-3)
+    True
+    """
+    w = 1.0 / memory.tau
+    fall, turn = memory.zeta * w, w * np.sqrt(1.0 - memory.zeta**2)
+    pole = complex(-fall, turn)
+    ends = s.starts[1:] - 1
+    change = np.append(np.diff(values), 0.0)
+    change[ends] = 0.0
+    step = np.maximum(s.step, 1e-12)
+    since = _since_start(s)
+    phase = turn * np.append(since[1:], since[-1])
+    pushed = change * np.expm1(pole * step) / (pole * step) * np.exp(-1j * phase)
+    zero = np.zeros(len(ends))
+    parts = [
+        first_order(fall * s.step, part, zero, s.starts) for part in (pushed.real, pushed.imag)
+    ]
+    z = (parts[0] + 1j * parts[1]) * np.exp(1j * turn * since)
+    ratio = memory.zeta * w / turn
+    return np.asarray(-(z.real + ratio * z.imag) if cosine else z.imag * w / turn)
 
 
 def _per_record(s: Signals, values: Array, function: Callable[[Array], Array]) -> Array:
@@ -82,6 +146,25 @@ def _travel(s: Signals) -> Array:
     [0.0, 0.1, 0.2]
     """
     return _per_record(s, s.path[0], lambda way: np.cumsum(way) - way)
+
+
+def _field_travel(s: Signals) -> Array:
+    """(n,) travel since the record began times the duty at which it went [m].
+
+    The work of a yield force of 1 N at full duty.
+    """
+    way, duty = s.path[0], s.duty
+    return _per_record(s, way * duty, lambda w: np.cumsum(w) - w)
+
+
+def _flow_work(s: Signals) -> Array:
+    """(n,) integral of xdot^2 since the record began [m^2/s]: the work of 1 N s/m.
+
+    Check: 2 m/s over 1 s a step: 0, 4, 8.
+    >>> _flow_work(signals([2.0, 2.0, 2.0], step=1.0)).tolist()
+    [0.0, 4.0, 8.0]
+    """
+    return _per_record(s, s.step * s.xdot**2, lambda w: np.cumsum(w) - w)
 
 
 def _passes(s: Signals) -> Array:
@@ -121,8 +204,9 @@ def _so_far(values: Function) -> Function:
 
 
 KINDS: Mapping[str, CoordinateKind] = {
-    "x": CoordinateKind("m", "the deflection", lambda s: s.x),
+    "x": CoordinateKind("m", "the deflection", lambda s: s.x, steady=True),
     "abs_x": CoordinateKind("m", "the size of the deflection", lambda s: np.abs(s.x)),
+    "direction": CoordinateKind("1", "the direction", lambda s: s.sign, sides=True),
     "xdot": CoordinateKind("m/s", "the velocity", lambda s: s.xdot),
     "abs_xdot": CoordinateKind("m/s", "the speed", lambda s: np.abs(s.xdot)),
     "duty": CoordinateKind("1", "the duty cycle", lambda s: s.duty),
@@ -135,8 +219,14 @@ KINDS: Mapping[str, CoordinateKind] = {
     "since_duty_step": CoordinateKind(
         "s", "the time since the duty changed", lambda s: s.since_duty_step
     ),
-    "t": CoordinateKind("s", "the time in the record", _since_start),
-    "travel": CoordinateKind("m", "the travel in the record", _travel),
+    "t": CoordinateKind("s", "the time in the record", _since_start, steady=True),
+    "travel": CoordinateKind("m", "the travel in the record", _travel, steady=True),
+    "field_travel": CoordinateKind(
+        "m", "the travel under the field in the record", _field_travel, steady=True
+    ),
+    "flow_work": CoordinateKind(
+        "m^2/s", "the squared speed added up in the record", _flow_work, steady=True
+    ),
     "passes": CoordinateKind("1", "the passes over that place in the record", _passes),
     "largest_x": CoordinateKind("m", "the largest deflection so far", _so_far(lambda s: s.x)),
     "largest_xdot": CoordinateKind("m/s", "the largest speed so far", _so_far(lambda s: s.xdot)),
@@ -151,6 +241,14 @@ KINDS: Mapping[str, CoordinateKind] = {
     ),
     "fresh_x": CoordinateKind(
         "m", "the deflection beyond its mean of late", lambda s: s.x, late=True, less=True
+    ),
+    "ringing_xdot": CoordinateKind(
+        "m/s", "the swing of a mass that the velocity moves", lambda s: s.xdot, late=True,
+        rings="sine",
+    ),
+    "ringing_field": CoordinateKind(
+        "1", "the ringing after a jump of the field's force", lambda s: s.duty * s.sign, late=True,
+        rings="cosine",
     ),
     "fresh_duty": CoordinateKind(
         "1", "the duty cycle beyond its mean of late", lambda s: s.duty, late=True, less=True

@@ -13,12 +13,11 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.learned.coordinates import KINDS, CoordinateKind, along
+from erdctl.model.learned.coordinates import KINDS, CoordinateKind, Memory, along
 from erdctl.model.learned.forms import FORMS
 from erdctl.model.slots import Values
 
-MOST = 1e9  # N, of an added force
-LARGEST = 10.0  # of a factor
+MOST = {"N": 1e9, "m": 1.0, "1": 10.0}  # of an added force, a deflection, a factor
 REMEMBERED = 100_000  # samples, up to which a spline is not evaluated again
 MARGIN = 0.05  # of a range, that is no extrapolation yet
 SHORTEST, LONGEST = 1e-4, 1e5  # s, of a memory
@@ -44,6 +43,11 @@ class Curve:
     tau: float = 1.0
 
     @property
+    def axes(self) -> tuple[Curve, ...]:
+        """The curves whose coordinates it is over: itself."""
+        return (self,)
+
+    @property
     def name(self) -> str:
         """For the name of an effect."""
         what = self.form or f"spline{len(self.knots)}"
@@ -55,8 +59,8 @@ class Curve:
         return KINDS[self.coordinate]
 
     def amplitudes(self, unit: str) -> list[Quantity]:
-        """Those of the rows, in a unit: N, or 1 of a factor."""
-        most = LARGEST if unit == "1" else MOST
+        """Those of the rows, in a unit: N, m, or 1 of a factor."""
+        most = MOST[unit]
         # A factor that is 1 at the first knot is never negative.
         low = -1.0 if unit == "1" and self.form is None else -most
         if self.form is not None:
@@ -69,8 +73,8 @@ class Curve:
             }
         return [
             Quantity(
-                symbol=symbol, unit=unit, title=title, low=low, high=most, linear=unit != "1",
-                start=0.0 if self.form is None else 0.3,
+                symbol=symbol, unit=unit, title=title, low=low, high=most, linear=unit == "N",
+                start=0.0 if self.form is None else 0.3 if unit == "N" else 0.03 * most,
             )
             for symbol, title in titles.items()
         ]  # fmt: skip
@@ -85,6 +89,13 @@ class Curve:
                     low=SHORTEST, high=LONGEST, start=self.tau, off=self.tau, scale=Scale.LOG,
                 )
             )  # fmt: skip
+        if self.kind.rings:
+            out.append(
+                Quantity(
+                    symbol="zeta", unit="1", title="damping ratio of what rings",
+                    low=0.005, high=0.95, start=0.1, off=0.1, scale=Scale.LOG,
+                )
+            )  # fmt: skip
         if self.form is not None:
             out += FORMS[self.form].parameters(self.kind.unit, *self.range)
         return out
@@ -96,7 +107,7 @@ class Curve:
 
     def beyond(self, s: Signals, p: Values) -> tuple[float, float, float]:
         """Least and largest value of the coordinate, and the part of the samples out of range."""
-        z, (low, high) = along(self.coordinate, s, p.get("tau")), self.range
+        z, (low, high) = along(self.coordinate, s, Memory.of(p)), self.range
         z, margin = z[np.isfinite(z)], MARGIN * (high - low)
         if z.size == 0:
             return low, high, 0.0
@@ -112,11 +123,11 @@ class Curve:
 
     def rows(self, s: Signals, p: Values) -> Array:
         """(k, n) what an amplitude of 1, and 0 for the others, gives."""
-        tau = p["tau"] if self.kind.late else None
+        memory = Memory.of(p) if self.kind.late else None
         if self.form is None:
             known = _known if len(s) <= REMEMBERED else _through
-            return known(self.coordinate, s, tau, self.knots)[int(self.zero_first) :]
-        return self.at(along(self.coordinate, s, tau), p)
+            return known(self.coordinate, s, memory, self.knots)[int(self.zero_first) :]
+        return self.at(along(self.coordinate, s, memory), p)
 
     def at(self, z: Array, p: Values) -> Array:
         """(k, n) the same at values of the coordinate (n,).
@@ -141,9 +152,9 @@ def _spline(z: Array, knots: tuple[float, ...]) -> Array:
     return np.ascontiguousarray(spline(np.clip(z, knots[0], knots[-1])).T)
 
 
-def _through(coordinate: str, s: Signals, tau: float | None, knots: tuple[float, ...]) -> Array:
-    return _spline(along(coordinate, s, tau), knots)
+def _through(coordinate: str, s: Signals, memory: Memory | None, knots: tuple[float, ...]) -> Array:
+    return _spline(along(coordinate, s, memory), knots)
 
 
 # A search moves one parameter at a time, and most of them move no coordinate.
-_known = lru_cache(maxsize=4)(_through)
+_known = lru_cache(maxsize=32)(_through)

@@ -1,17 +1,22 @@
 """A learned law as an effect: a curve in one place of the model, its values the parameters.
 
-    force      F -> F + f(z)
-    friction   F -> F + f(z) sign(xdot)
-    yield      F_yield -> max(1 + f(z), 0) F_yield, and so of viscous and gas
-    fluid      the same of F_viscous and F_yield together
+    force       F -> F + f(z)
+    friction    F -> F + f(z) sign(xdot)
+    yield       F_yield -> max(1 + f(z), 0) F_yield, and so of viscous and gas
+    fluid       the same of F_viscous and F_yield together
+    lag         T_d -> max(1 + f(z), 0.01) T_d
+    duty        v -> max(1 + f(z), 0) v, at most 1
+    deflection  x -> x + f(z),  xdot -> xdot + d f(z)/dt
 
-z : the coordinate;  f : the curve [N], or [1] of a factor
+z : the coordinate, or two of them;  f : the curve [N], [m] of a deflection, or [1] of a factor
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
+from itertools import pairwise
 
 import numpy as np
 
@@ -19,7 +24,17 @@ from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.effect import Effect, Stage, Variable
 from erdctl.model.learned.curve import Curve
-from erdctl.model.slots import ScaleSlot, TermSlot, Values
+from erdctl.model.slots import (
+    ControlSlot,
+    LagSlot,
+    MotionSlot,
+    ScaleSlot,
+    Slot,
+    TermSlot,
+    Values,
+)
+
+LEAST_LAG = 0.01  # of a time constant
 
 
 class LawSlot(StrEnum):
@@ -31,6 +46,9 @@ class LawSlot(StrEnum):
     VISCOUS = "viscous"
     GAS = "gas"
     FLUID = "fluid"
+    LAG = "lag"
+    DUTY = "duty"
+    DEFLECTION = "deflection"
 
     @property
     def adds(self) -> bool:
@@ -40,7 +58,15 @@ class LawSlot(StrEnum):
     @property
     def groups(self) -> tuple[str, ...]:
         """The groups of forces that it scales."""
-        return () if self.adds else ("viscous", "yield") if self is LawSlot.FLUID else (self.value,)
+        return GROUPS_OF.get(self, ())
+
+
+GROUPS_OF = {
+    LawSlot.YIELD: ("yield",),
+    LawSlot.VISCOUS: ("viscous",),
+    LawSlot.GAS: ("gas",),
+    LawSlot.FLUID: ("viscous", "yield"),
+}
 
 
 @dataclass(frozen=True)
@@ -53,7 +79,7 @@ class Law:
     @property
     def unit(self) -> str:
         """Of the curve."""
-        return "N" if self.slot.adds else "1"
+        return "N" if self.slot.adds else "m" if self.slot is LawSlot.DEFLECTION else "1"
 
     @property
     def name(self) -> str:
@@ -64,10 +90,15 @@ class Law:
     def equation(self) -> str:
         """What becomes of the force, with z for the coordinate."""
         f = self.curve.equation
-        if self.slot.adds:
-            return (
-                f"F -> F + ({f}) sign(xdot)" if self.slot is LawSlot.FRICTION else f"F -> F + {f}"
-            )
+        written = {
+            LawSlot.FORCE: f"F -> F + {f}",
+            LawSlot.FRICTION: f"F -> F + ({f}) sign(xdot)",
+            LawSlot.LAG: f"T_d -> max(1 + {f}, {LEAST_LAG:g}) T_d",
+            LawSlot.DUTY: f"v -> max(1 + {f}, 0) v, at most 1",
+            LawSlot.DEFLECTION: f"x -> x + {f}",
+        }
+        if self.slot in written:
+            return written[self.slot]
         return ", ".join(f"F_{g} -> max(1 + {f}, 0) F_{g}" for g in self.slot.groups)
 
     def columns(self, s: Signals, p: Values) -> Array:
@@ -77,23 +108,71 @@ class Law:
 
     def factors(self, s: Signals, p: Values) -> dict[str, Array]:
         """(n,) factors of groups [1]."""
-        sizes = np.array([p[q.symbol] for q in self.curve.amplitudes("1")])
-        if not sizes.any():
+        change = self._change(s, p)
+        if change is None:
             return {}
-        factor = np.maximum(1.0 + sizes @ self.curve.rows(s, p), 0.0)
-        return dict.fromkeys(self.slot.groups, factor)
+        return dict.fromkeys(self.slot.groups, np.maximum(1.0 + change, 0.0))
+
+    def lag(self, s: Signals, p: Values) -> Array:
+        """(n,) factor of T_d [1]."""
+        change = self._change(s, p)
+        return np.ones(len(s)) if change is None else np.maximum(1.0 + change, LEAST_LAG)
+
+    def control(self, s: Signals, p: Values) -> Array:
+        """(n,) duty that reaches the electrodes [1]."""
+        change = self._change(s, p)
+        return s.duty if change is None else np.clip((1.0 + change) * s.duty, 0.0, 1.0)
+
+    def motion(self, s: Signals, p: Values) -> Signals:
+        """Motion with what is added to the deflection, and its slope to the velocity."""
+        more = self._change(s, p)
+        if more is None:
+            return s
+        slope = np.zeros(len(s))
+        for a, b in pairwise(s.starts.tolist()):
+            if b - a > 1:
+                slope[a:b] = np.gradient(more[a:b], s.t[a:b])
+        return s.with_motion(s.x + more, s.xdot + slope)
+
+    def _change(self, s: Signals, p: Values) -> Array | None:
+        """(n,) the curve along a motion; None where all its sizes are 0."""
+        sizes = np.array([p[q.symbol] for q in self.curve.amplitudes(self.unit)])
+        return np.asarray(sizes @ self.curve.rows(s, p)) if sizes.any() else None
+
+    @property
+    def place(self) -> Slot:
+        """Where it enters a model."""
+        if self.slot.adds:
+            return TermSlot()
+        others: dict[LawSlot, Callable[[], Slot]] = {
+            LawSlot.LAG: lambda: LagSlot(self.lag, rising=True),
+            LawSlot.DUTY: lambda: ControlSlot(self.control),
+            LawSlot.DEFLECTION: lambda: MotionSlot(self.motion),
+        }
+        return others[self.slot]() if self.slot in others else ScaleSlot(self.factors)
+
+    @property
+    def where(self) -> str:
+        """Its coordinates by their letters."""
+        return ", ".join(f"{z} {a.kind.words}" for z, a in zip("zy", self.curve.axes, strict=False))
+
+    @property
+    def words(self) -> str:
+        """What it depends on."""
+        return " and ".join(axis.kind.words for axis in self.curve.axes)
 
     @property
     def effect(self) -> LearnedEffect:
         """The effect, as a model takes it."""
         adds, curve = self.slot.adds, self.curve
-        low, high = curve.range
-        z = curve.kind
+        ranges = [(axis.kind, *axis.range) for axis in curve.axes]
         return LearnedEffect(
-            name=self.name, stage=Stage.FLUID, slot=TermSlot() if adds else ScaleSlot(self.factors),
-            title=f"a learned law of {z.words}", equation=self.equation,
+            name=self.name, stage=Stage.FLUID, slot=self.place,
+            title=f"a learned law of {self.words}", equation=self.equation,
             source="learned from data",
-            validity=f"{z.words} from {low:.4g} to {high:.4g} {z.unit}",
+            validity=" and ".join(
+                f"{z.words} from {low:.4g} to {high:.4g} {z.unit}" for z, low, high in ranges
+            ),
             requires=(), shows=Variable.TIME,
             quantities=(*curve.amplitudes(self.unit), *curve.shape()),
             columns=self.columns if adds else None, smooth=curve.form is None, law=self,

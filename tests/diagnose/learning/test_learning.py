@@ -40,7 +40,8 @@ def test_the_law_is_said_as_an_equation(warmed: Diagnosis) -> None:
     assert (law.law.slot, law.law.curve.coordinate) == ("force", "fresh_x")
     assert law.law.curve.form == "line"
     assert law.tau == pytest.approx(TAU, rel=0.05)
-    slope = (law.f[-1] - law.f[0]) / (law.z[-1] - law.z[0])
+    (z,) = law.z
+    slope = (law.f[-1] - law.f[0]) / (z[-1] - z[0])
     assert slope == pytest.approx(STIFFNESS, rel=0.05)
     assert not warmed.lack_of_fit.significant
 

@@ -1,0 +1,94 @@
+"""The test of a learned law that became the file of an effect, as source code."""
+
+from __future__ import annotations
+
+from itertools import product
+from textwrap import wrap
+
+import numpy as np
+
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.io.effect_file import DIGITS, WIDTH, call
+from erdctl.model.composed import Model
+from erdctl.model.learned.coordinates import Memory, along
+from erdctl.model.learned.law import Law, LearnedEffect
+from erdctl.model.parameters import Parameters
+
+SHOWN = 12  # samples of the motion
+
+
+def test_source(name: str, found: LearnedEffect, parameters: Parameters) -> str:
+    """The file test_NAME.py: what the law gave on a short motion, and that it is exactly off."""
+    values = parameters.values
+    paper = {n: values[n] for n in Model().quantities}
+    own = found.local(values)
+    t, x, xdot, duty = motion(found.law, Memory.of(own))
+    force = Model((found,)).force(signals(t, x, xdot, duty), values)
+    arrays = {"T": t, "X": x, "XDOT": xdot, "DUTY": duty, "FORCE": force}
+    lines = [
+        f'"""{name} as it was learned: its force on a short motion, and that it is exactly off."""',
+        "",
+        "from __future__ import annotations",
+        "",
+        "import numpy as np",
+        "",
+        "from erdctl.core.signals import Signals",
+        "from erdctl.effects import get",
+        "from erdctl.model.composed import Model, off_values",
+        "",
+        *(line for key, row in arrays.items() for line in _array(key, row)),
+        *call("PAPER = {", [f'"{n}": {v!r}' for n, v in paper.items()], "}"),
+        *call("LEARNED = {", [f'"{name}.{n}": {v!r}' for n, v in own.items()], "}"),
+        "",
+        "",
+        "def motion() -> Signals:",
+        "    step = np.append(np.diff(T), 0.0)",
+        "    return Signals(T, X, XDOT, DUTY, step, np.array([0, len(T)]))",
+        "",
+        "",
+        "def test_its_force_is_what_was_learned() -> None:",
+        f'    force = Model((get("{name}"),)).force(motion(), {{**PAPER, **LEARNED}})',
+        "    np.testing.assert_allclose(force, FORCE, rtol=1e-9, atol=1e-9 * np.ptp(FORCE))",
+        "    assert not np.array_equal(force, Model().force(motion(), PAPER))",
+        "",
+        "",
+        "def test_off_is_exactly_absent() -> None:",
+        f'    model = Model((get("{name}"),))',
+        "    force = model.force(motion(), {**PAPER, **off_values(model)})",
+        "    assert np.array_equal(force, Model().force(motion(), PAPER))",
+    ]  # fmt: skip
+    return "\n".join(lines) + "\n"
+
+
+def motion(law: Law, memory: Memory | None) -> tuple[Array, Array, Array, Array]:
+    """(n,) time, deflection, velocity and duty of a motion to and fro on which a law shows.
+
+    Of the strokes and periods tried the least on which its coordinate moves as far as it does on
+    most of them, within the range of the law.
+    """
+    part, tried = np.linspace(0.0, 1.0, SHOWN), []
+    for amplitude, period in product(np.geomspace(1e-3, 1.0, 7), np.geomspace(1e-2, 1e2, 9)):
+        angle = 3.0 * np.pi * part
+        speed = 3.0 * np.pi / period * amplitude
+        drive = (part * period, amplitude * np.sin(angle), speed * np.cos(angle),
+                 np.where(part < 0.4, 0.1, 0.5))  # fmt: skip
+        moved = 1.0
+        for axis in law.curve.axes:
+            z = np.nan_to_num(along(axis.coordinate, signals(*drive), memory))
+            moved *= float(np.std(np.clip(z, *axis.range)))
+        tried.append((moved, speed, drive))
+    most = max(moved for moved, _, _ in tried)
+    *_, drive = min((t for t in tried if t[0] >= 0.5 * most), key=lambda t: t[1])
+    t, x, xdot, duty = (np.array([float(f"{v:.{DIGITS}g}") for v in a]) for a in drive)
+    return t, x, xdot, duty
+
+
+def signals(t: Array, x: Array, xdot: Array, duty: Array) -> Signals:
+    """One record of these."""
+    return Signals(t, x, xdot, duty, np.append(np.diff(t), 0.0), np.array([0, len(t)]))
+
+
+def _array(name: str, values: Array) -> list[str]:
+    numbers = wrap(", ".join(repr(v) for v in values.tolist()) + ",", WIDTH - 4)
+    return [f"{name} = np.array([", *(f"    {line}" for line in numbers), "])"]
