@@ -37,10 +37,11 @@ def command(
     kind: Annotated[
         str | None,
         typer.Option(
-            metavar="single|pair|null|unknown|crowded|sparse",
-            help="What is hidden; unknown: what `erdctl effects` does not list; crowded and sparse,"
-            " drawn only when asked for: one strong effect among faint ones in records that"
-            " scatter, and few short records of one duty or two.",
+            metavar="single|pair|null|unknown|crowded|sparse|left_out",
+            help="What is hidden; unknown: what `erdctl effects` does not list; crowded, sparse and"
+            " left_out, drawn only when asked for: one strong effect among faint ones in records"
+            " that scatter, few short records of one duty or two, and an effect that is taken out"
+            " of the catalogue for that case.",
         ),
     ] = None,
     concealment: Annotated[

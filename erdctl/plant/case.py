@@ -8,6 +8,7 @@ from erdctl.plant.campaign import Campaign
 from erdctl.plant.noise import ForceNoise, MotionNoise
 from erdctl.plant.plant import Plant
 from erdctl.plant.regions import MisfitRegion
+from erdctl.plant.twin import Lies
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,7 @@ class Truth:
     equivalent : names that no force channel at the rod tells from it
     law : what a fit of the law usually taken should find, by the field's symbols; None where the
     plant's is another
+    lies : where its law acts and of what it is; None where it is none of motion and control
     """
 
     name: str
@@ -33,6 +35,7 @@ class Truth:
     within: float
     equivalent: tuple[str, ...]
     law: dict[str, float] | None = None
+    lies: Lies | None = None
 
 
 @dataclass(frozen=True)

@@ -208,6 +208,7 @@ def _truth(plan: CasePlan, built: Built, k: int) -> Truth:
         within=within,
         equivalent=effect.equivalents,
         law=_law(effect, built.whole.plant),
+        lies=effect.lies,
     )
 
 

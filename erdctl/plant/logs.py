@@ -16,6 +16,7 @@ from erdctl.plant.own import velocity
 from erdctl.plant.plan import stream
 from erdctl.plant.plant import Side
 from erdctl.plant.simulate import Ride, force, rides
+from erdctl.plant.twin import Lies
 
 Array = npt.NDArray[np.float64]
 
@@ -75,6 +76,7 @@ def key(case: Case) -> dict[str, Any]:
                     for name, (value, unit) in truth.parameters.items()
                 },
                 "equivalent": list(truth.equivalent),
+                "lies": None if truth.lies is None else _lies(truth.lies),
             }
             for truth in case.truth
         ],
@@ -94,6 +96,15 @@ def key(case: Case) -> dict[str, Any]:
         **_asked(case),
         "campaign": _campaign(case.campaign),
         "fresh": _campaign(case.fresh),
+    }
+
+
+def _lies(lies: Lies) -> dict[str, Any]:
+    return {
+        "slot": lies.slot,
+        "coordinates": list(lies.coordinates),
+        "curve": lies.curve,
+        "alike": [[slot, list(coordinates)] for slot, coordinates in lies.alike],
     }
 
 

@@ -36,6 +36,22 @@ class Scales:
     tick: float
 
 
+@dataclass(frozen=True)
+class Lies:
+    """Where a law acts, of what it is, and how, in words that a key can say.
+
+    slot : "force", "friction" (a force times sign(xdot)), "yield", "viscous", "gas", "fluid",
+        "lag", "duty" or "deflection"
+    coordinates : by the contract's names;  curve : its value in z and y, in the order of these
+    alike : (slot, coordinates) in which the same law can be said as well
+    """
+
+    slot: str
+    coordinates: tuple[str, ...]
+    curve: str
+    alike: tuple[tuple[str, tuple[str, ...]], ...] = ()
+
+
 @dataclass(frozen=True, kw_only=True)
 class Twin:
     """An effect: how a strength s becomes physics.
@@ -50,6 +66,7 @@ class Twin:
     shows : fields of the plant that state its parameters, and their SI units: "physics.gap",
         "channel.skew", or "own.n" for a parameter that the twin's own file brings
     shape : name -> lowest and highest of a uniform draw
+    lies : where its law acts and of what it is, if it is one of the motion and the control
     hidden : never logged, as a temperature
     soft : what lies behind it no longer moves as the rod does
     rigid : acts by the rod's motion, and is not paired with what is soft
@@ -64,6 +81,7 @@ class Twin:
     build: Callable[[Plant, float, Shape, Scales], Plant]
     shows: Mapping[str, str]
     law: Callable[[Plant], Law] | None = None
+    lies: Lies | None = None
     part: str = ""
     shape: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     hidden: bool = False

@@ -1,7 +1,8 @@
-"""Figures of the kinds of cases that are drawn only when asked for: crowded and sparse."""
+"""Figures of the kinds of cases that are drawn only when asked for: crowded, sparse, left out."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -42,6 +43,30 @@ class Sparse:
     silent: Rate
     unexplained: Rate
     held: Rate
+
+
+@dataclass(frozen=True)
+class LeftOutEffect:
+    """Cases of one effect that was taken out of the catalogue.
+
+    said : what was named or learned in its place, the most frequent first, with how often
+    """
+
+    group: Tally
+    said: tuple[tuple[str, int], ...]
+
+
+def left_out(results: Sequence[Result]) -> tuple[LeftOutEffect, ...]:
+    """Of some such cases, by effect; the first is of all."""
+    hidden = sorted({r.hidden[0].effect for r in results})
+    groups = [("all", results)] if results else []
+    groups += [(name, [r for r in results if r.hidden[0].effect == name]) for name in hidden]
+    return tuple(LeftOutEffect(group(label, some), _said(some)) for label, some in groups)
+
+
+def _said(results: Sequence[Result]) -> tuple[tuple[str, int], ...]:
+    said = (s for r in results for s in (*(f.effect for f in r.findings), *r.learned))
+    return tuple(Counter(said).most_common())
 
 
 def crowded(results: Sequence[Result]) -> Crowded:

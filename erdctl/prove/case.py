@@ -12,10 +12,12 @@ from typing import Any
 import msgspec
 
 from erdctl.core.errors import ComputationProblem, UsageProblem
+from erdctl.effects import catalogue
 from erdctl.io import documents
-from erdctl.prove.catalogued import nameable
+from erdctl.prove.catalogued import nameable, right_names
 
 FOLDERS = ("logs", "fresh", "keys", "diagnoses")
+LEFT_OUT = "left_out"  # a kind of case: what is hidden is taken out of the catalogue
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,7 +34,10 @@ class Wish:
 
 @dataclass(frozen=True)
 class Sealed:
-    """A case that waits for its diagnosis; sha256 : of the bytes of the key file."""
+    """A case that waits for its diagnosis.
+
+    sha256 : of the bytes of the key file;  without : effects that the catalogue is to lack for it
+    """
 
     number: int
     seed: int
@@ -41,6 +46,7 @@ class Sealed:
     fresh: Path
     key: Path
     diagnosis: Path
+    without: tuple[str, ...] = ()
 
 
 def check(wish: Wish, seeds: Iterable[int]) -> None:
@@ -55,10 +61,9 @@ def check(wish: Wish, seeds: Iterable[int]) -> None:
         raise UsageProblem(f"--level is {wish.level:g}, expected misfit over noise above 0, e.g. 3")
     if wish.kind == "null" and (wish.effects or wish.level is not None):
         raise UsageProblem("--kind null hides nothing: leave --effects and --level out")
-    options = _options(wish)
     try:
         for seed in seeds:
-            draw_plan(seed, **options)
+            draw_plan(seed, **_options(wish, _without(wish, seed)))
     except ValueError as problem:
         raise UsageProblem(str(problem)) from None
 
@@ -74,7 +79,8 @@ def seal(wish: Wish, seed: int, number: int, folder: Path) -> Sealed:
 
     from erdctl import plant
 
-    case = plant.draw(seed, **_options(wish))
+    without = _without(wish, seed)
+    case = plant.draw(seed, **_options(wish, without))
     places = [folder / name for name in FOLDERS]
     for place in places:
         place.mkdir(parents=True, exist_ok=True)
@@ -83,7 +89,7 @@ def seal(wish: Wish, seed: int, number: int, folder: Path) -> Sealed:
     key = documents.encode(plant.key(case))
     sealed = Sealed(
         number, seed, hashlib.sha256(key).hexdigest(), logs / f"{name}.parquet",
-        others / f"{name}.parquet", keys / f"{name}.json", diagnoses / f"{name}.json",
+        others / f"{name}.parquet", keys / f"{name}.json", diagnoses / f"{name}.json", without[1:],
     )  # fmt: skip
     pq.write_table(plant.log(case), sealed.log)
     pq.write_table(plant.fresh(case), sealed.fresh)
@@ -100,5 +106,21 @@ def opened(sealed: Sealed) -> dict[str, Any]:
     return key
 
 
-def _options(wish: Wish) -> dict[str, Any]:
-    return {"known": nameable(), **asdict(wish)}
+def _without(wish: Wish, seed: int) -> tuple[str, ...]:
+    """What a seed of the kind LEFT_OUT hides, and the effects that could name it."""
+    if wish.kind != LEFT_OUT:
+        return ()
+    from erdctl.plant.plan import draw_plan
+
+    plan = draw_plan(seed, **{**_options(wish, ()), "kind": "single"})
+    hidden = plan.effects[0].name
+    names = {hidden, *right_names(hidden)}
+    return hidden, *(e.name for e in catalogue() if e.name in names)
+
+
+def _options(wish: Wish, without: tuple[str, ...]) -> dict[str, Any]:
+    """What the plant is asked for; without : see `_without`."""
+    asked = {"known": nameable(), **asdict(wish)}
+    if not without:
+        return asked
+    return {**asked, "known": nameable() - {*without}, "kind": "unknown", "effects": [without[0]]}

@@ -12,16 +12,25 @@ import numpy as np
 from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
-from erdctl.effects import catalogue
+from erdctl.effects import candidates
 from erdctl.io import documents
 from erdctl.io.diagnosis import to_json
 from erdctl.io.logs import read_logs
 from erdctl.io.parameters import parse_parameters
 from erdctl.model.composed import Model
 from erdctl.prove.best import acts, best_fit, damper_values
-from erdctl.prove.case import Sealed, opened
+from erdctl.prove.case import LEFT_OUT, Sealed, opened
 from erdctl.prove.catalogued import right_names, structure
-from erdctl.prove.score import Errors, Found, HiddenEffect, Interval, Printed, located, naming
+from erdctl.prove.score import (
+    Errors,
+    Found,
+    HiddenEffect,
+    Interval,
+    LawPlace,
+    Printed,
+    located,
+    naming,
+)
 
 
 @dataclass(frozen=True)
@@ -38,6 +47,8 @@ class Result:
     flags : what the plant says makes the case unfair or undecidable
     cannot_tell : whether the diagnosis says that these data cannot decide
     learned : what the diagnosis learned of a rest that it could not name, as slot(coordinate)
+    lies : whether that has the slot and the coordinates of what is hidden, or says that a law would
+        do as well that has them; None where the key says of no such
     printed : of a sparse case: what the diagnosis prints with an interval, where its model is the
         true one, so that the plant knows what it should be
     """
@@ -63,6 +74,7 @@ class Result:
     first_place: bool | None = None
     cannot_tell: bool = False
     learned: tuple[str, ...] = ()
+    lies: bool | None = None
     printed: tuple[Printed, ...] = ()
 
 
@@ -77,17 +89,20 @@ class Failed:
 
 def judge(sealed: Sealed) -> Result:
     """Diagnose, write the diagnosis down, and only then open the key."""
-    found = examine(sealed.log)
+    found = examine(sealed.log, sealed.without)
     document = to_json(found)
     sealed.diagnosis.write_bytes(documents.encode(document))
     key = opened(sealed)
     return scored(sealed, document, key, _errors(sealed, found, key))
 
 
-def examine(log: Path) -> Diagnosis:
-    """What `erdctl diagnose LOG` does, given the file alone; of limits none, as none is scored."""
+def examine(log: Path, without: Sequence[str] = ()) -> Diagnosis:
+    """What `erdctl diagnose LOG` does, given the file alone; of limits none, as none is scored.
+
+    without : effects that are not to be tested, as with `--exclude`
+    """
     recording = _read(log)
-    return diagnose(recording, catalogue(), limits=False)
+    return diagnose(recording, candidates(exclude=without), limits=False)
 
 
 def scored(
@@ -114,7 +129,7 @@ def scored(
         number=sealed.number,
         seed=sealed.seed,
         key_sha256=sealed.sha256,
-        kind=key["kind"],
+        kind=LEFT_OUT if sealed.without else key["kind"],
         concealment=key["concealment"],
         colour=key["force_noise"]["colour"],
         motion="exact" if key["motion_noise"]["kind"] == "exact" else "measured",
@@ -138,6 +153,7 @@ def scored(
             f"{law['slot']}({', '.join(z['name'] for z in law['coordinates'])})"
             for law in document.get("learned", ())
         ),
+        lies=_lies(document, key),
         printed=_printed(document, key),
     )
 
@@ -146,6 +162,27 @@ def _mended(document: Mapping[str, Any], hidden: Sequence[HiddenEffect]) -> Iter
     """What a check of the rig names, that a fit does without afterwards."""
     names = {h.effect for h in hidden}
     return (Found(check["code"], ()) for check in document["rig"] if check["code"] in names)
+
+
+def _lies(document: Mapping[str, Any], key: Mapping[str, Any]) -> bool | None:
+    """Whether some law acts where what is hidden outside the catalogue does, and is of the same."""
+    outside = [e for e in key["effects"] if not e["catalogued"] and e.get("lies") is not None]
+    if not outside:
+        return None
+    said = [
+        LawPlace.of(slot, names)
+        for law in document.get("learned", ())
+        for slot, names in [
+            (law["slot"], [z["name"] for z in law["coordinates"]]),
+            *((a["slot"], a["coordinates"]) for a in law["equivalent"]),
+        ]
+    ]
+    true = [
+        LawPlace.of(slot, names)
+        for e in outside
+        for slot, names in [(e["lies"]["slot"], e["lies"]["coordinates"]), *e["lies"]["alike"]]
+    ]
+    return any(place in true for place in said)
 
 
 def _printed(document: Mapping[str, Any], key: Mapping[str, Any]) -> tuple[Printed, ...]:

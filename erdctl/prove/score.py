@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -93,6 +93,27 @@ class Errors:
     def nrmse(self, rms: float | None) -> float | None:
         """An error over the range of the true force."""
         return None if rms is None else rms / self.span
+
+
+@dataclass(frozen=True)
+class LawPlace:
+    """Slot and coordinates of a law, so written that what is the same compares equal."""
+
+    slot: str
+    coordinates: frozenset[str]
+
+    @staticmethod
+    def of(slot: str, names: Iterable[str]) -> LawPlace:
+        """A curve over x can be any over its size; a force that turns with the motion is friction.
+
+        Check: a force of x that has another course for either direction is friction, and more.
+        >>> LawPlace.of("force", ["x", "direction"]) == LawPlace.of("friction", ["abs_x"])
+        True
+        """
+        plain = {name.removeprefix("abs_") for name in names}
+        if slot == "force" and "direction" in plain:
+            return LawPlace("friction", frozenset(plain - {"direction"}))
+        return LawPlace(slot, frozenset(plain))
 
 
 @dataclass(frozen=True)

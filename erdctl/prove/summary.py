@@ -6,7 +6,8 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
-from erdctl.prove.asked import Crowded, Sparse, crowded, sparse
+from erdctl.prove.asked import Crowded, LeftOutEffect, Sparse, crowded, left_out, sparse
+from erdctl.prove.case import LEFT_OUT
 from erdctl.prove.judge import Failed, Result
 from erdctl.prove.score import BAND_NAMES, band
 from erdctl.prove.tally import Rate, Tally, due, explained_wrongly, group
@@ -52,6 +53,7 @@ class Summary:
     nulls: tuple[Tally, ...]
     unknowns: Tally
     unknown_bands: tuple[Tally, ...]
+    unknown_effects: tuple[Tally, ...]
     motions: tuple[Tally, ...]
     concealments: tuple[Tally, ...]
     confusions: tuple[Confusion, ...]
@@ -59,6 +61,7 @@ class Summary:
     failed: int
     crowded: Crowded
     sparse: tuple[Sparse, ...]
+    left_out: tuple[LeftOutEffect, ...]
 
 
 def summarise(results: Sequence[Result], failed: Sequence[Failed] = ()) -> Summary:
@@ -75,6 +78,7 @@ def summarise(results: Sequence[Result], failed: Sequence[Failed] = ()) -> Summa
         nulls=(*_split("", nulls, colours, lambda r: r.colour), group("all", nulls)),
         unknowns=group("all", unknowns),
         unknown_bands=_split("", unknowns, BAND_NAMES, _band),
+        unknown_effects=_split("", unknowns, sorted(set(map(_hidden, unknowns))), _hidden),
         motions=tuple(
             g
             for kind in ("single", "pair", "null", "unknown", "crowded", "sparse")
@@ -99,6 +103,7 @@ def summarise(results: Sequence[Result], failed: Sequence[Failed] = ()) -> Summa
         failed=len(failed),
         crowded=crowded([r for r in results if r.kind == "crowded"]),
         sparse=sparse([r for r in results if r.kind == "sparse"]),
+        left_out=left_out([r for r in results if r.kind == LEFT_OUT]),
     )  # fmt: skip
 
 
@@ -136,6 +141,10 @@ def said_text(r: Result) -> str:
     return " + ".join(names) or "-"
 
 
+def _hidden(r: Result) -> str:
+    return r.hidden[0].effect
+
+
 def _band(r: Result) -> str:
     return band(r.hidden[0].level)
 
@@ -163,7 +172,7 @@ def _confusions(results: Sequence[Result]) -> tuple[Confusion, ...]:
     seeds: dict[tuple[str, str], list[int]] = {}
     for r in results:
         hidden = r.hidden[0].effect if len(r.hidden) == 1 else "nothing"
-        wrong = r.kind not in {"pair", "crowded"} and bool(r.findings) and not r.named
+        wrong = r.kind not in {"pair", "crowded", LEFT_OUT} and bool(r.findings) and not r.named
         if wrong:
             seeds.setdefault((hidden, r.findings[0].effect), []).append(r.seed)
     counts = Counter({pair: len(where) for pair, where in seeds.items()})

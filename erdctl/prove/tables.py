@@ -10,6 +10,7 @@ from erdctl.prove.score import BAND_NAMES
 from erdctl.prove.summary import Summary, hidden_text, said_text
 from erdctl.prove.tally import Rate, Tally
 
+SAID = 4  # of what is said in the place of an effect
 Table = tuple[str, Sequence[str], Sequence[Sequence[str]]]
 
 
@@ -62,11 +63,25 @@ def _every(s: Summary) -> Iterator[Table]:
     )
     yield "Outside the catalogue, by the misfit of the paper's model over the noise", [
         "misfit over noise", "cases", "unexplained", "explained by a wrong name", "adequate",
-        "located", "first place", "learned", "error removed",
+        "located", "first place", "learned", "right slot and coordinate", "error removed",
     ], [
         [g.label, str(g.cases), _rate(g.unexplained), _rate(g.explained), _rate(g.adequate),
-         _rate(g.located), _rate(g.first_place), _rate(g.learned), _part(g.cut)]
+         _rate(g.located), _rate(g.first_place), _rate(g.learned), _rate(g.lies), _part(g.cut)]
         for g in (*s.unknown_bands, s.unknowns) if g.cases
+    ]  # fmt: skip
+    yield "Left out of the catalogue, by effect", [
+        "effect", "cases", "unexplained", "learned", "error removed", "in its place",
+    ], [
+        [row.group.label, str(row.group.cases), _rate(row.group.unexplained),
+         _rate(row.group.learned), _part(row.group.cut),
+         "" if row.group.label == "all" else ", ".join(f"{s} ({n})" for s, n in row.said[:SAID])]
+        for row in s.left_out
+    ]  # fmt: skip
+    yield "Outside the catalogue, by what is hidden", [
+        "hidden", "cases", "learned", "right slot and coordinate", "error removed",
+    ], [
+        [g.label, str(g.cases), _rate(g.learned), _rate(g.lies), _part(g.cut)]
+        for g in s.unknown_effects
     ]  # fmt: skip
     yield "Crowded: a strong effect among faint ones, records that scatter", [
         "", "cases", "strong one first", "spurious per case", "attainable reduction",

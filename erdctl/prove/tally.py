@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from statistics import mean, median
 
+from erdctl.prove.case import LEFT_OUT
 from erdctl.prove.judge import Result
 
 STRONG = 1.0  # misfit over noise from which the attainable reduction is counted
@@ -34,6 +35,7 @@ class Tally:
     right : verdict as it should be for what is hidden
     first_place : the place listed first is a true one, of the misfit or of the effect's own force
     removed : attainable reduction: the error removed, over what the true structure removes; median
+    lies : a law that was learned has slot and coordinates of what is hidden, or says so of another
     learned : something was learned;  cut : part of the paper's error that is removed; median
     """
 
@@ -52,6 +54,7 @@ class Tally:
     removed: float | None
     removed_of: int
     learned: Rate
+    lies: Rate
     cut: float | None
 
 
@@ -60,6 +63,7 @@ def group(label: str, results: Sequence[Result]) -> Tally:
     named = [r.named for r in results if r.named is not None]
     hiding = [r for r in results if r.named is not None]
     places = [r.located for r in results if r.located is not None]
+    places_of = [r.lies for r in results if r.lies is not None]
     first = [r.first_place for r in results if r.first_place is not None]
     parts = [r.fresh.removed for r in hiding if r.level >= STRONG and r.fresh.removed is not None]
 
@@ -82,13 +86,15 @@ def group(label: str, results: Sequence[Result]) -> Tally:
         removed=median(parts) if parts else None,
         removed_of=len(parts),
         learned=Rate(sum(bool(r.learned) for r in results), len(results)),
+        lies=Rate(places_of.count(True), len(places_of)),
         cut=median(r.fresh.cut for r in results) if results else None,
     )
 
 
 def due(r: Result) -> str:
     """The verdict that a case deserves."""
-    return {"null": "adequate", "unknown": "unexplained"}.get(r.kind, "explained")
+    strangers = {"unknown": "unexplained", LEFT_OUT: "unexplained"}
+    return {"null": "adequate", **strangers}.get(r.kind, "explained")
 
 
 def is_due(r: Result) -> bool:

@@ -143,10 +143,11 @@ def test_a_line_names_seed_and_hash_first() -> None:
 
 def test_every_row_of_a_table_has_its_header() -> None:
     found = list(tables(summarise(RESULTS, FAILED)))
-    assert len(found) == 10
-    asked = [result(1, kind="crowded"), result(2, kind="sparse")]
-    found += [t for t in tables(summarise(asked)) if t[0].startswith(("Crowded", "Sparse"))]
-    assert len(found) == 12
+    assert len(found) == 11
+    asked = [result(1, kind="crowded"), result(2, kind="sparse"), result(3, kind="left_out")]
+    kinds = ("Crowded", "Sparse", "Left out")
+    found += [t for t in tables(summarise(asked)) if t[0].startswith(kinds)]
+    assert len(found) == 14
     for _, header, rows in found:
         assert {len(header)} == {len(row) for row in rows}
     assert list(tables(summarise([]))) == []

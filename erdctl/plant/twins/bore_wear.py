@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Lies, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
@@ -19,6 +19,7 @@ TWIN = Twin(
     start=0.2,
     high=10.0,
     build=_build,
+    lies=Lies("friction", ("passes",), "W exp(-z)"),
     shows={"outside.wear": "N", "outside.wear_travel": "m", "outside.wear_span": "m"},
     shape={"passes": (1.0, 4.0)},
     rigid=True,

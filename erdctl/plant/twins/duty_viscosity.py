@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Lies, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
@@ -18,6 +18,7 @@ TWIN = Twin(
     start=0.3,
     high=0.95,
     build=_build,
+    lies=Lies("viscous", ("duty",), "s sin(2 pi n z)"),
     shows={"outside.swing": "1", "outside.swings": "1"},
     shape={"swings": (1.2, 2.6)},
     rigid=True,

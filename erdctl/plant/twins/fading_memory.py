@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Lies, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
@@ -23,6 +23,7 @@ TWIN = Twin(
     start=0.2,
     high=20.0,
     build=_build,
+    lies=Lies("force", ("late_flow",), "A z, less the same over a longer time"),
     shows={
         "outside.memory": "N",
         "outside.memory_short": "s",

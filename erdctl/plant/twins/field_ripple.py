@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Lies, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
@@ -18,6 +18,7 @@ TWIN = Twin(
     start=0.1,
     high=0.95,
     build=_build,
+    lies=Lies("yield", ("t",), "s sin(2 pi f z)"),
     shows={"outside.ripple": "1", "outside.ripple_rate": "Hz"},
     shape={"rate": (11.0, 47.0)},
     rigid=True,

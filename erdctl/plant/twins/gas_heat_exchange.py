@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Lies, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
@@ -17,6 +17,7 @@ TWIN = Twin(
     start=0.2,
     high=10.0,
     build=_build,
+    lies=Lies("force", ("fresh_x",), "k z"),
     shows={"outside.gas_heat": "N/m", "outside.gas_heat_time": "s"},
     shape={"time": (0.3, 3.0)},
     rigid=True,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Lies, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
@@ -19,6 +19,7 @@ TWIN = Twin(
     start=0.3,
     high=0.95,
     build=_build,
+    lies=Lies("yield", ("travel",), "-s exp(-z/L)"),
     shows={"outside.settled": "1", "outside.stirring": "m"},
     shape={"stirring": (0.2, 1.0)},
     rigid=True,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from erdctl.plant.plant import Plant
-from erdctl.plant.twin import Scales, Shape, Twin
+from erdctl.plant.twin import Lies, Scales, Shape, Twin
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:
@@ -19,6 +19,7 @@ TWIN = Twin(
     start=0.1,
     high=5.0,
     build=_build,
+    lies=Lies("friction", ("x",), "B g(z)"),
     shows={"outside.bumps": "N", "outside.bump_pitch": "m", "outside.bump_phase": "rad"},
     shape={"pitch": (0.5, 1.5), "phase": (0.0, 6.28)},
     rigid=True,
