@@ -17,9 +17,9 @@ from doc_files import place
 from places import FIXTURES, SHARED
 
 # What a shortened command leaves out: a search over the whole catalogue takes half a minute, and
-# what it finds is tested in tests/diagnose. The log of the tutorial is searched in full.
+# what it finds is tested in tests/diagnose. The logs of the tutorial are searched in full.
 FEW_EFFECTS = " --effects coulomb_friction,time_skew"
-IN_FULL = "late_amplifier"
+IN_FULL = ("late_amplifier", "stuck_separator")
 ULPS = 3  # by how many units of its last digit a printed number may differ
 PART = 0.003  # or by which part of itself
 
@@ -44,7 +44,8 @@ class Block:
 
 def shortened(command: str) -> str:
     """The command, or the same with less to search."""
-    if "erdctl diagnose" in command and "--effects" not in command and IN_FULL not in command:
+    full = any(name in command for name in IN_FULL)
+    if "erdctl diagnose" in command and "--effects" not in command and not full:
         return command.replace("erdctl diagnose", "erdctl diagnose" + FEW_EFFECTS)
     return command
 
