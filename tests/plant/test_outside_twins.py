@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from plant_rig import UNKNOWN, effect, record, sine
+from plant_rig import DAMPER, UNKNOWN, effect, record, scales, sine
 
 from erdctl.model.learned.coordinates import KINDS
 from erdctl.model.learned.law import LawSlot
@@ -129,6 +129,16 @@ def test_chains_form_more_slowly_in_a_weak_field() -> None:
     down = 20.0 * (0.4 + 0.4 * np.exp(-(t - 3.2) / 0.2))
     np.testing.assert_allclose(force[rise], up[rise], rtol=0.01)
     np.testing.assert_allclose(force[fall], down[fall], rtol=0.01)
+
+
+@pytest.mark.parametrize("name", UNKNOWN)
+def test_a_law_is_a_number_beyond_what_it_was_drawn_for(name: str) -> None:
+    """Fresh records go beyond the stroke, the speed and the duty of the log."""
+    e = effect(name)
+    shape = {k: b for k, (_, b) in e.shape.items()}
+    plant = e.build(DAMPER, e.high, shape, scales())
+    force = simulate(plant, record(sine(2.0, 0.025), DutyProgramme((0.9, 0.0), (0, 300))))
+    assert np.abs(force).max() < 1e6
 
 
 @pytest.mark.parametrize("name", UNKNOWN)

@@ -1,5 +1,7 @@
 """Chains form more slowly in a weak field: T_d times 1 + s (1 - U/U_top).
 
+U_top is the highest duty of the campaign, and above it nothing is slower.
+
 What the state of Eq. 12 would be with that time constant, less what it is with its own.
 """
 
@@ -29,7 +31,7 @@ def _more(
             plain = slow = sigma[side] * first ** beta[side]
         else:
             goal = sigma[side] * U[k] ** beta[side]
-            longer = T[side] * (1.0 + s * (1.0 - U[k] / top))
+            longer = T[side] * (1.0 + s * max(1.0 - U[k] / top, 0.0))
             plain = goal + (plain - goal) * np.exp(-h / T[side])
             slow = goal + (slow - goal) * np.exp(-h / longer)
         out[k] = (slow - plain) * np.sign(v[k])
