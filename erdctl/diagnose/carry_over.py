@@ -59,10 +59,12 @@ def to_other_records(x: Exploration, best: Hypothesis) -> Hypothesis:
 def to_other_motions(x: Exploration, best: Hypothesis, *, or_records: bool = False) -> Hypothesis:
     """A hypothesis without the effects that do not carry over, the worst first.
 
-    or_records : where every record is of a kind of its own, or all are of one, records are left out
+    or_records : where every record is of a kind of its own, some that are near each other are left
+        out together, so that a law has to hold at another stroke or speed than those that it was
+        learned at; and where all are of one kind, records
     """
     few = thinned(x.problem, thresholds.CARRY_SAMPLES)
-    kinds = kinds_of_motion(few.recording)
+    kinds = kinds_of_motion(few.recording, coarse=or_records)
     if kinds is None and or_records and len(few.recording.names) > 1:
         kinds = _of_record(few)
     if kinds is None:
@@ -84,6 +86,34 @@ def to_other_motions(x: Exploration, best: Hypothesis, *, or_records: bool = Fal
         if error(best) <= error(least):
             least = best
     return least
+
+
+def to_every_kind(x: Exploration, best: Hypothesis) -> Hypothesis:
+    """A hypothesis without the learned laws that predict some kind of motion worse, left out.
+
+    What an effect of the catalogue says holds wherever it is valid; a curve was seen at some
+    strokes and speeds, and a gain at one of them is no licence to fail at another.
+    """
+    few = thinned(x.problem, thresholds.CARRY_SAMPLES)
+    kinds = kinds_of_motion(few.recording, coarse=True)
+    if kinds is None:
+        return best
+    names = {e.name for e in best.effects if isinstance(e, LearnedEffect)}
+    if not names:
+        return best
+    of_best = _by_kind(few, kinds, best)
+    for rest in without_each(x, best):
+        gone = names - key_of(rest.effects)
+        if gone and (of_best > thresholds.WORSE_KIND * _by_kind(few, kinds, rest)).any():
+            return to_every_kind(x, rest)
+    return best
+
+
+def _by_kind(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> Array:
+    """Mean square error of each kind that is left out [N^2]."""
+    missed, weight = _missed(problem, kinds, hypothesis)
+    total, count = (np.bincount(kinds, w) for w in (weight * missed**2, weight))
+    return np.asarray(total / np.maximum(count, 1e-300))
 
 
 def carries_over_as_well(x: Exploration, rival: Hypothesis, best: Hypothesis) -> bool:
@@ -136,6 +166,11 @@ def _told_by(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> dict[str
 
 def _error(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> float:
     """Mean square of `left_out_exactly` [N^2]."""
+    missed, weight = _missed(problem, kinds, hypothesis)
+    return float(np.average(missed**2, weights=weight))
+
+
+def _missed(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> tuple[Array, Array]:
+    """(n,) of `left_out_exactly` [N], and the weights of its samples."""
     part = mask_doubtful(problem, hypothesis.model, hypothesis.values)
-    missed = left_out_exactly(part, kinds, hypothesis)
-    return float(np.average(missed**2, weights=part.block.weight))
+    return left_out_exactly(part, kinds, hypothesis), part.block.weight

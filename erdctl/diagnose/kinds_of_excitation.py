@@ -24,12 +24,14 @@ def excitation(recording: Recording) -> Array:
     return np.hstack([np.log(np.maximum(sizes, 1e-12)), duty])
 
 
-def kinds_of_motion(recording: Recording) -> Index | None:
+def kinds_of_motion(recording: Recording, *, coarse: bool = False) -> Index | None:
     """(n,) kind of motion of each sample; None if every record is of its own kind, or all of one.
 
     Of one kind are records whose effective stroke and speed differ by less than a factor of
     KIND_FACTOR, or that are joined by others in between; where that makes more than MOST_KINDS, so
     many, each as narrow as can be.
+
+    coarse : records that are each of their own kind are of COARSE_KINDS, each as narrow as can be
     """
     from scipy.cluster.hierarchy import fcluster, linkage
 
@@ -41,6 +43,8 @@ def kinds_of_motion(recording: Recording) -> Index | None:
     found = fcluster(tree, apart, "distance")
     if found.max() > thresholds.MOST_KINDS:
         found = fcluster(linkage(at, "complete", "chebyshev"), thresholds.MOST_KINDS, "maxclust")
+    if coarse and found.max() == len(at):
+        found = fcluster(linkage(at, "complete", "chebyshev"), thresholds.COARSE_KINDS, "maxclust")
     return _along(recording, np.asarray(found - 1, dtype=np.intp), thresholds.MOTION_KINDS)
 
 

@@ -311,6 +311,17 @@ LAW_PART = 0.04
 # times as long, and four of them in a record show.
 RING_TIMES, RING_STEPS, RING_LONGEST = 20, 0.5, 0.04
 
+# Kinds of motion that are left out in turn where every record is of its own.
+# Decides: whether a law holds at another stroke or speed than those that it was learned at.
+# Origin: two would leave a half to learn from; of four, one may lie within the others.
+COARSE_KINDS = 3
+
+# Mean square of a kind of motion that is left out, over the same without a law, from which on the
+# law is none.
+# Decides: whether a law may fail somewhere for what it gains elsewhere.
+# Origin: left-out errors of one model on records of one kind differ by as much.
+WORSE_KIND = 1.1
+
 # Samples by which laws are screened, some hundreds of them.
 # Origin: budget; a curve has few values.
 LAW_SAMPLES = 4_000

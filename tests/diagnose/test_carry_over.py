@@ -14,6 +14,7 @@ from erdctl.diagnose import carry_over
 from erdctl.diagnose.carry_over import (
     carries_over_as_well,
     left_out_exactly,
+    to_every_kind,
     to_other_motions,
 )
 from erdctl.diagnose.executor import executor
@@ -23,6 +24,8 @@ from erdctl.diagnose.kinds_of_excitation import kinds_of_motion
 from erdctl.diagnose.problem import Problem, prepare
 from erdctl.effects import get
 from erdctl.estimate.starts import fresh_start
+from erdctl.model.learned.curve import Curve
+from erdctl.model.learned.law import Law, LawSlot
 
 MOTIONS = ((0.7, 0.02), (1.9, 0.01), (3.1, 0.006), (1.2, 0.014))
 STEPS = (0.0, 0.1, 0.2, 0.3)
@@ -120,3 +123,35 @@ def test_what_one_kind_of_motion_alone_can_tell_is_not_held_against_it() -> None
     with executor((problem,), 1, lambda stage, what: None) as here:
         x = Exploration(problem, base, Explored([base, best]), here)
         assert [e.name for e in to_other_motions(x, best).effects] == ["input_delay"]
+
+
+@pytest.mark.parametrize(
+    ("slopes", "kept"), [((300.0,) * 4, True), ((-900.0, 300.0, 300.0, 300.0), False)]
+)
+def test_a_law_must_not_fail_at_one_motion_for_what_it_gains_at_others(
+    slopes: tuple[float, ...], kept: bool
+) -> None:
+    out = []
+    for i in range(len(MOTIONS)):
+        for k in range(3):
+            one = moved(i, k, 0.0)
+            assert one.force is not None
+            drag = slopes[i] * np.abs(one.x) * np.sign(one.xdot)
+            out.append(replace(one, force=one.force + drag))
+    problem = prepare(noisy(concatenate(out), seed=8))
+    law = Law(LawSlot.FRICTION, Curve("abs_x", (0.0, 0.02), "line")).effect
+    start = fresh_start(0.04, 0.5)
+    base = fit_hypothesis(problem, (), [start], 20)
+    best = fit_hypothesis(problem, (law,), [{**start, **law.off}], 20)
+    with executor((problem,), 1, lambda stage, what: None) as running:
+        x = Exploration(problem, base, Explored([base, best]), running)
+        assert (to_every_kind(x, best) is best) == kept
+
+
+def test_records_each_of_their_own_kind_are_of_three() -> None:
+    records = [moved(i, 0, 0.0) for i in range(4)]
+    own = concatenate(records)
+    assert kinds_of_motion(own) is None
+    kinds = kinds_of_motion(own, coarse=True)
+    assert kinds is not None
+    assert len(set(kinds.tolist())) == 3

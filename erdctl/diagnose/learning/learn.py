@@ -14,7 +14,7 @@ import numpy as np
 from erdctl.core.progress import part_of
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.backward_step import eliminate, without_each
-from erdctl.diagnose.carry_over import to_other_motions
+from erdctl.diagnose.carry_over import to_every_kind, to_other_motions
 from erdctl.diagnose.comparison import compare, compare_alike, critical_of, ranked
 from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.forward_step import Exploration, Explored, key_of, with_effect
@@ -76,6 +76,7 @@ def learn(
     if best is not named:
         best = _catalogued(x, best, candidates)
         best = to_other_motions(x, eliminate(x, best), or_records=True)
+        best = to_every_kind(x, best)
     names = [e.name for e in x.added(best)]
     without = dict(zip(names, without_each(x, best), strict=True))
     alike = {n: tuple((h.effects[-1].name, h) for h in rivals.get(n, ())) for n in names}
