@@ -69,7 +69,7 @@ def learn(
             break
         gain = compare(problem, best, found)
         taken.append(gain.before - gain.after)
-        if taken[-1] < thresholds.LAW_PART * taken[0]:
+        if number > 1 and taken[-1] < thresholds.LAW_PART * taken[0]:
             break
         rivals[learned_in(found.effects)[-1].name] = others
         best = found
