@@ -136,7 +136,7 @@ class CurveDocument(TypedDict):
 
     z: list[float]
     y: NotRequired[list[float]]
-    f: list[float] | list[list[float]]
+    f: list[float | list[float]]
     unit: str
 
 

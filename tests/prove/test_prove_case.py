@@ -74,7 +74,7 @@ def test_the_key_is_opened_after_the_diagnosis_is_written(
     sealed: Sealed, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     said = document("explained", ("coulomb_friction",))
-    monkeypatch.setattr(judging, "examine", lambda path: None)
+    monkeypatch.setattr(judging, "examine", lambda path, without: None)
     monkeypatch.setattr(judging, "to_json", lambda found: said)
     monkeypatch.setattr(judging, "_errors", lambda *given: Errors(2.0, 1.0, 1.0, 10.0))
     written = []

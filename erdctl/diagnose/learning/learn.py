@@ -53,28 +53,13 @@ def learn(
         far apart to show it
     """
     x = Exploration(problem, base, Explored([base, named]), executor)
-    best = named
-    rivals: dict[str, list[Hypothesis]] = {}
-    taken: list[float] = []
-    for number in range(1, thresholds.MOST_LAWS + 1):
-        if number > 1 and not _leaves_more(best, seed):
-            break
-        stage = f"law {number}"
-        found, others = _beside(x, best, line, stage)
-        if number == 1 and x.added(named) and (found is None or _leaves_more(found, seed)):
-            anew, instead = _in_place_of_names(x, named, line, stage)
-            if anew and is_preferred(problem, anew, found or named):
-                found, others = anew, instead
-        if found is None:
-            break
-        gain = compare(problem, best, found)
-        taken.append(gain.before - gain.after)
-        if number > 1 and taken[-1] < thresholds.LAW_PART * taken[0]:
-            break
-        rivals[learned_in(found.effects)[-1].name] = others
-        best = found
+    best, rivals = _laws(x, named, candidates, line, seed, wide=False)
+    if _leaves_more(best, seed):
+        # A law over two coordinates can be an effect and a law at once: it comes where these fail.
+        wide, others = _laws(x, named, candidates, line, seed, wide=True)
+        if wide is not named and is_preferred(problem, wide, best):
+            best, rivals = wide, others
     if best is not named:
-        best = _catalogued(x, best, candidates)
         best = to_other_motions(x, eliminate(x, best), or_records=True)
         best = to_every_kind(x, best)
     names = [e.name for e in x.added(best)]
@@ -83,17 +68,46 @@ def learn(
     return Selection(x.explored[key_of(base.effects)], best, (), without, alike)
 
 
+def _laws(
+    x: Exploration, named: Hypothesis, candidates: Sequence[Effect], line: float | None, seed: int,
+    *, wide: bool,
+) -> tuple[Hypothesis, dict[str, list[Hypothesis]]]:  # fmt: skip
+    """A hypothesis with laws, one after the other, and what does as well in the place of each.
+
+    wide : over two coordinates, too, and in the place of names
+    """
+    best, rivals, taken = named, dict[str, list[Hypothesis]](), list[float]()
+    for number in range(1, thresholds.MOST_LAWS + 1):
+        if number > 1 and not _leaves_more(best, seed):
+            break
+        stage = f"law {number}"
+        found, others = _beside(x, best, line, stage, wide=wide)
+        if wide and number == 1 and x.added(named) and (found is None or _leaves_more(found, seed)):
+            anew, instead = _in_place_of_names(x, named, line, stage)
+            if anew and is_preferred(x.problem, anew, found or named):
+                found, others = anew, instead
+        if found is None:
+            break
+        gain = compare(x.problem, best, found)
+        taken.append(gain.before - gain.after)
+        if number > 1 and taken[-1] < thresholds.LAW_PART * taken[0]:
+            break
+        rivals[learned_in(found.effects)[-1].name] = others
+        best = found
+    return (best if best is named else _catalogued(x, best, candidates)), rivals
+
+
 def _leaves_more(found: Hypothesis, seed: int) -> bool:
     """Whether a rest is more than noise."""
     return lack_of_fit_test(found.problem, found.residual, seed).hint
 
 
 def _beside(
-    x: Exploration, parent: Hypothesis, line: float | None, stage: str
+    x: Exploration, parent: Hypothesis, line: float | None, stage: str, *, wide: bool
 ) -> tuple[Hypothesis | None, list[Hypothesis]]:
     """A parent with one law more, if any carries over, and those that do as well in its place."""
     promising = _screened(x, parent, laws(x.problem))
-    wider = _wider(x, parent, promising)
+    wider = _wider(x, parent, promising) if wide else []
     if line is not None:
         promising += swings(x.problem, line)
     more = _fitted(x, parent, [*promising, *wider], stage)
@@ -118,7 +132,7 @@ def _in_place_of_names(
 
     A name that stood in for what no effect says also hides where that acts.
     """
-    found, alike = _beside(x, x.base, line, stage)
+    found, alike = _beside(x, x.base, line, stage, wide=True)
     if found is None:
         return None, []
     effects = (*x.added(named), found.effects[-1])

@@ -60,7 +60,8 @@ class Surface(Curve):
     def at_both(self, z: Array, y: Array) -> Array:
         """(k, n) the same at values of the coordinates, (n,) each.
 
-        Check: at the second knot of the first and the first of the second one only f_2_1 counts.
+        Check: at the second knot of the first and the first of the second one f_2_1 counts 1, the
+        others 0.
         >>> f = Surface("x", (0.0, 1.0, 2.0), zero_first=True, across=Curve("duty", (0.0, 1.0)))
         >>> f.at_both(np.array([1.0]), np.array([0.0])).round(9).ravel().tolist()
         [0.0, 1.0, 0.0, 0.0, 0.0]
