@@ -4,7 +4,7 @@ leakage      U' = U (1 - l),            dl/dt = (leakage [U > 0] U - l) / leakag
 sediment     yield (1 - s),             ds/dt = -s |v| / stirring
 ripple       yield (1 + r sin(2 pi f t))
 swing        viscosity (1 + a sin(2 pi n U))
-memory       F = A (y_2 - y_1),         dy_i/dt = (v|v|/V^2 - y_i) / tau_i
+memory       F = A (y_1 - y_2),         dy_i/dt = (v|v|/V^2 - y_i) / tau_i, tau_1 < tau_2
 bleed valve  opens above a compression force, leaves a part of what exceeds its closing force
 chatter      F = k q,  dq = dx;  at |q| = break the seal springs back by `slip`
 wear         F = W exp(-passes(x)) sign(v), passes counted over each spot of the bore
@@ -103,7 +103,7 @@ def advance(s: Array, x0: float, x1: float, v0: float, v1: float, h: float, o: O
 @njit(cache=True)
 def force(s: Array, x: float, way: float, o: Outside) -> float:
     """All forces from outside the table that act beside the fluid [N]."""
-    total = o.memory * (s[LONG] - s[SHORT]) + o.chatter * s[STRETCH] + o.gas_heat * (x - s[COLD])
+    total = o.memory * (s[SHORT] - s[LONG]) + o.chatter * s[STRETCH] + o.gas_heat * (x - s[COLD])
     if o.bumps != 0.0:
         total += o.bumps * bore(x, o) * way
     if o.wear != 0.0:
