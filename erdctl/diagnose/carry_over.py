@@ -18,12 +18,13 @@ import numpy as np
 from erdctl.core.progress import part_of
 from erdctl.core.recording import Array, Index
 from erdctl.diagnose import thresholds
+from erdctl.diagnose.as_taken import as_taken
 from erdctl.diagnose.backward_step import without_each
 from erdctl.diagnose.comparison import compare
 from erdctl.diagnose.forward_step import Exploration, key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fitted_from, over_records
 from erdctl.diagnose.kinds_of_excitation import kinds_of_motion
-from erdctl.diagnose.problem import Problem, mask_doubtful
+from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.thin import thinned
 from erdctl.estimate.linearisation import jacobian
 from erdctl.model.learned.law import LearnedEffect
@@ -172,5 +173,5 @@ def _error(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> float:
 
 def _missed(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> tuple[Array, Array]:
     """(n,) of `left_out_exactly` [N], and the weights of its samples."""
-    part = mask_doubtful(problem, hypothesis.model, hypothesis.values)
+    part = as_taken(problem, hypothesis.model, hypothesis.values)
     return left_out_exactly(part, kinds, hypothesis), part.block.weight

@@ -15,8 +15,9 @@ ONE_CONDITION = (
 def parameters(found: Diagnosis) -> Parameters:
     """The corrected model's parameters, with errors."""
     # At one duty and one speed an interval holds in the model that is named, which may be another.
+    best = (found.learned or found).selection.best
     reasons = dict.fromkeys(found.fit.values, ONE_CONDITION) if found.cannot_tell else {}
-    reasons |= {name: lack.reason for name, lack in found.problem.needs.items()}
+    reasons |= {name: lack.reason for name, lack in best.problem.needs.items()}
     return Parameters(
         model=found.fit.model,
         estimates=estimates(found.fit, reasons),

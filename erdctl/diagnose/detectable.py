@@ -26,9 +26,10 @@ from erdctl.core.progress import Progress, part_of
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.diagnose import thresholds
+from erdctl.diagnose.as_taken import as_taken
 from erdctl.diagnose.comparison import compare
 from erdctl.diagnose.hypothesis import Hypothesis, left_out, slopes
-from erdctl.diagnose.problem import Problem, mask_doubtful
+from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.resolved import next_to_turns
 from erdctl.diagnose.sizes import amount_of, is_linear, point, span, ways
 from erdctl.model.composed import Model
@@ -181,7 +182,7 @@ class Injection:
         added = (force - none) * self.lever
         if not np.isfinite(added).all():
             return None
-        part = mask_doubtful(best.problem, model, full)
+        part = as_taken(best.problem, model, full)
         weight = part.block.weight
         beyond = _project(added[None], self.slopes, weight)[0]
         size = _rms(beyond, weight)

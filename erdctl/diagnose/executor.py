@@ -51,11 +51,13 @@ class Answer(NamedTuple):
     """What a worker sends of a hypothesis: what it was asked is known, and the problem is long.
 
     weight : (n,) of the samples, where the hypothesis's channel makes some of them doubtful
+    told : what the problem holds and the hypothesis does not
     """
 
     fitted: Fitted
     cross_validated: Array
     weight: Array | None
+    told: tuple[str, ...]
     record_effects: RecordEffects | None
 
 
@@ -187,9 +189,9 @@ def _hypothesis(problem: Problem, task: Task, future: Future[Answer | None]) -> 
     answer = future.result()
     if answer is None:
         return None
-    part = problem
+    part = problem.with_free(answer.told) if answer.told else problem
     if answer.weight is not None:
-        part = replace(problem, block=problem.block._replace(weight=answer.weight))
+        part = replace(part, block=problem.block._replace(weight=answer.weight))
     here = replace(answer.fitted, model=Model(task.effects))  # of this process's own effects
     return Hypothesis(part, here, answer.cross_validated, answer.record_effects)
 
@@ -209,5 +211,7 @@ def _answer(number: int, task: Task) -> Answer | None:
     h = fitted(problem, task)
     if h is None:
         return None
-    weight = None if h.problem is problem else h.problem.block.weight
-    return Answer(h.fitted, h.cross_validated, weight, h.record_effects)
+    part = h.problem
+    weight = None if part.block is problem.block else part.block.weight
+    told = tuple(problem.held.keys() - part.held.keys())
+    return Answer(h.fitted, h.cross_validated, weight, told, h.record_effects)

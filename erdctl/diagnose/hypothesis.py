@@ -9,7 +9,8 @@ import numpy as np
 
 from erdctl.core.recording import DIRECTIONS, Array, Index
 from erdctl.diagnose import thresholds
-from erdctl.diagnose.problem import Problem, mask_doubtful
+from erdctl.diagnose.as_taken import as_taken, told_by_control
+from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.record_effects import RecordEffects, estimate
 from erdctl.diagnose.told import as_begun, as_told
 from erdctl.estimate.least_squares import Fitted, at_bound, fit
@@ -96,11 +97,12 @@ def fit_hypothesis(
     model = Model(tuple(effects))
     if problem.free and record_effects is None:
         record_effects = RecordEffects.none(len(problem.recording.names))
-    found, evaluations = _best(problem, model, starts, max_evaluations, record_effects)
-    part = mask_doubtful(problem, model, found.values)
-    if part is not problem:
+    begun = told_by_control(problem, model, _complete(problem, model, starts[0]))
+    found, evaluations = _best(begun, model, starts, max_evaluations, record_effects)
+    part = as_taken(problem, model, found.values)
+    if part.block is not problem.block or part.held.keys() != begun.held.keys():
         found = _fitted(part, model, found.values, max_evaluations, record_effects)
-        part = mask_doubtful(problem, model, found.values)
+        part = as_taken(problem, model, found.values)
         evaluations += found.evaluations
     if record_effects is not None:
         for _ in range(thresholds.RECORD_ROUNDS):
@@ -154,6 +156,7 @@ def rank_starts(
 ) -> list[dict[str, float]]:
     """Starts after a short search from each, the most promising first."""
     model, steps = Model(tuple(effects)), thresholds.STEPS_RANKING
+    problem = told_by_control(problem, model, _complete(problem, model, points[0]))
     found = [_fitted(problem, model, point, steps, record_effects) for point in points]
     return [f.values for f in sorted(found, key=lambda f: f.cost)]
 
@@ -167,8 +170,7 @@ def _fitted(
     whole: Array | None = None,
 ) -> Fitted:
     """A search from one start, which may be that of a larger model; beyond the record effects."""
-    given = {**start, **problem.held}
-    full = {n: given.get(n, q.start) for n, q in model.quantities.items()}
+    full = _complete(problem, model, start)
     block = problem.block if record_effects is None else record_effects.shared(problem.block)
     tolerance = thresholds.SETTLED / max(int(np.count_nonzero(block.weight)), 1)
 
@@ -191,6 +193,12 @@ def _fitted(
     residual = found.residual * record_effects.along(block.signals.starts)[0]
     cost = float(np.dot(problem.block.weight, residual * residual))
     return replace(found, residual=residual, cost=cost if np.isfinite(cost) else np.inf)
+
+
+def _complete(problem: Problem, model: Model, start: Mapping[str, float]) -> dict[str, float]:
+    """Every parameter of a model, of a start that may be another's."""
+    given = {**start, **problem.held}
+    return {n: given.get(n, q.start) for n, q in model.quantities.items()}
 
 
 def fitted_from(problem: Problem, hypothesis: Hypothesis, steps: int, whole: Array) -> Array:

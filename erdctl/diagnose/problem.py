@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -16,9 +16,7 @@ from erdctl.core.recording import Array, Index, Recording
 from erdctl.core.signals import Signals
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.record_effects import NONE_VARY, Varying
-from erdctl.model.composed import Model
 from erdctl.model.parameters import Parameters
-from erdctl.model.slots import ChannelSlot, Values
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +56,15 @@ class Problem:
             return self
         part = prepare(self.recording.select(records), self.free)
         return replace(part, held=self.held, needs=self.needs)
+
+    def with_free(self, betas: Iterable[str]) -> Problem:
+        """The problem with each beta free that is told after all, and with it the sigma beside."""
+        told = {*betas}
+        told |= {n.removesuffix("beta") + "sigma" for n in told}
+        held = {n: v for n, v in self.held.items() if n not in told}
+        return replace(
+            self, held=held, needs={n: v for n, v in self.needs.items() if n not in told}
+        )
 
     def per_group(self, values: Array) -> Array:
         """(g,) weighted sum of (n,) values in each group."""
@@ -100,28 +107,6 @@ def t_statistic(values: Array) -> float:
     if mean == 0.0:
         return 0.0
     return float(mean / error) if error > 0 else float(np.copysign(np.inf, mean))
-
-
-def mask_doubtful(problem: Problem, model: Model, values: Values) -> Problem:
-    """The problem without the samples that a force channel fills from ones of uncertain direction.
-
-    A channel that is late shows the turn of a record late, too: with its uncertain direction, and
-    drawn out over the samples between which the force jumps. One that averages dilutes both.
-    """
-    channel = model.of(ChannelSlot)
-    if not channel:
-        return problem
-    s = problem.block.signals
-    unsure = problem.unsure.copy()
-    unsure[1:] |= unsure[:-1]  # and the samples that share a step with them
-    unsure[:-1] |= unsure[1:]
-    turned = s.turns[0]
-    unsure[turned] = unsure[turned + 1] = True
-    doubt = unsure.astype(np.float64)
-    for effect, slot in channel:
-        doubt = slot(doubt, s, effect.local(values))
-    weight = np.where(doubt > thresholds.DOUBTFUL_PART, 0.0, problem.block.weight)
-    return replace(problem, block=problem.block._replace(weight=weight))
 
 
 def prepare(recording: Recording, free: Varying = NONE_VARY) -> Problem:

@@ -18,11 +18,12 @@ from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import unmet, untestable
 from erdctl.core.recording import Array, Index, Recording
 from erdctl.diagnose import thresholds
+from erdctl.diagnose.as_taken import as_taken
 from erdctl.diagnose.carry_over import left_out_exactly
 from erdctl.diagnose.comparison import compare
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.kinds_of_excitation import excitation, kinds_of_motion, levels_of_duty
-from erdctl.diagnose.problem import Problem, mask_doubtful
+from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.thin import thinned
 from erdctl.model.effect import Effect
 
@@ -117,7 +118,7 @@ def _on(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
     model, values = hypothesis.model, hypothesis.values
     residual = problem.block.force - model.force(problem.block.signals, values)
     fitted = replace(hypothesis.fitted, residual=residual)
-    return Hypothesis(mask_doubtful(problem, model, values), fitted, residual)
+    return Hypothesis(as_taken(problem, model, values), fitted, residual)
 
 
 def _left_out(base: Hypothesis, best: Hypothesis) -> Iterator[Unseen]:
@@ -138,7 +139,7 @@ def _without_each(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> Hyp
 
     Of seven effects on a real damper it told 0.022 of the range where these fits give 0.465.
     """
-    part = mask_doubtful(problem, hypothesis.model, hypothesis.values)
+    part = as_taken(problem, hypothesis.model, hypothesis.values)
     missed = left_out_exactly(part, kinds, hypothesis)
     fitted = replace(hypothesis.fitted, residual=missed)  # of as many samples as the part has
     return replace(hypothesis, problem=part, fitted=fitted, cross_validated=missed)

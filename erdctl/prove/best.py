@@ -14,6 +14,7 @@ from erdctl.core.blocks import thinned
 from erdctl.core.errors import IncompatibleEffects
 from erdctl.core.recording import DIRECTIONS
 from erdctl.core.signals import Signals
+from erdctl.diagnose.as_taken import told_by_control
 from erdctl.diagnose.problem import Problem, prepare
 from erdctl.diagnose.screening import starts
 from erdctl.estimate.least_squares import Fitted, fit
@@ -114,6 +115,7 @@ def _ranked(
 
 
 def _fitted(problem: Problem, model: Model, point: Values, evaluations: int) -> Fitted:
+    problem = told_by_control(problem, model, {**_defaults(model), **point})
     start = {n: v for n, v in {**_defaults(model), **point, **problem.held}.items()
              if n in model.quantities}  # fmt: skip
     return fit(model, problem.block, start=start, fixed=problem.held, max_evaluations=evaluations)

@@ -116,7 +116,7 @@ def read(damper: Concealed, kind: str, number: int = 0, *, free: Varying = NONE_
         effects = [get(damper.effect)] if damper.effect else []
         hypothesis = fit_hypothesis(problem, effects, [truth])
         fit, _ = fit_errors(problem, hypothesis)
-        found = estimates(fit, {n: need.reason for n, need in problem.needs.items()})
+        found = estimates(fit, {n: need.reason for n, need in hypothesis.problem.needs.items()})
     return [Held(name, truth[name], e) for name, e in found.items() if name in truth]
 
 

@@ -12,6 +12,7 @@ import trajectories
 from rig import campaign, noisy, recording
 
 from erdctl.core.recording import Recording, concatenate
+from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
 from erdctl.diagnose.problem import prepare
 from erdctl.effects import get, names
@@ -91,3 +92,18 @@ def test_faint_effects_have_a_name_where_many_records_show_them(many: bool) -> N
     names = [f.effect.name for f in found.findings]
     assert names == ["quadratic_damping", *(["force_offset"] if many else [])]
     assert found.verdict is Verdict.EXPLAINED
+
+
+def test_levels_that_only_a_slow_amplifier_makes_tell_the_exponent_of_the_field(
+    tmp_path: Path,
+) -> None:
+    """One level is commanded; held at 1, the yield force between is another effect's."""
+    found = said(1134092, tmp_path, "supply_slew", "rise_decay_asymmetry")
+    assert [f.effect.name for f in found.findings] == ["supply_slew"]
+    assert found.problem.held.keys() >= BETA
+    told = parameters(found).estimates
+    truth = {"compression.beta": 1.304, "release.beta": 1.478}
+    for name in BETA:
+        interval = told[name].interval
+        assert interval is not None
+        assert interval[0] < truth[name] < interval[1]
