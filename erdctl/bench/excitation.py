@@ -121,6 +121,12 @@ class Survey:
         """Standard deviation of the speed over its mean [1]; 0 at rest."""
         return _speeds(self.signals.xdot)
 
+    @property
+    def warming(self) -> float:
+        """Range of the temperature [degC]; 0 where it is not logged."""
+        warmth = self.signals.temperature
+        return 0.0 if warmth is None else float(np.ptp(warmth))
+
     @cached_property
     def stroke(self) -> float:
         """Range of the deflection [m]."""

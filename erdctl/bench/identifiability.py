@@ -207,6 +207,9 @@ REQUIREMENTS: dict[Requirement, Demand[Survey]] = {
         "acceleration that no spring makes, rms", "m/s^2", 0.01,
         lambda s: s.acceleration, lambda b: b.sweep,
     ),
+    Requirement.TEMPERATURE: Demand(
+        "range of a column temperature", "degC", 2.0, lambda s: s.warming, lambda b: b.sine()
+    ),
     Requirement.TIME: Demand(
         "length of the longest record", "s", 2.0, lambda s: s.longest,
         lambda b: b.sine(),

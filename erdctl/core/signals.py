@@ -30,6 +30,7 @@ class Signals:
     engaged : (n,) part of a sample during which the piston moves with the rod [1], None for always;
         between 0 and 1 only where play in between runs out, so that the force does not jump from
         sample to sample as the play grows
+    temperature : (n,) [degC] where the log has it
     sampled : all samples of the log, and which of them these are (n,), where they are not all; for
         what counts by samples
     """
@@ -41,13 +42,17 @@ class Signals:
     step: Array
     starts: Index
     engaged: Array | None = None
+    temperature: Array | None = None
     sampled: tuple[Signals, Index] | None = None
 
     @classmethod
     def of(cls, recording: Recording) -> Signals:
         """The signals of a recording."""
         r = recording
-        return cls(t=r.t, x=r.x, xdot=r.xdot, duty=r.duty, step=r.step, starts=r.starts)
+        return cls(
+            t=r.t, x=r.x, xdot=r.xdot, duty=r.duty, step=r.step, starts=r.starts,
+            temperature=r.temperature,
+        )  # fmt: skip
 
     def __len__(self) -> int:
         return len(self.t)

@@ -41,7 +41,7 @@ class Finer(NamedTuple):
 
         Velocity between samples is the monotone cubic through them (F. N. Fritsch, R. E. Carlson,
         SIAM J. Numer. Anal. 17 (1980) 238-246), which keeps the sign that they agree on; deflection
-        follows it from sample to sample; the duty holds.
+        follows it from sample to sample; the duty holds; a temperature is a straight line.
         """
         s = signals
         parts = int(np.ceil(s.typical_step / FINE)) if s.typical_step > 0.0 else 1
@@ -51,13 +51,16 @@ class Finer(NamedTuple):
         channels: list[tuple[Array, ...]] = []
         for a, b in pairwise(s.starts.tolist()):
             channels.append(_record(s, a, b, parts))
-        t, x, xdot, duty, step = (np.concatenate(c) for c in zip(*channels, strict=True))
+        t, x, xdot, duty, step, place = (np.concatenate(c) for c in zip(*channels, strict=True))
         lengths = np.diff(s.starts)
         finer = (lengths - 1) * parts + 1
         starts = np.concatenate([[0], np.cumsum(finer)]).astype(np.intp)
         within = np.arange(len(s)) - np.repeat(s.starts[:-1], lengths)
         rows = np.repeat(starts[:-1], lengths) + within * parts
-        return cls(s, Signals(t, x, xdot, duty, step, starts), rows)
+        warmth = s.temperature
+        if warmth is not None:
+            warmth = np.interp(place, np.arange(len(s)), warmth)
+        return cls(s, Signals(t, x, xdot, duty, step, starts, temperature=warmth), rows)
 
     def force(self, model: Model, values: Values) -> Array:
         """(n,) force at the log's samples [N]."""
@@ -75,7 +78,8 @@ def _record(s: Signals, a: int, b: int, parts: int) -> tuple[Array, ...]:
 
     t, x, v = s.t[a:b] - s.t[a], s.x[a:b], s.xdot[a:b]
     last = parts * (b - a - 1)
-    fine = np.interp(np.arange(last + 1) / parts, np.arange(b - a), t)
+    place = np.arange(last + 1) / parts
+    fine = np.interp(place, np.arange(b - a), t)
     speed = PchipInterpolator(t, v)
     travel = speed.antiderivative()(fine)
     # The integral runs off by what the noise of x is; from sample to sample it is tied to x.
@@ -84,4 +88,4 @@ def _record(s: Signals, a: int, b: int, parts: int) -> tuple[Array, ...]:
     xdot[::parts] = v
     duty = np.repeat(s.duty[a:b], parts)[: last + 1]
     step = np.append(np.repeat(s.step[a : b - 1] / parts, parts), 0.0)
-    return fine + s.t[a], travel + off, xdot, duty, step
+    return fine + s.t[a], travel + off, xdot, duty, step, place + a

@@ -43,6 +43,7 @@ REQUIRES = {
     "x": ("STROKE", "X"),
     "abs_x": ("STROKE", "X"),
     "largest_x": ("STROKE", "X"),
+    "temperature": ("TEMPERATURE", "TIME"),
 }
 BY_TIME = ("TIME", "TIME")
 

@@ -23,9 +23,12 @@ def test_source(name: str, found: LearnedEffect, parameters: Parameters) -> str:
     values = parameters.values
     paper = {n: values[n] for n in Model().quantities}
     own = found.local(values)
-    t, x, xdot, duty = motion(found.law, Memory.of(own))
-    force = Model((found,)).force(signals(t, x, xdot, duty), values)
-    arrays = {"T": t, "X": x, "XDOT": xdot, "DUTY": duty, "FORCE": force}
+    shown = motion(found.law, Memory.of(own))
+    force = Model((found,)).force(shown, values)
+    arrays = {"T": shown.t, "X": shown.x, "XDOT": shown.xdot, "DUTY": shown.duty, "FORCE": force}
+    warmth = ""
+    if shown.temperature is not None:
+        arrays["TEMPERATURE"], warmth = shown.temperature, ", temperature=TEMPERATURE"
     lines = [
         f'"""{name} as it was learned: its force on a short motion, and that it is exactly off."""',
         "",
@@ -44,7 +47,7 @@ def test_source(name: str, found: LearnedEffect, parameters: Parameters) -> str:
         "",
         "def motion() -> Signals:",
         "    step = np.append(np.diff(T), 0.0)",
-        "    return Signals(T, X, XDOT, DUTY, step, np.array([0, len(T)]))",
+        f"    return Signals(T, X, XDOT, DUTY, step, np.array([0, len(T)]){warmth})",
         "",
         "",
         "def test_its_force_is_what_was_learned() -> None:",
@@ -61,32 +64,41 @@ def test_source(name: str, found: LearnedEffect, parameters: Parameters) -> str:
     return "\n".join(lines) + "\n"
 
 
-def motion(law: Law, memory: Memory | None) -> tuple[Array, Array, Array, Array]:
-    """(n,) time, deflection, velocity and duty of a motion to and fro on which a law shows.
+def motion(law: Law, memory: Memory | None) -> Signals:
+    """A motion to and fro on which a law shows, and with what the log must have for it.
 
     Of the strokes and periods tried the least on which its coordinate moves as far as it does on
     most of them, within the range of the law.
     """
     part, tried = np.linspace(0.0, 1.0, SHOWN), []
+    warmth = next((np.linspace(*a.range, SHOWN) for a in law.curve.axes if a.kind.logged), None)
     for amplitude, period in product(np.geomspace(1e-3, 1.0, 7), np.geomspace(1e-2, 1e2, 9)):
         angle = 3.0 * np.pi * part
         speed = 3.0 * np.pi / period * amplitude
-        drive = (part * period, amplitude * np.sin(angle), speed * np.cos(angle),
-                 np.where(part < 0.4, 0.1, 0.5))  # fmt: skip
+        drive = _signals(
+            part * period, amplitude * np.sin(angle), speed * np.cos(angle),
+            np.where(part < 0.4, 0.1, 0.5), warmth,
+        )  # fmt: skip
         moved = 1.0
         for axis in law.curve.axes:
-            z = np.nan_to_num(along(axis.coordinate, signals(*drive), memory))
+            z = np.nan_to_num(along(axis.coordinate, drive, memory))
             moved *= float(np.std(np.clip(z, *axis.range)))
         tried.append((moved, speed, drive))
     most = max(moved for moved, _, _ in tried)
     *_, drive = min((t for t in tried if t[0] >= 0.5 * most), key=lambda t: t[1])
-    t, x, xdot, duty = (np.array([float(f"{v:.{DIGITS}g}") for v in a]) for a in drive)
-    return t, x, xdot, duty
+    return drive
 
 
-def signals(t: Array, x: Array, xdot: Array, duty: Array) -> Signals:
-    """One record of these."""
-    return Signals(t, x, xdot, duty, np.append(np.diff(t), 0.0), np.array([0, len(t)]))
+def _signals(t: Array, x: Array, xdot: Array, duty: Array, temperature: Array | None) -> Signals:
+    """One record of these, with as many digits as a file shows."""
+
+    def shown(values: Array) -> Array:
+        return np.array([float(f"{v:.{DIGITS}g}") for v in values])
+
+    t, step = shown(t), np.append(np.diff(shown(t)), 0.0)
+    warmth = None if temperature is None else shown(temperature)
+    ends = np.array([0, len(t)])
+    return Signals(t, shown(x), shown(xdot), shown(duty), step, ends, temperature=warmth)
 
 
 def _array(name: str, values: Array) -> list[str]:

@@ -159,7 +159,9 @@ def _check_together(parameters: Parameters, name: str) -> None:
     from erdctl.core.signals import Signals
 
     t, still = np.array([0.0, 1e-3]), np.zeros(2)
-    moment = Signals(t, still, still + 1e-3, still, np.array([1e-3, 0.0]), np.array([0, 2]))
+    moment = Signals(
+        t, still, still + 1e-3, still, np.array([1e-3, 0.0]), np.array([0, 2]), temperature=still
+    )
     try:
         parameters.model.force(moment, parameters.values)
     except IncompatibleEffects as error:

@@ -51,6 +51,7 @@ class Requirement(Enum):
     STROKE = "a range of deflections"
     FREQUENCIES = "accelerations that no spring makes, that is of clearly different frequencies"
     TIME = "records of at least several seconds"
+    TEMPERATURE = "a temperature that is logged, and changes"
 
 
 class Variable(Enum):

@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -60,7 +61,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.mark.parametrize("slot", LawSlot)
 def test_the_file_acts_as_the_law(slot: LawSlot, form: str | None) -> None:
     """Over every coordinate: the same force, bit for bit, and exactly absent when off."""
-    signals = Signals.of(LOG)
+    signals = Signals.of(replace(LOG, temperature=LOG.x + 0.01))
     for kind in KINDS:
         knots = KNOTS if form is None else (KNOTS[0], KNOTS[-1])
         law = Law(slot, Curve(kind, knots, form, zero_first=form is None and not slot.adds))

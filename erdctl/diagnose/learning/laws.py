@@ -11,7 +11,7 @@ from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.screening import Candidate
-from erdctl.model.learned.coordinates import KINDS, Memory, along
+from erdctl.model.learned.coordinates import KINDS, CoordinateKind, Memory, along
 from erdctl.model.learned.curve import Curve
 from erdctl.model.learned.law import Law, LawSlot
 from erdctl.model.learned.surface import Surface
@@ -29,7 +29,7 @@ def laws(problem: Problem) -> Iterator[Law]:
     taus = np.geomspace(shortest, longest, thresholds.LATE_TIMES).tolist()
     ends = thresholds.RING_STEPS * s.typical_step, thresholds.RING_LONGEST * longest
     rates = np.geomspace(min(ends), ends[1], thresholds.RING_TIMES).tolist()
-    for name, kind in KINDS.items():
+    for name, kind in _told(problem):
         if kind.sides:
             continue
         found = []
@@ -45,6 +45,13 @@ def laws(problem: Problem) -> Iterator[Law]:
             if knots is not None:
                 for slot in _places(problem, name):
                     yield Law(slot, Curve(name, knots, zero_first=not slot.adds, tau=tau))
+
+
+def _told(problem: Problem) -> Iterator[tuple[str, CoordinateKind]]:
+    """The coordinates that the log has."""
+    for name, kind in KINDS.items():
+        if not kind.logged or problem.block.signals.temperature is not None:
+            yield name, kind
 
 
 def _places(problem: Problem, name: str) -> Iterator[LawSlot]:
@@ -65,7 +72,7 @@ def _places(problem: Problem, name: str) -> Iterator[LawSlot]:
 
 def plain_laws(problem: Problem) -> Iterator[Law]:
     """One law of each coordinate without memory in each slot behind the lag, to go on from."""
-    for name, kind in KINDS.items():
+    for name, kind in _told(problem):
         knots = spread(problem, name, thresholds.KNOTS_ACROSS, None) if not kind.late else None
         if knots is not None and not kind.sides:
             for slot in LawSlot:
@@ -77,7 +84,7 @@ def surfaces(problem: Problem, law: Law, memory: Memory | None) -> Iterator[Law]
     """Laws in the same slot over the coordinate of one and a second one, of few knots each."""
     curve, few = law.curve, thresholds.KNOTS_ACROSS
     first = spread(problem, curve.coordinate, few, memory)
-    for name, kind in KINDS.items():
+    for name, kind in _told(problem):
         if kind.late or name.removeprefix("abs_") == curve.coordinate.removeprefix("abs_"):
             continue
         second = (-1.0, 1.0) if kind.sides else spread(problem, name, few, None, least=2)

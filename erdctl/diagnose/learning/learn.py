@@ -28,6 +28,7 @@ from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.predictability import lack_of_fit_test
 from erdctl.diagnose.screening import Candidate
 from erdctl.diagnose.search import Selection
+from erdctl.estimate.least_squares import at_bound
 from erdctl.model.effect import Effect
 from erdctl.model.learned.coordinates import Memory, along
 from erdctl.model.learned.law import Law, LearnedEffect
@@ -268,9 +269,16 @@ def _sharpened(x: Exploration, parent: Hypothesis, found: Hypothesis, stage: str
         Candidate(new.effect, 0.0, ({new.effect.key(symbol): v for symbol, v in own.items()},))
         for new, own in closed_forms(law, values, z)
     ]
-    alike = [h for h in _fitted(x, parent, forms, stage) if compare(x.problem, h, found).tied]
+    fits = [h for h in _fitted(x, parent, forms, stage) if not _at_an_end(h)]
+    alike = [h for h in fits if compare(x.problem, h, found).tied]
     # A power of 0.99 is a line.
     return min(alike, key=lambda h: len(h.model.quantities), default=found)
+
+
+def _at_an_end(hypothesis: Hypothesis) -> bool:
+    """Whether a parameter of the last law is as large as can be: then it is of another form."""
+    effect = hypothesis.effects[-1]
+    return any(at_bound(q, hypothesis.values[effect.key(q.symbol)]) for q in effect.quantities)
 
 
 def _law(hypothesis: Hypothesis) -> tuple[Law, dict[str, float]]:

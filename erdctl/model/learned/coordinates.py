@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.kernels import first_order
@@ -46,6 +47,7 @@ class CoordinateKind(NamedTuple):
     steady : whether it changes no faster than the motion, so that a deflection can go with it
     rings : `of` gives what an oscillator with that time constant is driven by: "sine", as a mass on
         a spring, or "cosine", as what a measuring chain adds to what it measures
+    logged : whether a log may lack it
     sides : it tells two sides apart and nothing between, which is a second coordinate only
     """
 
@@ -55,6 +57,7 @@ class CoordinateKind(NamedTuple):
     late: bool = False
     less: bool = False
     steady: bool = False
+    logged: bool = False
     sides: bool = False
     rings: str = ""
 
@@ -194,6 +197,15 @@ def _passes(s: Signals) -> Array:
     return out
 
 
+def _temperature(s: Signals) -> Array:
+    if s.temperature is None:
+        raise InputProblem(
+            "a law of the model is one of the temperature, which the log does not have; expected a"
+            " column temperature [degC]"
+        )
+    return s.temperature
+
+
 def _so_far(values: Function) -> Function:
     """The largest size of a value since the record began."""
 
@@ -231,6 +243,9 @@ KINDS: Mapping[str, CoordinateKind] = {
     "largest_x": CoordinateKind("m", "the largest deflection so far", _so_far(lambda s: s.x)),
     "largest_xdot": CoordinateKind("m/s", "the largest speed so far", _so_far(lambda s: s.xdot)),
     "largest_duty": CoordinateKind("1", "the largest duty cycle so far", _so_far(lambda s: s.duty)),
+    "temperature": CoordinateKind(
+        "degC", "the temperature", _temperature, steady=True, logged=True
+    ),
     "late_duty": CoordinateKind("1", "the duty cycle of late", lambda s: s.duty, late=True),
     "late_xdot2": CoordinateKind(
         "m^2/s^2", "the squared speed of late", lambda s: s.xdot * s.xdot, late=True

@@ -26,6 +26,7 @@ from erdctl.model.parameters import Estimate, Parameters
 from erdctl.model.simulate import remarks, simulate
 
 LOG = campaign(100.0, 4.0)
+LOG = replace(LOG, temperature=20.0 + np.cumsum(LOG.step))
 
 
 def law(slot: LawSlot, kind: str, form: str | None = None, log: Recording = LOG) -> Law:
