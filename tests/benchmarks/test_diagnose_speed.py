@@ -11,16 +11,20 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from test_speed import ROWS
 
 pytestmark = pytest.mark.benchmark
+Array = npt.NDArray[np.float64]
+Hidden = Callable[[Array, Array, Array, Array], Array]
 
 RECORDS, RATE = 20, 500.0
 SAMPLES = 60_000 if ROWS > 1_000_000 else 12_000
@@ -55,8 +59,12 @@ def cost(*command: str) -> Cost:
     return Cost(**json.loads(run.stdout))
 
 
-def make_log(path: Path, samples: int) -> Path:
-    """Sines and mixed motion under held and stepped duty; a smooth sign law and seal friction
+def seal_friction(t: Array, x: Array, xdot: Array, duty: Array) -> Array:
+    return 1.5 * np.sign(xdot)
+
+
+def make_log(path: Path, samples: int, hidden: Hidden = seal_friction) -> Path:
+    """Sines and mixed motion under held and stepped duty; a smooth sign law and what is hidden
     are what the paper's model lacks, so that the search goes its whole way."""
     rng = np.random.default_rng(8)
     t = np.arange(samples // RECORDS) / RATE
@@ -70,8 +78,8 @@ def make_log(path: Path, samples: int) -> Path:
             xdot += a * w * np.cos(w * t + phase)
         levels = rng.permutation([0.0, 0.1, 0.2, 0.35, 0.5]) if k % 2 else [0.1 * (k % 5)]
         duty = np.asarray(levels)[(t / 0.7).astype(int) % len(levels)]
-        force = 400 * x + 80 * xdot + 14 * duty**0.5 * np.tanh(xdot / 0.01) + 1.5 * np.sign(xdot)
-        force += 0.3 * rng.standard_normal(len(t))
+        force = 400 * x + 80 * xdot + 14 * duty**0.5 * np.tanh(xdot / 0.01)
+        force += hidden(t, x, xdot, duty) + 0.3 * rng.standard_normal(len(t))
         for name, values in zip(columns, (t, x, xdot, duty, force), strict=True):
             columns[name].append(values)
     names = np.repeat([f"r{k:02d}" for k in range(RECORDS)], len(t))
