@@ -11,7 +11,7 @@ shows is not held against it.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -27,6 +27,7 @@ from erdctl.diagnose.kinds_of_excitation import kinds_of_motion
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.thin import thinned
 from erdctl.estimate.linearisation import jacobian
+from erdctl.model.composed import Model
 from erdctl.model.learned.law import LearnedEffect
 
 
@@ -140,7 +141,7 @@ def left_out_exactly(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> 
     told = _told_by(problem, kinds, hypothesis)
     for k in range(int(kinds.max()) + 1):
         block = problem.block._replace(weight=np.where(kinds == k, 0.0, weight))
-        alone = [name for name, share in told.items() if share[k] > 1.0 - thresholds.TOLD]
+        alone = told.alone(k)
         held = {**problem.held, **{name: hypothesis.values[name] for name in alone}}
         rest = replace(problem, block=block, held=held)
         found = fitted_from(rest, hypothesis, thresholds.STEPS_CARRY, weight)
@@ -149,20 +150,64 @@ def left_out_exactly(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> 
     return out
 
 
-def _told_by(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> dict[str, Array]:
-    """(k,) part that each kind has of what all samples tell of a parameter, by its name.
+@dataclass(frozen=True, eq=False)
+class _Told:
+    """What each kind of the samples tells of parameters, by the slopes of the force.
 
-    By the squares of the slopes of the force. Of what is anchored in any fit, and of learned laws,
-    which have a rule of their own (`told`), nothing is said.
+    names : (p,);  own : those of the paper's model;  gram : (k, p, p) J' W J of each kind, each
+        slope scaled to 1 over all
+    """
+
+    names: tuple[str, ...]
+    own: frozenset[str]
+    gram: Array
+
+    def alone(self, kind: int) -> list[str]:
+        """Parameters of which all other kinds tell nothing, or nothing while others are free.
+
+        Each by itself, as a time constant where no other kind has steps; and of the paper's model,
+        of which the rest may have one level of duty, also the one that it tells least of beside
+        the others (sigma v^beta at one v), until it tells something of each that is left. An effect
+        that only one kind needs is to fail without it, and is not held for that.
+        """
+        whole = self.gram.sum(axis=0)
+        rest = whole - self.gram[kind]
+        least = thresholds.TOLD
+        found = [n for n, part in zip(self.names, np.diag(rest), strict=True) if part < least]
+        while True:
+            free = [i for i, n in enumerate(self.names) if n not in found]
+            some = np.ix_(free, free)
+            part = _beside(rest[some]) / _beside(whole[some])
+            own = [
+                (float(p), i) for p, i in zip(part, free, strict=True) if self.names[i] in self.own
+            ]
+            if not own or min(own)[0] >= least:
+                return found
+            found.append(self.names[min(own)[1]])
+
+
+def _beside(gram: Array) -> Array:
+    """(p,) what is told of each parameter while all others are free, 1 / (N^-1)_ii."""
+    ridge = thresholds.CV_SINGULAR * np.eye(len(gram))
+    return np.asarray(1.0 / np.diag(np.linalg.inv(gram + ridge)))
+
+
+def _told_by(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> _Told:
+    """What each kind tells of the parameters.
+
+    Of what is anchored in any fit, and of learned laws, which have a rule of their own (`told`),
+    nothing is said.
     """
     effects = hypothesis.effects
     other = {e.key(q.symbol) for e in effects if e.smooth for q in e.sizes}
     other |= {n for e in effects if isinstance(e, LearnedEffect) for n in e.off}
-    names = [n for n in hypothesis.free if n not in other]
+    names = tuple(n for n in hypothesis.free if n not in other)
     J = jacobian(hypothesis.model, problem.block.signals, hypothesis.values, names)
-    square = problem.block.weight * J**2
-    by = np.array([np.bincount(kinds, row) for row in square]).reshape(len(names), -1)
-    return dict(zip(names, by / np.maximum(by.sum(axis=1, keepdims=True), 1e-300), strict=True))
+    J = J * np.sqrt(problem.block.weight)
+    J = J / np.maximum(np.linalg.norm(J, axis=1), 1e-300)[:, None]
+    count = int(kinds.max()) + 1
+    gram = np.array([J[:, kinds == k] @ J[:, kinds == k].T for k in range(count)])
+    return _Told(names, frozenset(Model().quantities), gram)
 
 
 def _error(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> float:
