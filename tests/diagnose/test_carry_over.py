@@ -155,3 +155,23 @@ def test_records_each_of_their_own_kind_are_of_three() -> None:
     kinds = kinds_of_motion(own, coarse=True)
     assert kinds is not None
     assert len(set(kinds.tolist())) == 3
+
+
+@pytest.mark.parametrize(("levels", "held"), [((0.3,), True), ((0.1, 0.3), False)])
+def test_what_the_rest_tells_only_beside_another_is_held_with_it(
+    levels: tuple[float, ...], held: bool
+) -> None:
+    """One level of duty fixes sigma v^beta and neither: beta stays, and sigma is fitted."""
+    random = np.random.default_rng(12)
+    out = [
+        moved(i, k, random if i == 1 else levels[k % len(levels)])
+        for i in range(len(MOTIONS)) for k in (0, 1)
+    ]  # fmt: skip
+    problem = prepare(noisy(concatenate(out), seed=9))
+    kinds = kinds_of_motion(problem.recording)
+    assert kinds is not None
+    steps = int(kinds[problem.recording.starts[2]])
+    alone = set(carry_over._told_by(problem, kinds, fit(problem)).alone(steps))
+    betas, sigmas = ({f"{d}.{s}" for d in ("compression", "release")} for s in ("beta", "sigma"))
+    assert (betas <= alone) == held
+    assert not alone & sigmas
