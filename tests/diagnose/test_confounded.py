@@ -35,13 +35,16 @@ def test_kinetic_friction_and_yield_force_at_one_duty(tmp_path: Path) -> None:
     sides = {"compression": case.plant.compression, "release": case.plant.release}
     truth = damper_values({"damper": {d: s._asdict() for d, s in sides.items()}})
     start = truth | {f"{FRICTION}.{s}": v for s, v in law.items()}
-    fit, _ = fit_errors(problem, fit_hypothesis(problem, [get(FRICTION)], [start]))
+    best = fit_hypothesis(problem, [get(FRICTION)], [start])
+    fit, _ = fit_errors(problem, best)
     found: Any = SimpleNamespace(
         fit=fit,
         problem=problem,
         noise_rms=1.0,
         rig=SimpleNamespace(to_json=list),
         cannot_tell="",
+        learned=None,
+        selection=SimpleNamespace(best=best),
     )
     told = parameters(found).estimates
     assert told[f"{FRICTION}.F_k"].value is None
