@@ -28,7 +28,7 @@ from erdctl.diagnose.problem import Problem, prepare, with_given
 from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying
 from erdctl.diagnose.residual.localisation import Region, record_region
 from erdctl.diagnose.residual.places import places
-from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
+from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_of
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
 from erdctl.diagnose.search import Selection, on_all, refit, search
 from erdctl.diagnose.slight_lag import (
@@ -263,7 +263,7 @@ def _idle(effect: Effect, fit: Fit, workers: Executor) -> bool:
 
 def _left(selection: Selection, seed: int) -> LackOfFit:
     best = selection.best
-    return selection.left or lack_of_fit_test(best.problem, best.residual, seed)
+    return selection.left or lack_of_fit_of(best, seed)
 
 
 def _matters(problem: Problem, selection: Selection, lack_of_fit: LackOfFit) -> bool:

@@ -10,7 +10,7 @@ from erdctl.diagnose.executor import Task
 from erdctl.diagnose.forward_step import Exploration, key_of, with_effect
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
-from erdctl.diagnose.residual.predictability import lack_of_fit_test
+from erdctl.diagnose.residual.predictability import lack_of_fit_of
 from erdctl.diagnose.screening import Screen
 from erdctl.model.effect import Effect
 
@@ -84,7 +84,7 @@ def _misfit_leaves(x: Exploration, rest: frozenset[str], best: Hypothesis) -> fl
     the scatter of a mean square over the groups does, of what is left, or of what the effect takes
     if that is less.
     """
-    if not lack_of_fit_test(best.problem, best.residual).significant:
+    if not lack_of_fit_of(best).significant:
         return 0.0
     worth = compare(x.problem, x.explored[rest], best)
     return worth.scatter * min(worth.after, worth.before - worth.after)

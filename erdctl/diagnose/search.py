@@ -27,7 +27,7 @@ from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.levels_of_records import not_of_records
 from erdctl.diagnose.look_alikes import is_preferred, look_alikes
 from erdctl.diagnose.problem import Problem
-from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
+from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_of
 from erdctl.diagnose.resolved import resolved
 from erdctl.estimate.starts import fresh_start
 from erdctl.model.effect import Effect
@@ -184,7 +184,7 @@ def _forward_selection(
     rest: LackOfFit | None = None
     for depth in range(most):
         if depth or x.explored.keys() > {key_of(best.effects)}:
-            rest = lack_of_fit_test(best.problem, best.residual, seed)
+            rest = lack_of_fit_of(best, seed)
             if not rest.hint:
                 break  # more effects would have nothing to explain
         stage = f"{depth + 1} effects" if depth else "each effect"
@@ -199,7 +199,7 @@ def _forward_selection(
         # Also hypotheses that gain nothing alone: together with another one may.
         beam = thresholds.BEAM if depth + 1 < thresholds.BEAM_DEPTH else 1
         parents = (better or more)[:beam]
-    return best, rest or lack_of_fit_test(best.problem, best.residual, seed), singles
+    return best, rest or lack_of_fit_of(best, seed), singles
 
 
 def _base(problem: Problem, given: Parameters | None, executor: Executor) -> Hypothesis:

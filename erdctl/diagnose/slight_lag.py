@@ -16,7 +16,7 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import compare
 from erdctl.diagnose.hypothesis import LAGS, Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem
-from erdctl.diagnose.residual.predictability import lack_of_fit_test
+from erdctl.diagnose.residual.predictability import lack_of_fit_of
 from erdctl.diagnose.search import Selection
 from erdctl.diagnose.thin import thinned
 from erdctl.estimate.starts import fresh_start
@@ -55,7 +55,7 @@ def to_be_searched_with_lags(problem: Problem, found: Selection) -> bool:
     free, best = without_lags_held(problem), found.best
     start = {**best.values, **dict.fromkeys(_slight(problem), thresholds.FRESH[0])}
     lagging = fit_hypothesis(free, best.effects, [start])
-    left = lack_of_fit_test(lagging.problem, lagging.residual)
+    left = lack_of_fit_of(lagging)
     return not left.significant or left.misfit_rms < thresholds.LITTLE_BUT_NOISE * left.noise_rms
 
 
@@ -90,4 +90,4 @@ def _short(names: list[str], hypothesis: Hypothesis) -> bool:
 
 
 def _leaves_a_misfit(hypothesis: Hypothesis) -> bool:
-    return lack_of_fit_test(hypothesis.problem, hypothesis.residual).significant
+    return lack_of_fit_of(hypothesis).significant

@@ -25,7 +25,7 @@ from erdctl.diagnose.learning.laws import finer, laws, plain_laws, surfaces, swi
 from erdctl.diagnose.levels_of_records import beyond_levels
 from erdctl.diagnose.look_alikes import is_preferred
 from erdctl.diagnose.problem import Problem
-from erdctl.diagnose.residual.predictability import lack_of_fit_test
+from erdctl.diagnose.residual.predictability import lack_of_fit_of
 from erdctl.diagnose.screening import Candidate
 from erdctl.diagnose.search import Selection
 from erdctl.estimate.least_squares import at_bound
@@ -100,7 +100,7 @@ def _laws(
 
 def _leaves_more(found: Hypothesis, seed: int) -> bool:
     """Whether a rest is more than noise."""
-    return lack_of_fit_test(found.problem, found.residual, seed).hint
+    return lack_of_fit_of(found, seed).hint
 
 
 def _beside(

@@ -16,7 +16,7 @@ from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.learning.learn import learn, learned_in
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.record_effects import RecordEffects
-from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
+from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_of
 from erdctl.diagnose.search import Selection, on_all, refit
 from erdctl.diagnose.unseen import Unseen, on_unseen
 from erdctl.estimate.covariance import Fit
@@ -107,7 +107,7 @@ def learned(
         unseen=unseen,
         fit=fit,
         record_effects=record_effects,
-        lack_of_fit=lack_of_fit_test(found.best.problem, found.best.residual, seed),
+        lack_of_fit=lack_of_fit_of(found.best, seed),
     )
 
 

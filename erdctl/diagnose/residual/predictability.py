@@ -12,11 +12,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 import numpy as np
 
 from erdctl.core.recording import Array, Index
 from erdctl.diagnose import thresholds
+from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem, t_statistic
 from erdctl.diagnose.residual.impulses import impulse_share
 from erdctl.diagnose.residual.regression import cross_predicted, features
@@ -54,6 +56,12 @@ class LackOfFit:
         What is predicted has a sign, and adds to what was found; variance beyond noise has none.
         """
         return (found + self.predicted) ** 2 + np.maximum(self.excess - self.predicted**2, 0.0)
+
+
+@lru_cache(maxsize=4)  # search, look-alikes and laws ask in turn for the same few
+def lack_of_fit_of(hypothesis: Hypothesis, seed: int = 0) -> LackOfFit:
+    """The misfit in what a hypothesis leaves."""
+    return lack_of_fit_test(hypothesis.problem, hypothesis.residual, seed)
 
 
 def lack_of_fit_test(problem: Problem, residual: Array, seed: int = 0) -> LackOfFit:
