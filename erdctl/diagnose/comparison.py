@@ -82,10 +82,13 @@ class Comparison:
         """Whether the two cannot be told apart: neither by places, nor by energy, nor by size.
 
         Nor can two fits that are one force on this log, whatever either loses where it is left out.
+        Where they differ in a single place that may be anything which happened there.
         """
         if min(self.gain, self.apart) < thresholds.LEAST_GAIN:
             return True
-        differ = self.t_stretches > thresholds.T_TIE or self.energy.z > thresholds.T_TIE
+        several = self.energy.groups.places >= thresholds.LEAST_PLACES
+        differ = self.t_stretches > thresholds.T_TIE
+        differ = differ or (several and self.energy.z > thresholds.T_TIE)
         return not (differ or self.gain > self.scatter)
 
 
