@@ -1,0 +1,1 @@
+"""Models and emulators for other programs: C source, FMUs, tables."""
