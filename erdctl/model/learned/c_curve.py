@@ -127,6 +127,7 @@ def _surface(curve: Surface, unit: str) -> CCurve:
 {_rows(curve, "at")}
 {_rows(curve.across, "by")}
 value = K(0.0);
-for (i = 0; i < {n}; ++i)
-  for (j = 0; j < {m}; ++j) value += sizes[{m} * i + j] * at_rows[i] * by_rows[j];""",
+for (i = 0; i < {n}; ++i) {{
+  for (j = 0; j < {m}; ++j) value += sizes[{m} * i + j] * at_rows[i] * by_rows[j];
+}}""",
     )

@@ -12,11 +12,15 @@ second order in h. A coordinate that jumps moves the piston there, and gives it 
 from __future__ import annotations
 
 from textwrap import indent
+from typing import TYPE_CHECKING
 
 from erdctl.model.c_law import CLaw
 from erdctl.model.learned.c_coordinates import WRITTEN, CCoordinate
 from erdctl.model.learned.c_curve import CCurve, curve_in_c
-from erdctl.model.learned.law import LEAST_LAG, Law, LawSlot
+from erdctl.model.learned.law_slot import LEAST_LAG, LawSlot
+
+if TYPE_CHECKING:
+    from erdctl.model.learned.law import Law
 
 NAMES = ("first", "second")  # the coordinates
 PLACES = ("at", "by")  # of a curve on them

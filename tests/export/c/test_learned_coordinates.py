@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import re
 import subprocess
 from functools import cache
 from pathlib import Path
@@ -12,8 +13,9 @@ import pytest
 
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.export.c.names import helpers, part
 from erdctl.model.learned import c_coordinates, c_curve
-from erdctl.model.learned.coordinates import KINDS, SPOTS, Memory, along
+from erdctl.model.learned.coordinates import KINDS, Memory, along
 from erdctl.model.learned.curve import Curve
 from erdctl.model.learned.forms import FORMS
 from erdctl.model.learned.surface import Surface
@@ -21,36 +23,15 @@ from erdctl.model.learned.surface import Surface
 MEMORY = Memory(0.07, 0.15)
 FLAGS = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-O2"]
 
-PRELUDE = """\
-#include <math.h>
-#include <string.h>
-#ifdef ERDCTL_FLOAT
-typedef float real;
-#define EXP expf
-#define EXPM1 expm1f
-#define SIN sinf
-#define COS cosf
-#define TANH tanhf
-#define SQRT sqrtf
-#define FABS fabsf
-#define POW powf
-#else
-typedef double real;
-#define EXP exp
-#define EXPM1 expm1
-#define SIN sin
-#define COS cos
-#define TANH tanh
-#define SQRT sqrt
-#define FABS fabs
-#define POW pow
-#endif
-#define K(v) ((real)(v))
-#define MIN(a, b) ((a) < (b) ? (a) : (b))
-#define MAX(a, b) ((a) > (b) ? (a) : (b))
-typedef struct { int first; real h, t, x, xdot, duty, x0, xdot0, duty0; int up, up0, turned;
-                 real before, sign, engaged, path, after; } Sample;
-"""
+
+def prelude(called: str) -> str:
+    """What stands before an effect's code in an exported file."""
+    real = "#ifdef ERDCTL_FLOAT\ntypedef float real;\n#else\ntypedef double real;\n#endif\n"
+    types = part("types.c").replace('#include "PREFIX.h"', real)
+    types = re.sub(r"typedef PREFIX_\w+ \w+;", "", types)
+    return f"{types}\n{helpers(called)}\n"
+
+
 REALS = ("h", "t", "x", "xdot", "duty", "before", "sign", "path", "after")
 
 
@@ -87,7 +68,7 @@ def samples_of(s: Signals) -> dict[str, Array]:
 @cache
 def compiled(source: str, folder: Path, single: bool = False) -> ctypes.CDLL:
     name = f"c{abs(hash(source + str(single))):x}"
-    (folder / f"{name}.c").write_text(PRELUDE + source)
+    (folder / f"{name}.c").write_text(prelude(source) + source)
     out = folder / f"{name}.so"
     flags = [*FLAGS, "-DERDCTL_FLOAT"] if single else FLAGS
     made = subprocess.run(
@@ -100,14 +81,14 @@ def compiled(source: str, folder: Path, single: bool = False) -> ctypes.CDLL:
 
 def program(kind: str, *, step: bool = False) -> str:
     """A loop over samples that puts out a coordinate, or its change over a step."""
-    state, code, change = c_coordinates.WRITTEN[kind].written("a")
+    written = c_coordinates.WRITTEN[kind].named("a", (20.0, 30.0), moves=step)
+    state, code, change = written.state, written.code, written.step
     members = " ".join(f"real {m};" for m in state) or "real none;"
     loads = "\n".join(f"    sample.{m} = in[{k}][i];" for k, m in enumerate(REALS))
     k = len(REALS)
     return f"""
 typedef struct {{ real tau, zeta; }} params;
 typedef struct {{ {members} }} State;
-{c_coordinates.HELPERS}
 void run(int n, const double *const *whole, const double *memory, const double *told, double *out);
 void run(int n, const double *const *whole, const double *memory, const double *told, double *out) {{
   State state; State *z = &state; Sample sample; Sample *s = &sample;
@@ -115,7 +96,7 @@ void run(int n, const double *const *whole, const double *memory, const double *
   real in[{k + 2}][1];
   memset(z, 0, sizeof *z); memset(s, 0, sizeof *s);
   given.tau = (real)memory[0]; given.zeta = (real)memory[1];
-  (void)p; (void)told; (void)limited; (void)spot;
+  (void)p; (void)told;
   {told(kind)}
   for (i = 0; i < n; ++i) {{
     real a; real h; int j;
@@ -134,11 +115,8 @@ void run(int n, const double *const *whole, const double *memory, const double *
 def told(kind: str) -> str:
     """What is told of a whole motion that Python sees at once."""
     if kind == "passes":
-        return (
-            "if (told[1] > told[0]) { z->a_low = (real)told[0];"
-            f" z->a_width = (real)((told[1] - told[0]) / {SPOTS}.0); }}"
-        )
-    return "z->a_told = (real)told[2];" if kind == "temperature" else ""
+        return "z->a_from = (real)told[0]; z->a_high = (real)told[1];"
+    return "z->a_told = (real)told[2]; z->a_known = K(1.0);" if kind == "temperature" else ""
 
 
 def in_c(
@@ -180,7 +158,7 @@ def test_passes_over_a_stroke_that_is_not_known_are_as_many(tmp_path: Path) -> N
     s = motion(3, duration=9.0)
     expected, found = along("passes", s, None), in_c("passes", s, tmp_path)
     assert np.abs(found - expected).mean() < 1.0  # passes
-    assert abs(found - expected).max() < 4.0
+    assert abs(found - expected).max() < 8.0  # near the ends of the stroke
     assert expected.max() > 40.0
 
 
@@ -200,17 +178,22 @@ def test_the_slope_of_a_coordinate_is_known_as_it_goes(kind: str, tmp_path: Path
 
 def curve_program(curve: Curve) -> str:
     quantities = [q.symbol for q in (*curve.amplitudes("N"), *curve.shape())]
-    two = isinstance(curve, Surface)
+    curve_ = c_curve.curve_in_c(curve, "N")
     values = "".join(f"  p.{q} = (real)given[{k}];\n" for k, q in enumerate(quantities))
     return f"""
 typedef struct {{ real {", ".join(quantities)}; }} params;
-{c_curve.HELPERS}
-{c_curve.curve_in_c(curve, "law", "N")}
+static real law(const params *p, real at, real by) {{
+  real value;
+  (void)by;
+{curve_.declared}
+{curve_.code}
+  return value;
+}}
 void run(int n, const double *given, const double *z, const double *y, double *out);
 void run(int n, const double *given, const double *z, const double *y, double *out) {{
-  params p; int i; (void)y; (void)splines;
+  params p; int i; (void)y;
 {values}
-  for (i = 0; i < n; ++i) out[i] = (double)law(&p, (real)z[i]{", (real)y[i]" if two else ""});
+  for (i = 0; i < n; ++i) out[i] = (double)law(&p, (real)z[i], (real)y[i]);
 }}
 """
 
