@@ -109,7 +109,7 @@ def _late(of: str, *, less: bool = False) -> CCoordinate:
   @was = now;
   VALUE = {value};
 }}"""
-    move = "-EXPM1(-h / FMAX(p->tau, K(1e-9))) * (@was - @lag)"
+    move = "FMIN(h / FMAX(p->tau, K(1e-9)), K(1.0)) * (@was - @lag)"
     with_x = "s->xdot * h - " if of == "s->x" else "-"
     return CCoordinate(("lag", "was"), code, f"{with_x}({move})" if less else move)
 

@@ -36,6 +36,7 @@ from erdctl.model.slots import (
     Values,
 )
 
+
 @dataclass(frozen=True)
 class Law:
     """A curve in a place."""
