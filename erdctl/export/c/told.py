@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Sequence
 
+from erdctl.export.c.functions import function
 from erdctl.export.c.names import comment, identifier
 from erdctl.model.c_law import Told
 from erdctl.model.effect import Effect
@@ -33,9 +34,9 @@ def told(effects: Sequence[Effect]) -> str:
         inner = [_inner(effect, tell) for effect, tell in tells]
         usable = " && ".join(f"usable({name}, HUGEST)" for name in first.given)
         calls = [
-            f"        {_name(effect, tell)}(&st->p.{identifier(effect.name)},"
-            f" &st->{identifier(effect.name)}, {', '.join(tell.given)});"
+            f"        {_name(effect, tell)}(&st->p.{name}, &st->{name}, {', '.join(tell.given)});"
             for effect, tell in tells
+            for name in (identifier(effect.name),)
         ]
         lines = [_head(first), "{", f"    if ({usable}) {{", *calls, "    }", "}"]
         out += [*inner, "\n".join(lines)]
@@ -61,9 +62,9 @@ def _name(effect: Effect, tell: Told) -> str:
 
 def _inner(effect: Effect, tell: Told) -> str:
     name = identifier(effect.name)
-    given = ", ".join(f"real {one}" for one in tell.given)
-    body = textwrap.indent(tell.code, "    ")
-    return (
-        f"static void {_name(effect, tell)}(const struct PREFIX_{name}_params *p,"
-        f" struct PREFIX_{name}_state *z, {given})\n{{\n    (void)p;\n{body}\n}}"
-    )
+    given = [
+        f"const struct PREFIX_{name}_params *p",
+        f"struct PREFIX_{name}_state *z",
+        *(f"real {one}" for one in tell.given),
+    ]
+    return function(f"void {_name(effect, tell)}", given, tell.code)

@@ -70,10 +70,10 @@ def _sum(more: str, keep: str = "") -> str:
     """A sum of what each step adds, 0 as the motion begins."""
     return f"""\
 if (s->first) {{
-  @sum = K(0.0);
-  @low = K(0.0);
+    @sum = K(0.0);
+    @low = K(0.0);
 }} else {{
-  add_to(&@sum, &@low, {more});
+    add_to(&@sum, &@low, {more});
 }}{keep and chr(10) + keep}
 VALUE = @sum;"""
 
@@ -82,10 +82,10 @@ def _since(event: str, more: str = "s->h", begins: str = "K(0.0)", keep: str = "
     """A sum of what each step adds since an event."""
     return f"""\
 if (s->first || {event}) {{
-  @sum = s->first ? {NEVER} : {begins};
-  @low = K(0.0);
+    @sum = s->first ? {NEVER} : {begins};
+    @low = K(0.0);
 }} else {{
-  add_to(&@sum, &@low, {more});
+    add_to(&@sum, &@low, {more});
 }}{keep and chr(10) + keep}
 VALUE = @sum;"""
 
@@ -99,15 +99,15 @@ def _late(of: str, *, less: bool = False) -> CCoordinate:
     value = "now - @lag" if less else "@lag"
     code = f"""\
 {{
-  const real now = {of};
-  if (s->first) {{
-    @lag = {"now" if less else "K(0.0)"};
-  }} else {{
-    const real gone = -EXPM1(-s->h / FMAX(p->tau, K(1e-9)));
-    @lag += gone * (K(0.5) * (@was + now) - @lag);
-  }}
-  @was = now;
-  VALUE = {value};
+    const real now = {of};
+    if (s->first) {{
+        @lag = {"now" if less else "K(0.0)"};
+    }} else {{
+        const real gone = -EXPM1(-s->h / FMAX(p->tau, K(1e-9)));
+        @lag += gone * (K(0.5) * (@was + now) - @lag);
+    }}
+    @was = now;
+    VALUE = {value};
 }}"""
     move = "FMIN(h / FMAX(p->tau, K(1e-9)), K(1.0)) * (@was - @lag)"
     with_x = "s->xdot * h - " if of == "s->x" else "-"
@@ -122,24 +122,24 @@ def _ringing(of: str, *, cosine: bool) -> CCoordinate:
     value = "-(@re + p->zeta * w / turn * @im)" if cosine else "@im * w / turn"
     code = f"""\
 {{
-  const real now = {of};
-  const real w = K(1.0) / FMAX(p->tau, K(1e-9));
-  const real turn = w * SQRT(FMAX(K(1.0) - p->zeta * p->zeta, K(1e-6)));
-  if (s->first) {{
-    @re = K(0.0);
-    @im = K(0.0);
-  }} else {{
-    const real a = -p->zeta * w * s->h, b = turn * s->h;
-    const real half = SIN(K(0.5) * b);
-    const real fade = EXP(a), c = COS(b), d = SIN(b);
-    const real jump = (now - @was) / (a * a + b * b);
-    const real grown = EXPM1(a) * c - K(2.0) * half * half, turned = fade * d;
-    const real re = fade * (@re * c - @im * d) + jump * (grown * a + turned * b);
-    @im = fade * (@re * d + @im * c) + jump * (turned * a - grown * b);
-    @re = re;
-  }}
-  @was = now;
-  VALUE = {value};
+    const real now = {of};
+    const real w = K(1.0) / FMAX(p->tau, K(1e-9));
+    const real turn = w * SQRT(FMAX(K(1.0) - p->zeta * p->zeta, K(1e-6)));
+    if (s->first) {{
+        @re = K(0.0);
+        @im = K(0.0);
+    }} else {{
+        const real a = -p->zeta * w * s->h, b = turn * s->h;
+        const real half = SIN(K(0.5) * b);
+        const real fade = EXP(a), c = COS(b), d = SIN(b);
+        const real jump = (now - @was) / (a * a + b * b);
+        const real grown = EXPM1(a) * c - K(2.0) * half * half, turned = fade * d;
+        const real re = fade * (@re * c - @im * d) + jump * (grown * a + turned * b);
+        @im = fade * (@re * d + @im * c) + jump * (turned * a - grown * b);
+        @re = re;
+    }}
+    @was = now;
+    VALUE = {value};
 }}"""
     return CCoordinate(("re", "im", "was"), code)
 
@@ -148,43 +148,43 @@ _SPOT = f"(int)clipped(({{}} - @low) / @width, K(0.0), K({SPOTS - 1}.0))"
 _HALF = SPOTS // 2
 _PASSES = f"""\
 {{
-  int k, end;
-  if (s->first) {{
-    for (k = 0; k < {SPOTS}; ++k) @count[k] = K(0.0);
-    @grows = @high > @from ? K(0.0) : K(1.0);
-    @width = @grows > K(0.0) ? K({NARROWEST / SPOTS!r}) : (@high - @from) / K({SPOTS}.0);
-    @low = @grows > K(0.0) ? s->x - K({NARROWEST / 2!r}) : @from;
-  }}
-  while (@grows > K(0.0) && (s->x < @low || s->x > @low + K({SPOTS}.0) * @width)) {{
-    /* Spots twice as wide: those that were there become the upper or the lower half. */
-    if (s->x < @low) {{
-      for (k = {_HALF - 1}; k >= 0; --k)
-        @count[k + {_HALF}] = K(0.5) * (@count[2 * k] + @count[2 * k + 1]);
-      for (k = 0; k < {_HALF}; ++k) @count[k] = K(0.0);
-      @low -= K({SPOTS}.0) * @width;
-    }} else {{
-      for (k = 0; k < {_HALF}; ++k) @count[k] = K(0.5) * (@count[2 * k] + @count[2 * k + 1]);
-      for (k = {_HALF}; k < {SPOTS}; ++k) @count[k] = K(0.0);
+    int k, end;
+    if (s->first) {{
+        for (k = 0; k < {SPOTS}; ++k) @count[k] = K(0.0);
+        @grows = @high > @from ? K(0.0) : K(1.0);
+        @width = @grows > K(0.0) ? K({NARROWEST / SPOTS!r}) : (@high - @from) / K({SPOTS}.0);
+        @low = @grows > K(0.0) ? s->x - K({NARROWEST / 2!r}) : @from;
     }}
-    @width *= K(2.0);
-  }}
-  if (!s->first) {{
-    const real from = FMIN(s->x, @x), to = FMAX(s->x, @x);
-    end = {_SPOT.format("to")};
-    for (k = {_SPOT.format("from")}; k <= end; ++k) {{
-      const real edge = @low + @width * (real)k;
-      @count[k] += (clipped(to - edge, K(0.0), @width) - clipped(from - edge, K(0.0), @width))
-                   / @width;
+    while (@grows > K(0.0) && (s->x < @low || s->x > @low + K({SPOTS}.0) * @width)) {{
+        /* Spots twice as wide: those that were there become the upper or the lower half. */
+        if (s->x < @low) {{
+            for (k = {_HALF - 1}; k >= 0; --k)
+                @count[k + {_HALF}] = K(0.5) * (@count[2 * k] + @count[2 * k + 1]);
+            for (k = 0; k < {_HALF}; ++k) @count[k] = K(0.0);
+            @low -= K({SPOTS}.0) * @width;
+        }} else {{
+            for (k = 0; k < {_HALF}; ++k) @count[k] = K(0.5) * (@count[2 * k] + @count[2 * k + 1]);
+            for (k = {_HALF}; k < {SPOTS}; ++k) @count[k] = K(0.0);
+        }}
+        @width *= K(2.0);
     }}
-  }}
-  k = {_SPOT.format("s->x")};
-  {{
-    /* Less what the present pass has covered of the place itself. */
-    const real edge = @low + @width * (real)k;
-    const real passed = (s->up ? s->x - edge : edge + @width - s->x) / @width;
-    VALUE = FMAX(@count[k] - clipped(passed, K(0.0), K(1.0)), K(0.0));
-  }}
-  @x = s->x;
+    if (!s->first) {{
+        const real from = FMIN(s->x, @x), to = FMAX(s->x, @x);
+        end = {_SPOT.format("to")};
+        for (k = {_SPOT.format("from")}; k <= end; ++k) {{
+            const real edge = @low + @width * (real)k;
+            @count[k] += (clipped(to - edge, K(0.0), @width) - clipped(from - edge, K(0.0), @width))
+                                      / @width;
+        }}
+    }}
+    k = {_SPOT.format("s->x")};
+    {{
+        /* Less what the present pass has covered of the place itself. */
+        const real edge = @low + @width * (real)k;
+        const real passed = (s->up ? s->x - edge : edge + @width - s->x) / @width;
+        VALUE = FMAX(@count[k] - clipped(passed, K(0.0), K(1.0)), K(0.0));
+    }}
+    @x = s->x;
 }}"""
 
 _STROKE = Told(

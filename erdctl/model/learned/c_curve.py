@@ -11,6 +11,7 @@ Source: C. de Boor, A Practical Guide to Splines (2001), Ch. 4.
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
@@ -20,6 +21,8 @@ from erdctl.core.recording import Array
 from erdctl.model.learned.curve import Curve
 from erdctl.model.learned.forms import FORMS, STEEPEST
 from erdctl.model.learned.surface import Surface
+
+WIDTH = 88  # of the lines of a table
 
 _FALL = f"FMIN(-at / p->w, K({STEEPEST!r}))"
 _TURN = f"K({2.0 * float(np.pi)!r})"
@@ -70,8 +73,9 @@ def bends(knots: Sequence[float]) -> Array:
 
 def table(name: str, values: Sequence[float]) -> str:
     """A constant array."""
-    inner = ", ".join(f"K({float(v)!r})" for v in values)
-    return f"static const real {name}[{len(values)}] = {{{inner}}};"
+    inner = textwrap.wrap(", ".join(f"K({float(v)!r})" for v in values), WIDTH)
+    listed = "\n".join(f"    {line}" for line in inner)
+    return f"static const real {name}[{len(values)}] = {{\n{listed}\n}};"
 
 
 def curve_in_c(curve: Curve, unit: str) -> CCurve:
@@ -128,6 +132,6 @@ def _surface(curve: Surface, unit: str) -> CCurve:
 {_rows(curve.across, "by")}
 value = K(0.0);
 for (i = 0; i < {n}; ++i) {{
-  for (j = 0; j < {m}; ++j) value += sizes[{m} * i + j] * at_rows[i] * by_rows[j];
+    for (j = 0; j < {m}; ++j) value += sizes[{m} * i + j] * at_rows[i] * by_rows[j];
 }}""",
     )

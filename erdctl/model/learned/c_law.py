@@ -103,7 +103,7 @@ def _deflection(axes: list[CCoordinate], curve: CCurve) -> str:
             "real value, values[3];",
             "int k;",
             "for (k = 0; k < 3; ++k) {",
-            indent("\n".join([*places, curve.code, "values[k] = value;"]), "  "),
+            indent("\n".join([*places, curve.code, "values[k] = value;"]), "    "),
             "}",
             "m->x += values[1];",
             "m->xdot += (values[2] - values[0]) / (K(2.0) * h);",
