@@ -94,8 +94,9 @@ def function(head: str, given: Sequence[str], body: str) -> str:
     unused = [n for n in names if not re.search(rf"\b{n}\b", text)]
     marks = f"    {' '.join(f'(void){n};' for n in unused)}\n" if unused else ""
     first = f"static {head}("
-    arguments = textwrap.wrap(", ".join(given), WIDTH - len(first), break_long_words=False)
-    listed = f"\n{' ' * len(first)}".join(arguments)
+    whole = ", ".join(one.replace(" ", "\0") for one in given)  # a line ends between two of them
+    arguments = textwrap.wrap(whole, WIDTH - len(first), break_long_words=False)
+    listed = f"\n{' ' * len(first)}".join(arguments).replace("\0", " ")
     return f"{first}{listed})\n{{\n{marks}{text}{chr(10) if text else ''}}}"
 
 

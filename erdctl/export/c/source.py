@@ -18,6 +18,8 @@ from erdctl.export.c.layout import (
 )
 from erdctl.export.c.names import helpers, identifier, part
 from erdctl.export.c.provenance import about
+from erdctl.export.c.told import told, told_by, told_heads
+from erdctl.model.c_law import Told
 from erdctl.model.effect import Effect, Stage
 from erdctl.model.parameters import Parameters
 from erdctl.model.slots import ChannelSlot
@@ -29,6 +31,7 @@ class CBlock:
 
     prefix : begins every name that others see;  header, source : text of PREFIX.h and PREFIX.c
     left_out : effects that the block has not, each with why, for people
+    told : functions by which a program tells it more than motion, control and faults
     parameters : every member of PREFIX_params: path, value, unit and title
     """
 
@@ -37,6 +40,7 @@ class CBlock:
     source: str
     left_out: tuple[str, ...]
     parameters: tuple[CMember, ...]
+    told: tuple[Told, ...] = ()
 
 
 def write_c(parameters: Parameters, *, prefix: str) -> CBlock:
@@ -62,6 +66,7 @@ def write_c(parameters: Parameters, *, prefix: str) -> CBlock:
 
     header = part("header.h").replace("@GUARD@", f"{prefix.upper()}_H")
     header = header.replace("@PARAMETERS@", parameter_struct(paper, own))
+    header = header.replace("@TOLD@", told_heads(effects))
     header = header.replace(
         "@STATES@",
         state_structs(effects) + ("" if spring is None else series.state(effects)),
@@ -71,7 +76,7 @@ def write_c(parameters: Parameters, *, prefix: str) -> CBlock:
         "" if spring is None else series.joint(spring, effects),
         hooks(effects, plays=plays), part("sample.c"), part("forces.c"),
         part("plain.c") if spring is None else series.march(spring, effects),
-        defaults(members), part("interface.c"),
+        defaults(members), part("interface.c"), told(effects),
     ]  # fmt: skip
     called = helpers("\n".join(body))
     pieces = [part("types.c"), *([called] if called else []), *body]
@@ -82,6 +87,7 @@ def write_c(parameters: Parameters, *, prefix: str) -> CBlock:
         source=f"{top}\n{source}\n".replace("PREFIX", prefix),
         left_out=left_out,
         parameters=members,
+        told=told_by(effects),
     )
 
 
@@ -92,5 +98,5 @@ def on_the_vehicle(effects: tuple[Effect, ...]) -> tuple[tuple[Effect, ...], tup
         if effect.stage is Stage.SENSOR or isinstance(effect.slot, ChannelSlot):
             left_out.append(f"{effect.name}: {effect.title}; belongs to the bench")
         else:
-            kept.append(effect)
+            kept.append(effect.with_c())
     return tuple(kept), tuple(left_out)
