@@ -1,0 +1,1 @@
+"""What was identified, for other programs: C, FMU, emulator, tables."""
