@@ -1,1 +1,1 @@
-"""What was identified, for other programs: C, FMU, emulator, tables."""
+"""Models and emulators for other programs: C source, FMUs, tables."""

@@ -1,4 +1,4 @@
-"""The C of the online emulator, put together from its parts in `c/`.
+"""The C of the online emulator, put together from its `parts/`.
 
 The parts are C as it stands but for three places: PREFIX, and @...@ lines that are written here.
 """
@@ -23,12 +23,12 @@ ALL = tuple(FaultKind)
 
 @dataclass(frozen=True)
 class Member:
-    """One tunable number of the block: a member of PREFIX_params.
+    """One tunable number of the block.
 
-    value : its default in `unit`;  title : in words
+    path : within PREFIX_params;  value : its default in `unit`;  title : in words
     """
 
-    name: str
+    path: str
     value: float
     unit: str
     title: str
@@ -38,13 +38,14 @@ class Member:
 class EmulatorBlock:
     """The emulator as C: two texts that compile by themselves, and what a wrapper must know.
 
+    parameters : every member of PREFIX_params
     faults : whose factors count; those of the others are ignored
     """
 
     prefix: str
     header: str
     source: str
-    members: tuple[Member, ...]
+    parameters: tuple[Member, ...]
     faults: tuple[FaultKind, ...]
 
 
@@ -71,9 +72,9 @@ def write_emulator(
     found = members(parameters, limits or EmulatorLimits())
     places = {
         "@MEMBERS@": "\n".join(
-            f"    PREFIX_real {m.name}; /* [{m.unit}] {m.title} */" for m in found
+            f"    PREFIX_real {m.path}; /* [{m.unit}] {m.title} */" for m in found
         ),
-        "@DEFAULTS@": "\n".join(f"    p->{m.name} = K({float(m.value)!r});" for m in found),
+        "@DEFAULTS@": "\n".join(f"    p->{m.path} = K({float(m.value)!r});" for m in found),
         "@FAULTS@": "\n".join(
             f"    s->f_{k.short} = factor(s, s->f_{k.short}, f_{k.short});"
             if k in chosen
@@ -109,7 +110,7 @@ def members(parameters: Parameters, limits: EmulatorLimits) -> tuple[Member, ...
 
 
 def _part(name: str) -> str:
-    return (resources.files("erdctl.export.emulator") / "c" / name).read_text(encoding="utf-8")
+    return (resources.files("erdctl.export.emulator") / "parts" / name).read_text(encoding="utf-8")
 
 
 def _filled(text: str, places: dict[str, str], prefix: str) -> str:

@@ -52,7 +52,7 @@ typedef struct PREFIX_state {
     PREFIX_real step, even;         /* [s] the last good dt; for how long all were alike */
     PREFIX_real blind;              /* [s] since the last good inputs */
     PREFIX_real x, xdot, duty;      /* [m] [m/s] [1] the last good ones */
-    PREFIX_real xddot;              /* [m/s^2] estimated from xdot so far */
+    PREFIX_real speed, slope, bend; /* [m/s] [m/s^2] [m/s^3] of the parabola that follows xdot */
     PREFIX_real healthy, made;      /* [N] yield force of the healthy damper under the controller's
                                        duty, and of the real one under duty_out */
     PREFIX_real steady[4], of[4];   /* [N] steady yield forces of duty and of duty_out, each for

@@ -75,7 +75,7 @@ class Compiled:
         library.run.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_void_p]
         library.init.argtypes = [ctypes.c_void_p, ctypes.c_void_p]
         real = np.float32 if "-DERDCTL_FLOAT" in options else np.float64
-        return cls(library, tuple(m.name for m in block.members), real)
+        return cls(library, tuple(m.path for m in block.parameters), real)
 
     def state(self, **changed: float) -> Any:
         """A fresh state, with other parameters than the exported ones."""

@@ -1,19 +1,34 @@
 
 /* What the motion was, and what it will be as far as it can be told from the past. */
 
-/* How far ahead a straight line may be drawn: the slope of xdot, smoothed by a first order filter
-   of this time constant [s], that follows a wheel's hop and leaves out most of a sensor's noise. */
-#define SMOOTHED K(0.002)
+/* xdot is followed by a parabola that forgets what is older than some of these times [s]: short
+   enough to follow a wheel's hop, long enough to leave out most of a sensor's noise. */
+#define MEMORY K(0.0025)
 
-/* Takes in a good sample, `gap` after the last good one [s]. */
+/* Of its curvature, which a straight line has not: half the noise, and nearly all of the gain. */
+#define TRUSTED K(0.5)
+
+/* Takes in a good sample, `gap` after the last good one [s].
+   Source of the gains: N. Morrison, Introduction to Sequential Smoothing and Prediction (1969),
+   fading-memory polynomial filter of second degree. */
 static void take_motion(State *s, real gap, real x, real xdot)
 {
-    const real moved = x - s->x, slope = (xdot - s->xdot) / gap;
-    const real told = K(0.5) * (xdot + s->xdot) * gap;
-    s->xddot += gap / (gap + SMOOTHED) * (slope - s->xddot);
+    const real moved = x - s->x, told = K(0.5) * (xdot + s->xdot) * gap;
+    const real keeps = MEMORY / (MEMORY + gap), fresh = K(1.0) - keeps;
+    const real ahead = s->speed + gap * (s->slope + K(0.5) * gap * s->bend);
+    const real missed = xdot - ahead;
+    s->speed = ahead + (K(1.0) - keeps * keeps * keeps) * missed;
+    s->slope += gap * s->bend + K(1.5) * (K(1.0) - keeps * keeps) * fresh * missed / gap;
+    s->bend += fresh * fresh * fresh * missed / (gap * gap);
     /* A sensor that stands: what the other tells in the meantime, less what itself did. */
     s->strayed_x = x == s->x ? s->strayed_x + told : K(0.0);
     s->strayed_xdot = xdot == s->xdot ? s->strayed_xdot + moved - told : K(0.0);
+}
+
+/* xdot [m/s] at a time h [s] from now. */
+static real speed_ahead(const State *s, real h)
+{
+    return s->speed + h * (s->slope + K(0.5) * TRUSTED * h * s->bend);
 }
 
 static int stuck(const State *s)

@@ -45,8 +45,8 @@ static real wanted_duty(State *s, real dt, real top)
     if (!(dt > K(0.0))) /* the first sample: the steady force is the one to begin with */
         return duty_for(&law, target);
     h = until_next(p, dt);
-    xdot = s->xdot + h * s->xddot;
-    x = s->x + h * (s->xdot + K(0.5) * h * s->xddot);
+    xdot = speed_ahead(s, h);
+    x = s->x + K(0.5) * h * (s->xdot + xdot);
     if (xdot == K(0.0) || (xdot > K(0.0)) == up) {
         span = span_of(h, &law);
         target = target_of(p, g, up, up ? K(1.0) : K(-1.0), x, xdot,
@@ -141,6 +141,8 @@ static void take(State *s, real gap, real x, real xdot, real duty, real dt)
     s->up = up;
     s->x = x;
     s->xdot = xdot;
+    if (first)
+        s->speed = xdot;
     if (first || duty != s->duty) {
         s->duty = duty;
         set_steady(s, 0, duty);
