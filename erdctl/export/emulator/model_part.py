@@ -34,6 +34,7 @@ class ModelPart:
     members : of PREFIX_params;  declared : lines that declare them
     state : file with members of PREFIX_state;  types : of the source;  code : file
     wanted : file with what is left open in `code`, how a duty is found
+    yielding : where the damper's state has F_ER of Eq. 12
     """
 
     before: str
@@ -44,6 +45,7 @@ class ModelPart:
     types: str
     code: str
     wanted: str = ""
+    yielding: str = ""
     left_out: tuple[str, ...] = ()
 
 
@@ -77,6 +79,7 @@ def _observer(parameters: Parameters, prefix: str) -> ModelPart:
         types=damper.source.replace(include, '#include "PREFIX.h"'),
         code="observer.c",
         wanted="told.c" if sprung else "asked.c",
+        yielding="spring[0].yielding" if sprung else "yielding",
         left_out=damper.left_out,
     )
 

@@ -94,7 +94,7 @@ static real duty_by_yield_force(const Emulator *s, const Outlook *o, const Law *
             PREFIX_damper_step(&copy, o->late, o->x_1, o->xdot_1, K(0.0));
         rest = PREFIX_damper_step(&copy, o->h, o->x_2, o->xdot_2, K(0.0));
     }
-    steady = (law->way * (goal - rest) - (K(1.0) - law->gone) * s->made.yielding) / law->gone;
+    steady = (law->way * (goal - rest) - (K(1.0) - law->gone) * s->made.@YIELDING@) / law->gone;
     if (!(steady > K(0.0)) || !(law->sigma > K(0.0)))
         return K(0.0);
     return steady > law->sigma ? K(2.0) : POW(steady / law->sigma, K(1.0) / law->beta);
