@@ -1,0 +1,124 @@
+
+/* The exported damper itself, with all its effects: three of it run along, and copies of them tell
+   what force comes next. */
+
+static void observe(Emulator *s, real dt, real x, real xdot, real duty)
+{
+    PREFIX_damper_faults(&s->faulty, s->f_oil, s->f_electrical, s->f_deformation);
+    s->ideal = PREFIX_damper_step(&s->faulty, dt, x, xdot, duty);
+    s->unfielded = PREFIX_damper_step(&s->idle, dt, x, xdot, K(0.0));
+}
+
+/* A time dt without good inputs: as if the last ones stood. */
+static void observe_blind(Emulator *s, real dt)
+{
+    observe(s, dt, s->x, s->xdot, s->duty);
+}
+
+/* What the amplifier has from this sample on. */
+static void settle(Emulator *s, real dt, int starts)
+{
+    (void)starts;
+    PREFIX_damper_step(&s->made, dt, s->x, s->xdot, s->duty_out);
+}
+
+static int unreachable(const Emulator *s)
+{
+    return (s->ideal - s->unfielded) * s->xdot < K(0.0);
+}
+
+/* What is told of the motion to come. */
+typedef struct {
+    real dt;              /* [s] since the sample before, 0 at the first */
+    real late, x_1, xdot_1; /* [s] after which a duty given now begins to show, [m], [m/s] then */
+    real h, x_2, xdot_2;  /* [s] from then on, [m], [m/s] at its end */
+    real held;            /* [s] over which a duty that is tried is held, h or more */
+} Outlook;
+
+/* Force [N] that the faulty one will have. */
+static real force_wanted(const Emulator *s, const Outlook *o)
+{
+    PREFIX_damper_state copy;
+    if (!(o->h > K(0.0)))
+        return s->ideal;
+    copy = s->faulty;
+    if (o->late > K(0.0))
+        PREFIX_damper_step(&copy, o->late, o->x_1, o->xdot_1, s->duty);
+    return PREFIX_damper_step(&copy, o->h, o->x_2, o->xdot_2, s->duty);
+}
+
+static Outlook outlook(const Emulator *s, real dt, real top)
+{
+    Outlook o = {0};
+    o.dt = dt;
+    if (dt > K(0.0)) {
+        const real sweep = s->p.slew > K(0.0) ? SWEEP * top / s->p.slew : K(0.0);
+        o.late = s->p.dead_time;
+        o.h = until_next(&s->p, dt);
+        o.xdot_1 = speed_ahead(s, o.late);
+        o.x_1 = s->x + K(0.5) * o.late * (s->xdot + o.xdot_1);
+        o.xdot_2 = speed_ahead(s, o.late + o.h);
+        o.x_2 = o.x_1 + K(0.5) * o.h * (o.xdot_1 + o.xdot_2);
+        o.held = sweep > o.h ? sweep : o.h;
+    }
+    return o;
+}
+
+/* The law of Eq. 12 in the direction of the end. */
+typedef struct {
+    real sigma, beta, gone;
+    real way; /* 1 compression, -1 release */
+} Law;
+
+static Law law_at_the_end(const Emulator *s, const Outlook *o)
+{
+    const PREFIX_damper_params *p = &s->p.damper;
+    const real xdot = o->h > K(0.0) ? o->xdot_2 : s->xdot;
+    const int up = xdot > K(0.0) || (xdot == K(0.0) && s->made.up);
+    const real T = up ? p->compression_T_d : p->release_T_d;
+    Law law;
+    law.sigma = up ? p->compression_sigma : p->release_sigma;
+    law.beta = up ? p->compression_beta : p->release_beta;
+    law.gone = o->h > K(0.0) && T > K(0.0) ? -EXPM1(-o->held / T) : K(1.0);
+    law.way = up ? K(1.0) : K(-1.0);
+    return law;
+}
+
+/* By Eq. 12 alone, from the yield force that is missing beside all other forces. */
+static real duty_by_yield_force(const Emulator *s, const Outlook *o, const Law *law, real goal)
+{
+    PREFIX_damper_state copy = s->idle;
+    real rest = s->unfielded, steady;
+    if (o->h > K(0.0)) {
+        if (o->late > K(0.0))
+            PREFIX_damper_step(&copy, o->late, o->x_1, o->xdot_1, K(0.0));
+        rest = PREFIX_damper_step(&copy, o->h, o->x_2, o->xdot_2, K(0.0));
+    }
+    steady = (law->way * (goal - rest) - (K(1.0) - law->gone) * s->made.@YIELDING@) / law->gone;
+    if (!(steady > K(0.0)) || !(law->sigma > K(0.0)))
+        return K(0.0);
+    return steady > law->sigma ? K(2.0) : POW(steady / law->sigma, K(1.0) / law->beta);
+}
+
+@WANTED@
+static void renew(Emulator *s)
+{
+    if (memcmp(&s->p.damper, &s->made.p, sizeof s->p.damper) == 0)
+        return;
+    PREFIX_damper_retune(&s->faulty, &s->p.damper);
+    PREFIX_damper_retune(&s->made, &s->p.damper);
+    PREFIX_damper_retune(&s->idle, &s->p.damper);
+}
+
+static void begin(Emulator *s)
+{
+    PREFIX_damper_init(&s->faulty, &s->p.damper);
+    PREFIX_damper_init(&s->made, &s->p.damper);
+    PREFIX_damper_init(&s->idle, &s->p.damper);
+}
+
+static int usable_model(const Settings *p)
+{
+    return positive(p->dead_time, K(1.0))
+@USABLE@;
+}
