@@ -46,7 +46,7 @@ MEANING = (
     "force at a communication point is the damper's force at that time for the inputs as they were"
     " set for the step that ends there: set x, xdot and duty of the END of the step, call the step,"
     " read force. After initialisation it is the force at the first sample, the start time. A"
-    " master that sets the values of the beginning of each step gets the same forces one step late.",
+    " master that sets the values of the beginning of a step gets the same forces one step late.",
     "duty acts from the communication point for which it is set, and is held until the next, as in "
     "erdctl simulate. Fault factors act on the force at that point.",
     "FMI 2.0: with derivatives of the inputs (fmi2SetRealInputDerivatives) their values at the end "
