@@ -19,7 +19,7 @@ FILES = sorted(PACKAGE.rglob("*.py"))
 # Each room may import those before it, and its own. `plant` may import none: see the plant's tests.
 ROOMS = (
     "core", "model", "effects", "score", "bench", "estimate", "diagnose", "mimic", "plant", "io",
-    "report", "prove", "interface", "cli",
+    "export", "report", "prove", "interface", "cli",
 )  # fmt: skip
 FLAT = {"__init__", "__main__"}  # the package's face, and `python -m erdctl`
 LONGEST = 320  # lines of a file

@@ -1,0 +1,1 @@
+"""Identified dampers for other programs: C, FMU, the online emulator, and tables."""
