@@ -1,1 +1,1 @@
-"""Identified dampers for other programs: C, FMU, the online emulator, and tables."""
+"""Models and emulators for other programs: C source, FMUs, tables."""

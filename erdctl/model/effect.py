@@ -12,6 +12,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.slots import (
     MostFunction,
     Slot,
@@ -93,6 +94,7 @@ class Effect:
     sets_in : groups of which it takes a part from a time on, by the law of `erdctl.model.onset`,
         whose time a fit finds by a search of all (`estimate.onsets`); no others
     order : effects of one slot act in this order
+    c : the same in C99, for the export
     earlier : parameters that files lack which were written before there were any, and what they are
         there: a number, or the symbol whose value it is
     """
@@ -120,6 +122,7 @@ class Effect:
     sets_in: tuple[str, ...] = ()
     order: int = 0
     earlier: tuple[tuple[str, float | str], ...] = ()
+    c: CLaw | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         if bool(self.amplitudes) != (self.columns is not None):

@@ -1,0 +1,1 @@
+"""A damper's model as C99 source."""

@@ -1,0 +1,51 @@
+"""The comment on top of a source: what it is, where it comes from, what it has not."""
+
+from __future__ import annotations
+
+import hashlib
+import textwrap
+from collections.abc import Sequence
+
+from erdctl.core.version import __version__
+from erdctl.export.c.names import comment
+from erdctl.model.effect import Effect
+from erdctl.model.parameters import Parameters
+
+UNITS = {"x": "m", "xdot": "m/s", "duty": "1"}
+
+
+def hash_of(parameters: Parameters) -> str:
+    """SHA-256 of the values, by their names: the same for the same model."""
+    text = "\n".join(f"{name} {value!r}" for name, value in sorted(parameters.values.items()))
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def about(parameters: Parameters, effects: Sequence[Effect], left_out: Sequence[str]) -> str:
+    """The comment block."""
+    known = parameters.provenance
+    lines = [
+        "PREFIX: force of an electro-rheological damper from its motion and control.",
+        "",
+        "    F = k_nom x + c_vis xdot + F_ER sign(xdot),  T_d dF_ER/dt + F_ER = sigma v^beta",
+        "",
+        *(f"with {e.name}: {e.equation}" for e in effects),
+        f"Written by erdctl {__version__}; parameters identified by erdctl"
+        f" {known.get('erdctl', '(version not stated)')}.",
+        f"SHA-256 of the parameters: {hash_of(parameters)}",
+    ]
+    for source in known.get("logs", ()):
+        lines.append(f"Log {source.get('name', '')}, SHA-256 {source.get('sha256', 'not stated')}")
+    for name, ends in dict(known.get("ranges", {})).items():
+        if name in UNITS:
+            low, high = (float(e) for e in ends)
+            lines.append(f"Seen in the logs: {name} from {low:.6g} to {high:.6g} {UNITS[name]}")
+    lines += [f"Left out: {what}" for what in left_out]
+    lines += [f"{e.name}, in C: {e.c.note}" for e in effects if e.c is not None and e.c.note]
+    lines += [f"Note: {caveat}" for caveat in parameters.caveats()]
+    lines += ["C99; needs <math.h> only. -DERDCTL_FLOAT takes float in place of double."]
+    out = []
+    for line in lines:
+        text = line if line.startswith("    ") else comment(line)
+        out += textwrap.wrap(text, 96, subsequent_indent="    ", break_long_words=False,
+                             drop_whitespace=True, replace_whitespace=False) or [""]  # fmt: skip
+    return "\n".join(["/*", *(f" * {line}".rstrip() for line in out), " */"])

@@ -1,0 +1,98 @@
+"""C99 source of a damper, from its parameters."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from erdctl.core.errors import UsageProblem
+from erdctl.export.c.hooks import functions, hooks
+from erdctl.export.c.layout import (
+    CMember,
+    defaults,
+    effect_members,
+    paper_members,
+    parameter_struct,
+    state_structs,
+)
+from erdctl.export.c.names import helpers, identifier, part
+from erdctl.export.c.provenance import about
+from erdctl.model.effect import Effect, Stage
+from erdctl.model.parameters import Parameters
+from erdctl.model.slots import ChannelSlot
+
+
+@dataclass(frozen=True)
+class CBlock:
+    """A damper in C.
+
+    prefix : begins every name that others see;  header, source : text of PREFIX.h and PREFIX.c
+    left_out : effects that the block has not, each with why, for people
+    parameters : every member of PREFIX_params: path, value, unit and title
+    """
+
+    prefix: str
+    header: str
+    source: str
+    left_out: tuple[str, ...]
+    parameters: tuple[CMember, ...]
+
+
+def write_c(parameters: Parameters, *, prefix: str) -> CBlock:
+    """The block of a damper; the model without what belongs to its bench.
+
+    prefix : made a name of C if it is none
+    Raises UsageProblem for an effect that has no C.
+    """
+    prefix = identifier(prefix)
+    effects, left_out = on_the_vehicle(parameters.model.effects)
+    missing = [e.name for e in effects if e.c is None]
+    if missing:
+        raise UsageProblem(
+            f"has no C: {', '.join(missing)}; its file declares none (`c=CLaw(...)` in EFFECT)"
+        )
+    paper = paper_members(parameters)
+    own = [(e, effect_members(parameters, e)) for e in effects]
+    members = (*paper, *(m for _, of in own for m in of))
+    top = about(parameters, effects, left_out)
+
+    header = part("header.h").replace("@GUARD@", f"{prefix.upper()}_H")
+    header = header.replace("@PARAMETERS@", parameter_struct(paper, own))
+    header = header.replace("@STATES@", state_structs(effects))
+    body = [
+        part("base.c"), functions(effects), hooks(effects), part("sample.c"), part("forces.c"),
+        _PLAIN, defaults(members), part("interface.c"),
+    ]  # fmt: skip
+    called = helpers("\n".join(body))
+    pieces = [part("types.c"), *([called] if called else []), *body]
+    source = "\n\n".join(piece.strip("\n") for piece in pieces if piece.strip())
+    return CBlock(
+        prefix=prefix,
+        header=f"{top}\n{header}".replace("PREFIX", prefix),
+        source=f"{top}\n{source}\n".replace("PREFIX", prefix),
+        left_out=left_out,
+        parameters=members,
+    )
+
+
+_PLAIN = """
+static void tabulate(State *st)
+{
+    (void)st;
+}
+
+static real acting(State *st, const Sample *s)
+{
+    return parallel(st, s);
+}
+"""
+
+
+def on_the_vehicle(effects: tuple[Effect, ...]) -> tuple[tuple[Effect, ...], tuple[str, ...]]:
+    """The effects that belong to the damper, and what is left out because it belongs to a bench."""
+    kept, left_out = [], []
+    for effect in effects:
+        if effect.stage is Stage.SENSOR or isinstance(effect.slot, ChannelSlot):
+            left_out.append(f"{effect.name}: {effect.title}; belongs to the bench")
+        else:
+            kept.append(effect)
+    return tuple(kept), tuple(left_out)

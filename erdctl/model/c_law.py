@@ -1,0 +1,71 @@
+"""What an effect declares of its C: the body of one function for each thing that it does.
+
+The export (`erdctl.export.c`) puts each body into a function whose head the effect's slot fixes,
+and calls it once a sample. All heads share
+
+    p : const struct *, the effect's parameters by symbol (`p->x_d`)
+    z : struct *, its state, the members that `state` names (`z->heat`); only there if it has any.
+        All 0 after init; `s->first` is the time to set it
+    s : const Sample *, motion and control at this sample and at the one before, see below
+
+and real is double, or float. Every literal goes through K (`K(0.5)`), every function of <math.h>
+through its name in capitals (EXP, EXPM1, LOG1P, POW, TANH, SQRT, FABS, FMIN, FMAX), and the helpers
+of `erdctl/export/c/parts/helpers.c` may be called.
+
+    slot       code                                    is given besides      returns
+    Motion     void: alters m->x, m->xdot, m->engaged  Motion *m
+    Control    duty that acts over a step              real duty             real
+    Field      normalised steady yield over a step     real field, int way   real
+    Lag        factor of T_d in the step ahead                               real
+    Sign, Viscous, Gas   in place of sign, xdot, x                           real
+    Yield      what becomes of the yield force         real force            real
+    Scale      void: multiplies f->gas, f->viscous, f->yield  Groups *f
+    Feedback   the same, from the forces               const Groups *force, Groups *f
+    Driven     a further force                         const Groups *force   real
+    Series     compliance [m/N]; knows p alone                               real
+
+`force` is what `Effect.columns` add, with their amplitudes [N]; of an effect of speed alone it may
+use s->xdot and s->sign only. `play` is the free play [m] that a spring takes over, from p alone.
+
+Sample:
+
+    first            it is the first since init: nothing lies before it
+    h, t, clock      step from the sample before [s]; time since the first; the same in the time of
+                     the record as logged, where that is known [s]
+    x, xdot, duty    motion of the piston [m], [m/s]; duty that acts from now on [1]
+    x0, xdot0, duty0 the same at the sample before; duty0 acted over the step
+    up, up0          1 where the parameters of compression apply, now and before
+    turned, before   the direction changed in this step; part of the step before it did
+    sign, engaged    sign(xdot) of Eq. 18; part of the sample in which the piston moves with the rod
+    path, after      travel in this step, and of it after the turn [m]
+    rests            the first sample begins at rest, and not as a motion turns
+    ahead            see below
+
+In Python a value at a sample may rest on the step that follows, here it cannot: all that belongs to
+a step is computed as the step ends. A Control or Field law is called for the step that has ended,
+with s->ahead = 0 (and at the first sample, to begin), and again with s->ahead = 1 for the duty that
+acts from this sample on, as if the next step were as long as the last. Then it must leave what it
+has of the past as it is; it may note what it needs of this sample as the next step ends.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, kw_only=True)
+class CLaw:
+    """An effect in C99.
+
+    code : body of the function that its slot calls; empty where the slot has none (a term)
+    force : body of the function that gives its added force [N]; empty if it adds none
+    play : body of the function that gives a joint's free play [m]
+    state : members of its state, reals: a name, or an array with its length, "past[64]"
+    note : what the causal form cannot do that Python does, for the header
+    """
+
+    code: str = ""
+    force: str = ""
+    play: str = ""
+    state: tuple[str, ...] = ()
+    note: str = ""
