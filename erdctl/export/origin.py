@@ -28,7 +28,7 @@ def plain(text: str, most: int = CELL) -> str:
 
     Check: a line break becomes \n, and a letter with two dots the number of it.
     >>> plain("a\nö")
-    'a\\\\n\\\\xf6'
+    'a\\n\\xf6'
     """
     return shown(text, most).encode("ascii", "backslashreplace").decode()
 

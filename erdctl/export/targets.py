@@ -12,7 +12,6 @@ from erdctl.core.errors import UsageProblem
 if TYPE_CHECKING:
     from erdctl.export.origin import Origin
     from erdctl.export.tables.grid import Asked
-    from erdctl.model.amplifier import Amplifier
     from erdctl.model.faults import FaultKind
     from erdctl.model.parameters import Parameters
 
@@ -28,7 +27,7 @@ class Order:
 
     parameters, origin : of the damper, and the file that they stand in;  path : to write
     table : which table;  emulate : the faults of an emulator, none for the damper itself
-    amplifier, max_temperature : that an emulator keeps to [degC]
+    limits : of an emulator
     """
 
     parameters: Parameters
@@ -36,8 +35,7 @@ class Order:
     path: str
     table: Asked
     emulate: tuple[FaultKind, ...] = ()
-    amplifier: Amplifier
-    max_temperature: float
+    limits: Limits
     progress: Progress = field(default=lambda stage, what: None)
 
 
@@ -54,8 +52,14 @@ def _table(order: Order) -> Sequence[str]:
     )  # fmt: skip
 
 
+def _sources(order: Order) -> Sequence[str]:
+    from erdctl.export.source_files import write_sources
+
+    return write_sources(order.parameters, order.path, order.emulate, order.limits)
+
+
 @dataclass(frozen=True)
-class Target:
+class Exported:
     """One suffix.
 
     title : what it is;  write : gives remarks for the user;  options : that mean something for it
@@ -66,14 +70,15 @@ class Target:
     options: tuple[str, ...]
 
 
-TARGETS: Mapping[str, Target] = {
-    ".dpr": Target("damper property file", _table, (*TABLE, "--positive")),
-    ".csv": Target("force over speed and duty", _table, TABLE),
-    ".mat": Target("force over speed and duty, for MATLAB", _table, TABLE),
+TARGETS: Mapping[str, Exported] = {
+    ".c": Exported("C99 source, and its header beside it", _sources, EMULATOR),
+    ".dpr": Exported("damper property file", _table, (*TABLE, "--positive")),
+    ".csv": Exported("force over speed and duty", _table, TABLE),
+    ".mat": Exported("force over speed and duty, for MATLAB", _table, TABLE),
 }
 
 
-def target(path: str, given: Sequence[str]) -> Target:
+def target(path: str, given: Sequence[str]) -> Exported:
     """The target of a file by its suffix.
 
     given : the options that the user gave

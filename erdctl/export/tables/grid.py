@@ -74,6 +74,10 @@ def grid(parameters: Parameters, asked: Asked) -> Grid:
     There is none at 0: sign(0) = 0 (Eq. 18) would put a step into the curve, which a spline of a
     vehicle program would overshoot.
     Check: 0.1 m/s and 2 points give -0.1, -0.025, 0.025 and 0.1 m/s.
+    >>> from erdctl.model.composed import Model
+    >>> nothing = Parameters(model=Model(), estimates={})
+    >>> grid(nothing, Asked(speed=0.1, points=2)).speed.round(9).tolist()
+    [-0.1, -0.025, 0.025, 0.1]
     """
     ranges = {k: tuple(v) for k, v in dict(parameters.provenance.get("ranges", {})).items()}
     remarks: list[str] = []

@@ -36,6 +36,12 @@ class PeakMap:
         """(n,) force [N], linear between the places, and at its end value beyond them.
 
         Check: 0 N at -1 m/s and 10 N at 1 m/s give 7.5 N at 0.5 m/s, and 10 N at 2 m/s.
+        >>> at = Grid(
+        ...     speed=np.array([-1.0, 1.0]), duty=np.zeros(1), centre=0.0, amplitude=1.0, remarks=()
+        ... )
+        >>> table = PeakMap(at, np.array([[0.0], [10.0]]), np.zeros((2, 1)), ())
+        >>> table.at(np.array([0.5, 2.0]), np.zeros(2)).tolist()
+        [7.5, 10.0]
         """
         v, u = self.grid.speed, self.grid.duty
         x = np.clip(xdot, v[0], v[-1])
