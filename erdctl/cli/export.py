@@ -25,7 +25,7 @@ def command(
             "--output",
             "-o",
             metavar="FILE",
-            help="Where to; its suffix says what: .dpr, .csv, .mat.",
+            help="Where to; its suffix says what: .c, .dpr, .csv, .mat.",
         ),
     ],
     duty: Annotated[
@@ -91,10 +91,16 @@ def command(
     """Export a damper to another program: its suffix says what FILE becomes.
 
     \b
+    .c          C99, with its header beside it: dSPACE and any other C target, an
+                S-Function; init, step(dt, x, xdot, duty) -> force, no allocation
     .dpr        force over speed at one duty: damper property file of Adams Car and
                 other multibody programs (MotionView, SIMPACK)
     .csv, .mat  force over speed and duty, with standard errors: any program, MATLAB,
                 a lookup table of Simulink
+
+    --emulate writes the online emulator of faults in place of the damper: it runs in front of the
+    amplifier of a healthy damper, and gives the duty with which that acts as a faulty one, within
+    the amplifier's limits and without knowing what comes.
 
     A table holds the force at the highest speed of steady sines, in both directions. What it
     cannot hold (hysteresis, lag, the gas spring) is said in the file, with the NRMSE that this
@@ -104,6 +110,8 @@ def command(
 
     \b
     Examples:
+      erdctl export damper.json -o damper.c
+      erdctl export damper.json -o emulator.c --emulate oil,electrical --update-rate 1000
       erdctl export damper.json -o damper.dpr --duty 0.3
       erdctl export damper.json -o map.csv
       erdctl export damper.json -o map.mat --duty 0 --duty 0.2 --duty 0.4 --points 40
@@ -111,10 +119,12 @@ def command(
     """
     from hashlib import sha256
 
+    from erdctl.core.errors import UsageProblem
     from erdctl.export.emulated import emulated
+    from erdctl.export.emulator.limits import EmulatorLimits
     from erdctl.export.origin import Origin
     from erdctl.export.tables.grid import POINTS, Asked
-    from erdctl.export.targets import Order, target
+    from erdctl.export.targets import EMULATOR, Order, target
     from erdctl.io import documents
     from erdctl.io.effect_file import parameters_of
     from erdctl.mimic.trusted import refuse_untrusted
@@ -127,14 +137,20 @@ def command(
         "--resolution": resolution, "--slew": slew, "--update-rate": update_rate,
         "--max-temperature": max_temperature,
     }  # fmt: skip
-    wanted = target(output, [name for name, value in options.items() if value is not None])
+    given = [name for name, value in options.items() if value is not None]
+    wanted = target(output, given)
     asked = Asked(
         duty=tuple(duty), speed=speed, points=POINTS if points is None else points,
         amplitude=amplitude, extension=positive is not Positive.COMPRESSION,
     )  # fmt: skip
-    limits = {"duty_max": duty_max, "resolution": resolution, "slew": slew,
+    amplifier = {"duty_max": duty_max, "resolution": resolution, "slew": slew,
               "update_rate": update_rate}  # fmt: skip
-    amplifier = Amplifier(**{k: v for k, v in limits.items() if v is not None})
+    limits = EmulatorLimits(
+        amplifier=Amplifier(**{k: v for k, v in amplifier.items() if v is not None}),
+        **({} if max_temperature is None else {"temperature_max": max_temperature}),
+    )
+    if emulate is None and (emulator := [o for o in given if o in EMULATOR]):
+        raise UsageProblem(f"{emulator[0]} is of an emulator; add --emulate oil, for instance")
     faults = () if emulate is None else emulated(emulate)
     data = documents.read_bytes(params)
     name = "stdin" if params == "-" else params
@@ -143,8 +159,7 @@ def command(
     with progress() as step:
         remarks = wanted.write(Order(
             parameters=parameters, origin=Origin(name=name, sha256=sha256(data).hexdigest()),
-            path=output, table=asked, emulate=faults, amplifier=amplifier,
-            max_temperature=60.0 if max_temperature is None else max_temperature, progress=step,
+            path=output, table=asked, emulate=faults, limits=limits, progress=step,
         ))  # fmt: skip
     for line in remarks:
         say(line)

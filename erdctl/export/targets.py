@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from erdctl.core.errors import UsageProblem
 
 if TYPE_CHECKING:
+    from erdctl.export.emulator.limits import EmulatorLimits
     from erdctl.export.origin import Origin
     from erdctl.export.tables.grid import Asked
     from erdctl.model.faults import FaultKind
@@ -35,7 +36,7 @@ class Order:
     path: str
     table: Asked
     emulate: tuple[FaultKind, ...] = ()
-    limits: Limits
+    limits: EmulatorLimits
     progress: Progress = field(default=lambda stage, what: None)
 
 
