@@ -71,8 +71,8 @@ def grid(parameters: Parameters, asked: Asked) -> Grid:
 
         v_k = v_max (k / n)^2,  k = 1..n
 
-    There is none at 0: sign(0) = 0 (Eq. 18) would put a step into the curve, which a spline of a
-    vehicle program would overshoot.
+    There is none at 0: the force jumps there (Eq. 18), and a spline of a vehicle program through a
+    point on the jump can overshoot its ends by a tenth.
     Check: 0.1 m/s and 2 points give -0.1, -0.025, 0.025 and 0.1 m/s.
     >>> from erdctl.model.composed import Model
     >>> nothing = Parameters(model=Model(), estimates={})
