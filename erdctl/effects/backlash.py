@@ -29,6 +29,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import MotionSlot, Values
 
@@ -76,4 +77,64 @@ EFFECT = Effect(
     ),
     guesses=gaps,
     companions=("mount_compliance", "coulomb_friction"),
+    c=CLaw(
+        state=("lost", "past", "free"),
+        code="""
+        /* Contact that falls just behind the sample before is not known there yet, and sets in at
+         * this one. */
+        const real blur = K(0.2);  /* part of a step over which contact sets in */
+        real half = K(0.5) * p->g, v0 = z->past, v1 = s->xdot, h = s->h;
+        real before, a, b, span, travel, flank, room, met, contact = K(-1.0), edge = blur * h;
+        int leg, turning = v0 * v1 < K(0.0), pressing;
+
+        z->past = s->xdot;
+        if (!(p->g > K(0.0)))
+            return;
+        m->joint = 1;
+        if (s->first) {
+            z->lost = s->rests ? K(0.0) : s->up ? half : -half;
+            z->free = K(0.0);
+            m->engaged = s->rests ? K(0.0) : K(1.0);
+            m->x -= z->lost;
+            m->xdot *= m->engaged;
+            return;
+        }
+        before = turning ? v0 / (v0 - v1) * h : h;
+        for (leg = 0; leg < (turning ? 2 : 1); leg++) {
+            a = leg == 0 ? v0 : K(0.0);
+            b = turning && leg == 0 ? K(0.0) : v1;
+            span = leg == 0 ? before : h - before;
+            travel = K(0.5) * (a + b) * span;
+            if (!(FABS(travel) > K(0.0)))
+                continue;
+            flank = travel > K(0.0) ? half : -half;
+            room = FABS(flank - z->lost);
+            if (room >= p->g)
+                z->free = K(0.0);
+            if (FABS(travel) < room) {
+                z->lost += travel;
+                z->free += span;
+                continue;
+            }
+            if (room > K(0.0)) {
+                real u = FABS(a), rate = (FABS(b) - FABS(a)) / span;
+
+                met = K(2.0) * room / (u + SQRT(FMAX(u * u + K(2.0) * rate * room, K(0.0))));
+                met = FMIN(met, span);
+                contact = (leg == 1 ? before : K(0.0)) + met;
+                edge = FMAX(FMIN(blur * h, K(2.0) * (z->free + met)), K(1e-12));
+            }
+            z->lost = flank;
+        }
+        pressing = (v1 > K(0.0) && z->lost >= half) || (v1 < K(0.0) && z->lost <= -half);
+        m->engaged = pressing ? K(1.0) : K(0.0);
+        if (pressing && contact >= K(0.0))
+            m->engaged = FMIN(K(1.0), K(0.5) + (h - contact) / edge);
+        m->x -= z->lost;
+        m->xdot *= m->engaged;
+        """,
+        play="return p->g;",
+        note="contact that falls less than a tenth of a step behind a sample sets in at the next "
+        "one",
+    ),
 )  # fmt: skip

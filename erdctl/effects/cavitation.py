@@ -31,6 +31,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import ScaleSlot, Values
 
@@ -120,4 +121,37 @@ EFFECT = Effect(
         ),
     ),
     guesses=guesses,
+    c=CLaw(
+        state=("hollow", "gone"),
+        code="""
+        /* hollow: the void as this stroke began; gone: travelled in it since. How far the next step
+         * goes is not known yet: as far as the last one would at this speed. */
+        real edge = p->e * p->x_v, to_go, sample, lost, travel;
+
+        if (!(p->x_v > K(0.0)))
+            return;
+        if (s->turned) {
+            travel = z->gone + (s->path - s->after);
+            z->hollow = s->up0 ? FMIN(z->hollow + p->g * travel, p->x_v)
+                              : FMAX(z->hollow - travel, K(0.0));
+            z->gone = s->after;
+        } else {
+            z->gone += s->path;
+        }
+        if (s->up)
+            return;
+        to_go = z->hollow - z->gone;
+        sample = FMIN(FMAX(FABS(s->xdot) * s->h - edge, K(0.0)), K(2.0) * z->hollow);
+        lost = to_go / FMAX(edge, K(1e-12));
+        if (sample > K(1e-12)) {
+            lost = ramp_area(to_go + K(0.5) * sample, edge);
+            lost = (lost - ramp_area(to_go - K(0.5) * sample, edge)) / sample;
+        }
+        lost = K(1.0) - p->lambda * clipped(lost, K(0.0), K(1.0));
+        f->viscous *= lost;
+        f->yield *= lost;
+        """,
+        note="the travel of the coming step, over which the edge of the void is averaged, is taken"
+        " from the speed",
+    ),
 )  # fmt: skip

@@ -17,6 +17,7 @@ from __future__ import annotations
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import TermSlot, Values
 
@@ -45,4 +46,7 @@ EFFECT = Effect(
     ),
     columns=coulomb_friction,
     of_speed=True,
+    c=CLaw(
+        force="return p->F_c * s->sign;",
+    ),
 )  # fmt: skip

@@ -24,7 +24,7 @@ from __future__ import annotations
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
-from erdctl.model.faults import FaultKind, set_in
+from erdctl.model.faults import FaultKind, set_in, set_in_c
 from erdctl.model.onset import ONSET, anywhere
 from erdctl.model.slots import ScaleSlot, Values
 
@@ -50,4 +50,5 @@ EFFECT = Effect(
     guesses=anywhere,
     earlier=(("t_r", 0.0),),
     sets_in=FaultKind.DEFORMATION.groups,
+    c=set_in_c(FaultKind.DEFORMATION),
 )

@@ -30,6 +30,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import TermSlot, Values
 
@@ -105,4 +106,10 @@ EFFECT = Effect(
     columns=end_stop,
     guesses=starts,
     earlier=(("x_r", "x_stop"), ("theta", 0.0), ("e", 1e-3)),
+    c=CLaw(
+        force="""
+        return p->k_c * stop_contact(s->x - p->x_stop, s->xdot, p->theta, p->e)
+               - p->k_r * stop_contact(-s->x - p->x_r, -s->xdot, p->theta, p->e);
+        """,
+    ),
 )  # fmt: skip

@@ -29,6 +29,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import FieldSlot, Values
 
@@ -81,4 +82,14 @@ EFFECT = Effect(
     ),
     earlier=(("n", 1.0),),
     guesses=alike,
+    c=CLaw(
+        code="""
+        const real far = K(1e3);  /* times the level: x^n overflows where tanh has long been 1 */
+        real a = way == 0 ? p->a_c : p->a_r;
+
+        if (!(a > K(0.0)))
+            return field;
+        return POW(TANH(POW(FMIN(a * field, far), p->n)), K(1.0) / p->n) / a;
+        """,
+    ),
 )  # fmt: skip

@@ -20,6 +20,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import ControlSlot, Values
 
@@ -49,4 +50,7 @@ EFFECT = Effect(
         ),
     ),
     order=20,  # the fluid comes after the amplifier
+    c=CLaw(
+        code="return FMAX(duty - p->v_c, K(0.0));",
+    ),
 )  # fmt: skip

@@ -25,6 +25,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.kernels import first_order
 from erdctl.model.slots import ScaleSlot, Values
@@ -77,4 +78,18 @@ EFFECT = Effect(
         ),
     ),
     guesses=doubled,
+    c=CLaw(
+        state=("field",),
+        code="""
+        real target = s->duty0 > K(0.0) ? POW(s->duty0, p->m) : K(0.0);
+
+        if (!(p->r > K(0.0)))
+            return;
+        if (s->first)
+            z->field = target;
+        else
+            z->field += (target - z->field) * -EXPM1(-s->h / FMAX(p->T_v, K(1e-9)));
+        f->viscous *= K(1.0) + p->r * z->field;
+        """,
+    ),
 )  # fmt: skip

@@ -19,6 +19,7 @@ vehicle suspension applications, Smart Mater. Struct. 5 (1996) 591-606; J. C. Ma
 from __future__ import annotations
 
 from erdctl.core.quantity import Quantity, Scale
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import SeriesSlot, Values
 
@@ -47,4 +48,7 @@ EFFECT = Effect(
         ),
     ),
     equivalents=("mount_compliance",),
+    c=CLaw(
+        code="return p->s_f;",
+    ),
 )  # fmt: skip

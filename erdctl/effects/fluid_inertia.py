@@ -20,6 +20,7 @@ from __future__ import annotations
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import TermSlot, Values
 
@@ -47,4 +48,12 @@ EFFECT = Effect(
         ),
     ),
     columns=fluid_inertia,
+    c=CLaw(
+        force="""
+        /* No velocity is known ahead of a sample: the slope of the last step, half a step late. */
+        return s->first ? K(0.0) : p->m * (s->xdot - s->xdot0) / s->h;
+        """,
+        note="the acceleration is the slope of xdot over the last step, where Python looks 20 ms "
+        "each way",
+    ),
 )  # fmt: skip

@@ -23,6 +23,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import GasSlot, Values
 
@@ -74,4 +75,17 @@ EFFECT = Effect(
         ),
     ),
     columns=preload,
+    c=CLaw(
+        code="""
+        const real full = K(0.95);  /* of the gas volume; from there on the tangent goes on */
+        real part, beyond;
+
+        if (!(p->a > K(0.0)))
+            return s->x;
+        part = FMIN(p->a * s->x, full);
+        beyond = (p->a * s->x - part) * POW(K(1.0) - full, -p->gamma - K(1.0));
+        return (EXPM1(-p->gamma * LOG1P(-part)) / p->gamma + beyond) / p->a;
+        """,
+        force="return p->F_0;",
+    ),
 )  # fmt: skip

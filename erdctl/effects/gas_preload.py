@@ -21,6 +21,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import TermSlot, Values
 
@@ -49,4 +50,7 @@ EFFECT = Effect(
     ),
     columns=gas_preload,
     equivalents=("force_offset",),
+    c=CLaw(
+        force="return p->F_0;",
+    ),
 )  # fmt: skip

@@ -27,6 +27,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.kernels import first_order
 from erdctl.model.slots import DrivenSlot, Values
@@ -78,4 +79,17 @@ EFFECT = Effect(
         ),
     ),
     guesses=warming,
+    c=CLaw(
+        state=("power", "heat", "low"),
+        code="""
+        real power = FMAX((force->viscous + force->yield) * s->xdot, K(0.0));
+        real mean = K(0.5) * (z->power + power), gone = -EXPM1(-s->h / p->tau_g);
+
+        z->power = power;
+        if (s->first || !(p->g > K(0.0)))
+            return K(0.0);
+        add_to(&z->heat, &z->low, (p->tau_g * mean - z->heat) * gone);
+        return p->g * z->heat;
+        """,
+    ),
 )  # fmt: skip

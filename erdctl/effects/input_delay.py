@@ -26,6 +26,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import FieldSlot, Values
 
@@ -64,4 +65,70 @@ EFFECT = Effect(
         ),
     ),
     order=10,  # of a constant delay and a memoryless law the order does not matter
+    c=CLaw(
+        state=("length", "tail", "count", "span[512]", "value[512]"),
+        code="""
+        /* The past of length tau as pieces of held field: a step takes its time from the oldest. */
+        enum { PIECES = 512, KEPT = 504 };
+        real want = s->h, skip, taken, area = K(0.0), span;
+        int tail, count, newest;
+
+        if (!(p->tau > K(0.0))) {
+            z->length = K(0.0);
+            return field;
+        }
+        if ((s->first && !s->ahead) || !(z->length > K(0.0))) {
+            z->tail = K(0.0);
+            z->count = K(1.0);
+            z->span[0] = z->length = p->tau;
+            z->value[0] = field;
+        }
+        if (s->first)
+            return field;
+        tail = (int)z->tail;
+        count = (int)z->count;
+        /* Another tau than before: the oldest value goes on, or the oldest pieces go. */
+        skip = z->length - p->tau;
+        span = z->span[tail] - FMIN(skip, K(0.0));
+        skip = FMAX(skip, K(0.0));
+        while (count > 0 && (skip > K(0.0) || want > K(0.0))) {
+            taken = FMIN(span, skip > K(0.0) ? skip : want);
+            if (skip > K(0.0)) {
+                skip -= taken;
+            } else {
+                area += z->value[tail] * taken;
+                want -= taken;
+            }
+            span -= taken;
+            if (!(span > K(0.0))) {
+                tail = (tail + 1) % PIECES;
+                count--;
+                span = z->span[tail];
+            }
+        }
+        area += FMAX(want, K(0.0)) * field;  /* a step longer than tau */
+        if (s->ahead)
+            return area / s->h;
+        z->length = p->tau;
+        z->tail = (real)tail;
+        if (count > 0)
+            z->span[tail] = span;
+        taken = FMIN(s->h, p->tau);
+        newest = (tail + count - 1 + PIECES) % PIECES;
+        /* A held field is one piece; what is finer than a part of tau joins the newest piece. */
+        if (count > 0 && (FABS(z->value[newest] - field) <= K(0.0) || count >= KEPT
+                          || z->span[newest] < p->tau / (real)KEPT)) {
+            z->span[newest] += taken;
+            z->value[newest] += (field - z->value[newest]) * (taken / z->span[newest]);
+        } else {
+            newest = (tail + count) % PIECES;
+            z->span[newest] = taken;
+            z->value[newest] = field;
+            count++;
+        }
+        z->count = (real)count;
+        return area / s->h;
+        """,
+        note="a past of more than 504 pieces is kept with a 504th of tau as its finest step",
+    ),
 )  # fmt: skip

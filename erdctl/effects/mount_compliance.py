@@ -19,6 +19,7 @@ supplemental fluid dampers, Struct. Design Tall Build. 2 (1993) 93-132; J. C. Ma
 from __future__ import annotations
 
 from erdctl.core.quantity import Quantity, Scale
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import SeriesSlot, Values
 
@@ -47,4 +48,7 @@ EFFECT = Effect(
         ),
     ),
     equivalents=("fluid_compressibility",),
+    c=CLaw(
+        code="return p->s_m;",
+    ),
 )  # fmt: skip

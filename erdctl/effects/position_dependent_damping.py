@@ -22,6 +22,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import ScaleSlot, Values
 
@@ -68,5 +69,11 @@ EFFECT = Effect(
             symbol="e_2", unit="1/m^2", title="curvature of the yield force over the stroke",
             low=-1e7, high=1e7, start=100.0,
         ),
+    ),
+    c=CLaw(
+        code="""
+        f->viscous *= FMAX(K(1.0) + (p->b_1 + p->b_2 * s->x) * s->x, K(0.0));
+        f->yield *= FMAX(K(1.0) + (p->e_1 + p->e_2 * s->x) * s->x, K(0.0));
+        """,
     ),
 )  # fmt: skip

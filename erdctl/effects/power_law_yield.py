@@ -22,6 +22,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import ScaleSlot, Values
 
@@ -52,4 +53,7 @@ EFFECT = Effect(
         ),
     ),
     of_speed=True,
+    c=CLaw(
+        code="f->yield *= POW(FABS(s->xdot) / K(0.1), p->n);",
+    ),
 )  # fmt: skip

@@ -28,6 +28,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array, Index
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.kernels import follow
 from erdctl.model.slots import TermSlot, Values
@@ -100,4 +101,21 @@ EFFECT = Effect(
         ),
     ),
     columns=presliding_friction,
+    c=CLaw(
+        state=("z",),
+        force="""
+        /* At the first sample it has slid for long, or, at rest, not at all: where the motion comes
+         * by its first place again lies ahead. Who knows better sets z after the first step. */
+        real way = s->up ? K(1.0) : K(-1.0), past = s->up0 ? K(1.0) : K(-1.0);
+
+        if (s->first)
+            z->z = s->xdot > K(0.0) ? K(1.0) : s->xdot < K(0.0) ? K(-1.0) : K(0.0);
+        else
+            z->z = follow(z->z, past, way, s->path / p->x_d, s->turned,
+                          FMAX(s->path - s->after, K(0.0)) / p->x_d, s->after / p->x_d);
+        return p->F_c * z->z;
+        """,
+        note="begins as slid for long, or with no force from rest; whether it comes by that place "
+        "again it cannot know",
+    ),
 )  # fmt: skip

@@ -23,6 +23,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.kernels import follow
 from erdctl.model.slots import Values, YieldSlot
@@ -58,4 +59,18 @@ EFFECT = Effect(
         ),
     ),
     companions=("preyield_viscosity",),
+    c=CLaw(
+        state=("force", "past"),
+        code="""
+        real past = z->past;
+
+        z->past = force;
+        if (!(p->x_d > K(0.0)))
+            return force;
+        z->force = s->first ? force : follow(z->force, past, force, s->path / p->x_d, s->turned,
+                                             FMAX(s->path - s->after, K(0.0)) / p->x_d,
+                                             s->after / p->x_d);
+        return z->force;
+        """,
+    ),
 )  # fmt: skip

@@ -25,6 +25,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import SignSlot, Values
 
@@ -76,4 +77,12 @@ EFFECT = Effect(
         ),
     ),
     guesses=speeds,
+    c=CLaw(
+        code="""
+        /* s->duty0 acted until this sample, and below 0.01 there is hardly a yield force. */
+        if (!(p->v_y > K(0.0)))
+            return s->sign;
+        return TANH(FABS(s->xdot) / (p->v_y * POW(FMAX(s->duty0, K(0.01)), p->q))) * s->sign;
+        """,
+    ),
 )  # fmt: skip

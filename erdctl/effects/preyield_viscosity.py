@@ -20,6 +20,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import SignSlot, Values
 
@@ -52,4 +53,11 @@ EFFECT = Effect(
     ),
     companions=("mount_compliance",),
     of_speed=True,
+    c=CLaw(
+        code="""
+        if (!(p->v_y > K(0.0)))
+            return s->sign;
+        return TANH(FABS(s->xdot) / p->v_y) * s->sign;
+        """,
+    ),
 )  # fmt: skip

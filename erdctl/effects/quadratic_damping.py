@@ -18,6 +18,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import TermSlot, Values
 
@@ -46,4 +47,7 @@ EFFECT = Effect(
     ),
     columns=quadratic_damping,
     of_speed=True,
+    c=CLaw(
+        force="return p->c_2 * s->xdot * FABS(s->xdot);",
+    ),
 )  # fmt: skip

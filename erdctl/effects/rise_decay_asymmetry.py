@@ -23,6 +23,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import LagSlot, Values
 
@@ -48,5 +49,8 @@ EFFECT = Effect(
             symbol="r", unit="1", title="time constant of decay over that of rise",
             low=0.02, high=50.0, start=2.0, off=1.0, scale=Scale.LOG,
         ),
+    ),
+    c=CLaw(
+        code="return p->r;",
     ),
 )  # fmt: skip

@@ -20,6 +20,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import Values, ViscousSlot
 
@@ -53,4 +54,13 @@ EFFECT = Effect(
         ),
     ),
     of_speed=True,
+    c=CLaw(
+        code="""
+        const real v_0 = K(0.1);  /* m/s, the speed at which c_vis keeps its meaning */
+
+        if (p->n >= K(1.0))
+            return s->xdot;
+        return COPYSIGN(v_0 * POW(FABS(s->xdot) / v_0, p->n), s->xdot);
+        """,
+    ),
 )  # fmt: skip

@@ -21,6 +21,7 @@ from __future__ import annotations
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.kernels import follow
 from erdctl.model.slots import Values, YieldSlot
@@ -54,5 +55,19 @@ EFFECT = Effect(
             symbol="T_s", unit="s", title="time constant of the signed yield force",
             low=1e-5, high=10.0, start=0.01, scale=Scale.LOG,
         ),
+    ),
+    c=CLaw(
+        state=("force", "past"),
+        code="""
+        real past = z->past, e;
+
+        z->past = force;
+        if (!(p->T_s > K(0.0)))
+            return force;
+        e = s->h / p->T_s;
+        z->force = s->first ? force : follow(z->force, past, force, e, s->turned, s->before * e,
+                                             (K(1.0) - s->before) * e);
+        return z->force;
+        """,
     ),
 )  # fmt: skip

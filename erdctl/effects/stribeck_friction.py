@@ -21,6 +21,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import TermSlot, Values
 
@@ -57,4 +58,11 @@ EFFECT = Effect(
     ),
     columns=stribeck_friction,
     of_speed=True,
+    c=CLaw(
+        force="""
+        real v = s->xdot / p->v_s;
+
+        return s->sign * (p->F_k + p->F_sk * EXP(-v * v));
+        """,
+    ),
 )  # fmt: skip

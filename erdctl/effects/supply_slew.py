@@ -20,6 +20,7 @@ from __future__ import annotations
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import ControlSlot, Values
 
@@ -53,4 +54,25 @@ EFFECT = Effect(
         ),
     ),
     order=10,  # the amplifier comes before the fluid
+    c=CLaw(
+        state=("reached",),
+        code="""
+        real reach = s->h / p->T_full, off, mean;
+
+        if (!(p->T_full > K(0.0)))
+            return duty;
+        if (s->first && !s->ahead)
+            z->reached = duty;
+        off = duty - z->reached;
+        if (FABS(off) <= reach) {
+            mean = duty - (reach > K(0.0) ? K(0.5) * off * FABS(off) / reach : K(0.0));
+        } else {
+            off = off > K(0.0) ? reach : -reach;
+            mean = z->reached + K(0.5) * off;
+        }
+        if (!s->ahead)
+            z->reached += off;
+        return mean;
+        """,
+    ),
 )  # fmt: skip

@@ -28,6 +28,7 @@ from collections.abc import Mapping
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import FeedbackSlot, Values
 
@@ -72,5 +73,22 @@ EFFECT = Effect(
             symbol="tau", unit="s", title="time constant of cooling",
             low=0.1, high=1e6, start=100.0, off=100.0, scale=Scale.LOG,
         ),
+    ),
+    c=CLaw(
+        state=("power", "heat", "low"),
+        code="""
+        real gone = -EXPM1(-s->h / p->tau), viscous, yield;
+
+        if (!(p->a_v > K(0.0)) && !(p->a_y > K(0.0)))
+            return;
+        if (!s->first)
+            add_to(&z->heat, &z->low, (z->power * p->tau - z->heat) * gone);
+        z->heat = FMAX(z->heat, K(0.0));
+        viscous = EXP(-p->a_v * z->heat);
+        yield = EXP(-p->a_y * z->heat);
+        z->power = (viscous * force->viscous + yield * force->yield) * s->xdot;
+        f->viscous *= viscous;
+        f->yield *= yield;
+        """,
     ),
 )  # fmt: skip

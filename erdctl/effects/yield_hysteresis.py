@@ -24,6 +24,7 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import SignSlot, Values
 
@@ -58,5 +59,16 @@ EFFECT = Effect(
             symbol="kappa", unit="1/s", title="width of the loop over the stroke, k_1 / c_1",
             low=0.0, high=1e4, start=1.0,
         ),
+    ),
+    c=CLaw(
+        code="""
+        real shifted = s->xdot + p->kappa * s->x;
+
+        if (!(p->v_y > K(0.0)) && !(p->kappa > K(0.0)))
+            return s->sign;
+        if (p->v_y > K(0.0))
+            return TANH(shifted / p->v_y);
+        return shifted > K(0.0) ? K(1.0) : shifted < K(0.0) ? K(-1.0) : K(0.0);
+        """,
     ),
 )  # fmt: skip

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
@@ -58,8 +59,11 @@ def law_of(effect: Effect) -> CLaw:
     return effect.c
 
 
-def functions(effects: Iterable[Effect]) -> str:
-    """What each effect does, in functions of its own."""
+def functions(effects: Iterable[Effect], *, plays: bool) -> str:
+    """What each effect does, in functions of its own.
+
+    plays : with free plays, which a spring in series takes over
+    """
     out: list[str] = []
     for effect in effects:
         c = law_of(effect)
@@ -67,7 +71,7 @@ def functions(effects: Iterable[Effect]) -> str:
             out.append(_function("law", effect, HEADS[type(effect.slot)], c.code))
         if c.force:
             out.append(_function("force", effect, TERM, c.force))
-        if c.play:
+        if c.play and plays:
             out.append(_function("play", effect, PLAY, c.play))
     return "\n\n".join(out)
 
@@ -86,7 +90,7 @@ def _function(kind: str, effect: Effect, head: Head, body: str) -> str:
         unused.append("s")
     given += head.given
     unused += [g.split()[-1].lstrip("*") for g in head.given]
-    lines = [f"    {line}" if line.strip() else "" for line in body.strip("\n").splitlines()]
+    lines = textwrap.indent(textwrap.dedent(body).strip(), "    ").splitlines()
     marks = " ".join(f"(void){u};" for u in unused)
     # Declarations may follow in a body, as C99 has it.
     text = "\n".join([f"    {marks}", *lines])
@@ -102,8 +106,11 @@ def call(kind: str, effect: Effect, *given: str, state: str = "") -> str:
     return f"{kind}_{name}({', '.join([*arguments, 's', *given])})"
 
 
-def hooks(effects: Sequence[Effect]) -> str:
-    """The functions that call them, in the order in which effects of one slot act."""
+def hooks(effects: Sequence[Effect], *, plays: bool) -> str:
+    """The functions that call them, in the order in which effects of one slot act.
+
+    plays : a compliance in series takes over the free play of joints while it acts
+    """
 
     def of(kind: type[Slot]) -> list[Effect]:
         return [effect for effect, _ in in_slot(effects, kind)]
@@ -118,7 +125,7 @@ def hooks(effects: Sequence[Effect]) -> str:
         lags += ["    *rises *= one;"] if slot.rising else []
     fields = [call("law", e, "value", "way", state="[way]") for e in of(FieldSlot)]
     return "\n\n".join([
-        _hook("void motion", "Motion *m", [f"    {call('law', e, 'm')};" for e in of(MotionSlot)]),
+        _hook("void motion", "Motion *m", _moved(of(MotionSlot), plays=plays)),
         _hook(
             "real control", "real duty",
             [f"    duty = {call('law', e, 'duty')};" for e in of(ControlSlot)],
@@ -169,6 +176,15 @@ def _place(name: str, laws: Sequence[Effect], plain: str, what: str) -> str:
         names = ", ".join(e.name for e in laws)
         raise IncompatibleEffects(f"only one effect can take the place of {what}: {names}")
     return _hook(f"real {name}", "", [], call("law", laws[0]) if laws else plain)
+
+
+def _moved(laws: Sequence[Effect], *, plays: bool) -> list[str]:
+    out = []
+    for effect in laws:
+        joint = plays and bool(law_of(effect).play)
+        out += ["    if (!(compliance(st) > K(0.0)))"] if joint else []
+        out += [f"    {'    ' if joint else ''}{call('law', effect, 'm')};"]
+    return out
 
 
 def _scaled(scales: Sequence[Effect], *, of_speed: bool) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from erdctl.core.errors import UsageProblem
+from erdctl.export.c import series
 from erdctl.export.c.hooks import functions, hooks
 from erdctl.export.c.layout import (
     CMember,
@@ -50,17 +51,26 @@ def write_c(parameters: Parameters, *, prefix: str) -> CBlock:
         raise UsageProblem(
             f"has no C: {', '.join(missing)}; its file declares none (`c=CLaw(...)` in EFFECT)"
         )
+    spring = series.spring_of(effects)
+    plays = spring is not None and series.whole(spring)
     paper = paper_members(parameters)
+    paper += () if spring is None else (series.fastest(parameters),)
     own = [(e, effect_members(parameters, e)) for e in effects]
     members = (*paper, *(m for _, of in own for m in of))
     top = about(parameters, effects, left_out)
 
     header = part("header.h").replace("@GUARD@", f"{prefix.upper()}_H")
     header = header.replace("@PARAMETERS@", parameter_struct(paper, own))
-    header = header.replace("@STATES@", state_structs(effects))
+    header = header.replace(
+        "@STATES@",
+        state_structs(effects) + ("" if spring is None else series.state(effects)),
+    )
     body = [
-        part("base.c"), functions(effects), hooks(effects), part("sample.c"), part("forces.c"),
-        _PLAIN, defaults(members), part("interface.c"),
+        part("base.c"), functions(effects, plays=plays),
+        "" if spring is None else series.joint(spring, effects),
+        hooks(effects, plays=plays), part("sample.c"), part("forces.c"),
+        part("plain.c") if spring is None else series.march(spring, effects),
+        defaults(members), part("interface.c"),
     ]  # fmt: skip
     called = helpers("\n".join(body))
     pieces = [part("types.c"), *([called] if called else []), *body]
@@ -72,19 +82,6 @@ def write_c(parameters: Parameters, *, prefix: str) -> CBlock:
         left_out=left_out,
         parameters=members,
     )
-
-
-_PLAIN = """
-static void tabulate(State *st)
-{
-    (void)st;
-}
-
-static real acting(State *st, const Sample *s)
-{
-    return parallel(st, s);
-}
-"""
 
 
 def on_the_vehicle(effects: tuple[Effect, ...]) -> tuple[tuple[Effect, ...], tuple[str, ...]]:

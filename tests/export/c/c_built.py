@@ -107,8 +107,11 @@ def parameters_of(model: Model, values: Mapping[str, float], **provenance: objec
     return Parameters(model=model, estimates=estimates, provenance=provenance)
 
 
-def block_of(model: Model, values: Mapping[str, float], prefix: str = "damper") -> CBlock:
-    return write_c(parameters_of(model, values), prefix=prefix)
+def block_of(
+    model: Model, values: Mapping[str, float], s: Signals | None = None, prefix: str = "damper"
+) -> CBlock:
+    ranges = {} if s is None else {"xdot": [0.0, float(np.abs(s.xdot).max())]}
+    return write_c(parameters_of(model, values, ranges=ranges), prefix=prefix)
 
 
 @cache
