@@ -60,7 +60,12 @@ class Compiled:
 
     @classmethod
     def of(
-        cls, block: EmulatorBlock, folder: Path, *, compiler: str = "gcc", options: tuple[str, ...] = ()
+        cls,
+        block: EmulatorBlock,
+        folder: Path,
+        *,
+        compiler: str = "gcc",
+        options: tuple[str, ...] = (),
     ) -> Compiled:
         write(block, folder)
         (folder / "driver.c").write_text(DRIVER.replace("PREFIX", block.prefix))

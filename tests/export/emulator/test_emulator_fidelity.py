@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -51,9 +50,7 @@ class Figures:
     static: float
 
 
-def online(
-    emulator: Compiled, r: Recording, faults: tuple[str, ...], amplifier: Amplifier
-) -> Any:
+def online(emulator: Compiled, r: Recording, faults: tuple[str, ...], amplifier: Amplifier) -> Any:
     limits = EmulatorLimits(amplifier=amplifier)
     state = emulator.state(
         duty_max=amplifier.duty_max, resolution=amplifier.resolution, slew=limits.slew,
@@ -187,7 +184,5 @@ def test_observer_is_the_model(emulator: Compiled) -> None:
     A fault that takes nothing visible (a factor within rounding of 1) leaves the healthy duty.
     """
     r = road(0, step=0.001)
-    out = emulator.run(
-        emulator.state(), rows(r.t, r.x, r.xdot, r.duty, electrical=1.0 - 1e-15)
-    )
+    out = emulator.run(emulator.state(), rows(r.t, r.x, r.xdot, r.duty, electrical=1.0 - 1e-15))
     assert np.array_equal(out.duty, r.duty)

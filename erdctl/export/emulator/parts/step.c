@@ -29,6 +29,10 @@ static real sign_of(real value)
     return value > K(0.0) ? K(1.0) : value < K(0.0) ? K(-1.0) : K(0.0);
 }
 
+/* Of the time that a slewing amplifier needs from 0 to its highest duty: the target is to be met in
+   so much at least, or it would sweep to and fro after every force that one step does not reach. */
+#define SWEEP K(0.1)
+
 /* The duty that brings the yield force to the faulty one's target at the next moment at which the
    duty can change. What the motion will be until then is told from the past alone. */
 static real wanted_duty(State *s, real dt, real top)
@@ -38,25 +42,25 @@ static real wanted_duty(State *s, real dt, real top)
     const int up = s->up;
     const Law law = law_of(p, up), turned = law_of(p, !up);
     const real *u = s->steady;
-    real h, x, xdot, target;
+    real h, sweep, x, xdot, part, target;
+    int turns;
     Span span;
     target = target_of(p, g, up, sign_of(s->xdot), s->x, s->xdot, s->healthy);
     s->out_of_reach = target < K(0.0);
     if (!(dt > K(0.0))) /* the first sample: the steady force is the one to begin with */
         return duty_for(&law, target);
     h = until_next(p, dt);
+    sweep = p->slew > K(0.0) ? SWEEP * top / p->slew : K(0.0);
     xdot = speed_ahead(s, h);
     x = s->x + K(0.5) * h * (s->xdot + xdot);
-    if (xdot == K(0.0) || (xdot > K(0.0)) == up) {
-        span = span_of(h, &law);
-        target = target_of(p, g, up, up ? K(1.0) : K(-1.0), x, xdot,
-                           span.a * s->healthy + span.before * u[up ? 0 : 1]);
-    } else {
-        span = turned_span(h, part_before(s->xdot, xdot), &law, &turned);
-        target = target_of(p, g, !up, up ? K(-1.0) : K(1.0), x, xdot,
-                           span.a * s->healthy + span.before * u[up ? 0 : 1]
-                           + span.after * u[up ? 1 : 0]);
-    }
+    turns = up ? xdot < K(0.0) : xdot > K(0.0);
+    part = turns ? part_before(s->xdot, xdot) : K(1.0);
+    span = turns ? turned_span(h, part, &law, &turned) : span_of(h, &law);
+    target = target_of(p, g, up != turns, up != turns ? K(1.0) : K(-1.0), x, xdot,
+                       span.a * s->healthy + span.before * u[up ? 0 : 1]
+                       + span.after * u[up ? 1 : 0]);
+    if (sweep > h)
+        span = turns ? turned_span(sweep, part * h / sweep, &law, &turned) : span_of(sweep, &law);
     return meeting(target - span.a * s->made, &span, &law, &turned, top);
 }
 
