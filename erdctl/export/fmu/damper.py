@@ -1,0 +1,113 @@
+"""A damper in C as a block that FMI can be put around."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from erdctl.core.quantity import Quantity
+from erdctl.core.recording import DIRECTIONS
+from erdctl.export.c.layout import CMember
+from erdctl.export.c.names import identifier
+from erdctl.export.c.source import CBlock
+from erdctl.export.fmu.block import Block, Kind, Variable
+from erdctl.model.paper import QUANTITIES
+from erdctl.model.parameters import Parameters
+
+INPUTS = (
+    Variable(name="x", unit="m", title="deflection, positive in compression"),
+    Variable(name="xdot", unit="m/s", title="speed of deflection, positive in compression"),
+    Variable(name="duty", title="control, held from one sample to the next", low=0.0, high=1.0),
+)
+FACTORS = (
+    Variable(name="f_oil", title="effectiveness left by an oil leakage"),
+    Variable(name="f_electrical", title="effectiveness left by an electrical fault"),
+    Variable(name="f_deformation", title="effectiveness left by a deformation"),
+)
+# A healthy damper unless told otherwise.
+FACTORS = tuple(replace(v, start=1.0, low=0.0, high=1.0) for v in FACTORS)
+FORCE = Variable(name="force", unit="N", title="damper force, with the sign of Eq. 13")
+STATUS = Variable(
+    name="status", kind=Kind.INTEGER,
+    title="0 if all is well; the sum of 1: an input is not finite, 2: the step is not positive, "
+    "4: the duty was limited, 8: a fault factor was limited",
+)  # fmt: skip
+INITIAL = (
+    Variable(
+        name="first_compressing", kind=Kind.BOOLEAN, start=1.0,
+        title="from rest it first moves in compression",
+    ),
+    Variable(
+        name="at_rest", kind=Kind.INTEGER, start=-1.0, low=-1.0, high=1.0,
+        title="1: begins at rest, 0: as a motion turns, -1: whichever its first speed says",
+    ),
+)  # fmt: skip
+
+MEANING = (
+    "force at a communication point is the damper's force at that time for the inputs as they were "
+    "set for the step that ends there: set x, xdot and duty of the END of the step, call the step, "
+    "read force. After initialisation it is the force at the first sample, the start time. A master "
+    "that sets the values of the beginning of each step gets the same forces one step late.",
+    "duty acts from the communication point for which it is set, and is held until the next, as in "
+    "erdctl simulate. Fault factors act on the force at that point.",
+    "FMI 2.0: with derivatives of the inputs (fmi2SetRealInputDerivatives) their values at the end "
+    "of the step are extrapolated.",
+    "Input that is not finite, and a step that is not positive, leave the last force; a duty or "
+    "factor beyond 0 to 1 is limited. The step then returns a warning, and status says which.",
+    "All memory is allocated with the instance; a step allocates nothing.",
+)
+
+
+def damper_block(c: CBlock, parameters: Parameters) -> Block:
+    """The block of a damper.
+
+    c : its C, made of the same parameters
+    """
+    bounds = _bounds(parameters)
+    left_out = (f"Left out: {'; '.join(c.left_out)}.",) if c.left_out else ()
+    return Block(
+        prefix=c.prefix,
+        title="Electro-rheological damper, as identified by erdctl",
+        header=c.header,
+        source=c.source,
+        inputs=INPUTS + FACTORS,
+        outputs=(FORCE,),
+        watched=(STATUS,),
+        parameters=tuple(_parameter(m, bounds.get(m.path)) for m in c.parameters),
+        initial=INITIAL,
+        begin=f"{c.prefix}_begin(s, t, first_compressing != 0.0, (int)at_rest);",
+        calls=f"{c.prefix}_faults(s, f_oil, f_electrical, f_deformation);\n"
+        f"force = {c.prefix}_step(s, dt, x, xdot, duty);\n"
+        "status = s->status;",
+        retune=f"{c.prefix}_retune(s, p);",
+        words={
+            f"{c.prefix}_{name}": text
+            for name, text in (
+                ("NOT_FINITE", "an input is not finite or beyond all reason: the last force is held"),
+                ("STEP_NOT_POSITIVE", "the step is not positive: the last force is held"),
+                ("DUTY_LIMITED", "the duty lies outside 0 to 1, and was limited"),
+                ("FAULT_LIMITED", "a fault factor lies outside 0 to 1, and was limited"),
+            )
+        },
+        notes=(*MEANING, *left_out),
+    )
+
+
+def _parameter(m: CMember, q: Quantity | None) -> Variable:
+    way, _, symbol = m.path.partition("_")
+    name = f"{way}.{symbol}" if way in DIRECTIONS and symbol in QUANTITIES else m.path
+    plain = Variable(name=name, unit=m.unit, title=m.title, member=m.path, start=m.value)
+    if q is None:
+        return plain
+    # A value that a file has is taken, wherever it lies.
+    return replace(plain, low=min(q.low, m.value), high=max(q.high, m.value))
+
+
+def _bounds(parameters: Parameters) -> dict[str, Quantity]:
+    """What is known of each member of the struct."""
+    paper = {f"{way}_{symbol}": q for way in DIRECTIONS for symbol, q in QUANTITIES.items()}
+    own = {
+        f"{identifier(e.name)}.{identifier(q.symbol)}": q
+        for e in parameters.model.effects
+        for q in e.quantities
+    }
+    return paper | own
