@@ -1,0 +1,160 @@
+"""The source compiles everywhere without a word, and says what it is."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from emulators import COMPILERS, DRIVER, STRICT, write
+from places import FIXTURES
+
+from erdctl.core.errors import UsageProblem
+from erdctl.export.emulator.limits import EmulatorLimits
+from erdctl.export.emulator.source import write_emulator
+from erdctl.io.parameters import parse_parameters
+from erdctl.model.amplifier import Amplifier
+
+TABLE_2 = parse_parameters((FIXTURES / "table_2.json").read_bytes(), "table_2.json")
+compiled = pytest.mark.skipif(not COMPILERS, reason="no C compiler")
+
+# Bad and good inputs at random, so that the sanitizers see every branch.
+NONSENSE = """
+#include "PREFIX.h"
+#include <math.h>
+#include <stdio.h>
+static unsigned long seed = 1;
+static PREFIX_real pick(PREFIX_real low, PREFIX_real high)
+{
+    seed = (seed * 1103515245UL + 12345UL) % 2147483648UL;
+    switch (seed / 65536UL % 40UL) {
+    case 0: return (PREFIX_real)NAN;
+    case 1: return (PREFIX_real)INFINITY;
+    case 2: return (PREFIX_real)-INFINITY;
+    case 3: return (PREFIX_real)0;
+    case 4: return (PREFIX_real)1e30;
+    default:
+        return low
+            + (high - low) * (PREFIX_real)(seed / 65536UL % 32768UL) / (PREFIX_real)32768;
+    }
+}
+int main(void)
+{
+    PREFIX_state s;
+    PREFIX_params p;
+    int run, i;
+    for (run = 0; run < 200; run++) {
+        PREFIX_defaults(&p);
+        if (run % 2) {
+            p.slew = pick(0, 20);
+            p.resolution = pick(0, (PREFIX_real)0.05);
+            p.update_period = pick(0, (PREFIX_real)0.02);
+        }
+        PREFIX_init(&s, run % 3 ? &p : 0);
+        for (i = 0; i < 500; i++) {
+            PREFIX_real out;
+            if (i % 100 == 0)
+                PREFIX_faults(&s, pick(0, 1), pick(0, 1), pick(0, 1));
+            out = PREFIX_step(&s, pick(0, (PREFIX_real)0.005), pick(-1, 1), pick(-1, 1), pick(0, 1),
+                              pick(0, 70));
+            if (!(out >= 0 && out <= 1))
+                return 1;
+        }
+    }
+    puts("ok");
+    return 0;
+}
+"""
+
+
+@compiled
+@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize("real", [(), ("-DERDCTL_FLOAT",)], ids=["double", "float"])
+def test_no_warnings(compiler: str, real: tuple[str, ...], tmp_path: Path) -> None:
+    block = write_emulator(TABLE_2, prefix="car_1")
+    write(block, tmp_path)
+    options = (*STRICT, "-Wshadow", "-Wdouble-promotion", "-O2", *real)
+    subprocess.run([compiler, *options, "-c", "car_1.c", "-o", "car_1.o"], cwd=tmp_path, check=True)
+
+
+@compiled
+@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize("real", [(), ("-DERDCTL_FLOAT",)], ids=["double", "float"])
+def test_sanitizers_find_nothing(compiler: str, real: tuple[str, ...], tmp_path: Path) -> None:
+    block = write_emulator(TABLE_2, prefix="e")
+    write(block, tmp_path)
+    (tmp_path / "main.c").write_text(NONSENSE.replace("PREFIX", "e"))
+    built = subprocess.run(
+        [compiler, "-std=c99", "-g", "-O1", "-fsanitize=address,undefined",
+         "-fno-sanitize-recover=all", *real, "e.c", "main.c", "-o", "main", "-lm"],
+        cwd=tmp_path, capture_output=True, text=True,
+    )  # fmt: skip
+    if "cannot find" in built.stderr:
+        pytest.skip("the sanitizers' libraries are not installed")
+    assert built.returncode == 0, built.stderr
+    ran = subprocess.run(["./main"], cwd=tmp_path, capture_output=True, text=True)
+    assert (ran.returncode, ran.stdout.strip()) == (0, "ok"), ran.stderr
+
+
+@compiled
+def test_four_dampers_link_into_one_program(tmp_path: Path) -> None:
+    names = ["fl", "fr", "rl", "rr"]
+    for name in names:
+        write(write_emulator(TABLE_2, prefix=name), tmp_path)
+    main = "".join(f'#include "{n}.h"\n' for n in names) + "int main(void) { return 0; }\n"
+    (tmp_path / "main.c").write_text(main)
+    subprocess.run(
+        [COMPILERS[0], *STRICT, "main.c", *(f"{n}.c" for n in names), "-o", "main", "-lm"],
+        cwd=tmp_path, check=True,
+    )  # fmt: skip
+
+
+def test_only_the_prefix_is_seen_from_outside() -> None:
+    block = write_emulator(TABLE_2, prefix="fl")
+    functions = re.findall(r"^(?!static|typedef|/|#| )[\w ]+[ *](\w+)\(", block.source, re.M)
+    assert set(functions) == {"fl_defaults", "fl_init", "fl_faults", "fl_step"}
+    assert "PREFIX" not in block.source + block.header
+    assert "@" not in block.source + block.header
+    assert set(re.findall(r"#include (\S+)", block.source)) == {"<math.h>", '"fl.h"'}
+    assert not re.search(r"malloc|static (?!int|real|void|Span|Law|Left)", block.source)
+
+
+def test_members_have_values_and_units() -> None:
+    amplifier = Amplifier(duty_max=0.4, slew=3.0, resolution=0.01, update_rate=250.0)
+    limits = EmulatorLimits(amplifier=amplifier, temperature_max=55.0)
+    block = write_emulator(TABLE_2, prefix="fl", limits=limits)
+    found = {m.path: (m.value, m.unit) for m in block.parameters}
+    assert found["compression_sigma"] == (12.8157, "N")
+    assert found["release_T_d"] == (0.043, "s")
+    assert found["duty_max"] == (0.4, "1")
+    assert found["slew"] == (3.0, "1/s")
+    assert found["update_period"] == (0.004, "s")
+    assert found["temperature_max"] == (55.0, "degC")
+    for m in block.parameters:
+        assert f"fl_real {m.path}; /* [{m.unit}]" in block.header
+        assert f"p->{m.path} = K({m.value!r});" in block.source
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"prefix": "9 lives"}, "no name in C"),
+        ({"prefix": "fl", "faults": []}, "needs a fault"),
+    ],
+)
+def test_what_makes_no_sense(options: Any, words: str) -> None:
+    with pytest.raises(UsageProblem, match=words):
+        write_emulator(TABLE_2, **options)
+
+
+@pytest.mark.parametrize("bad", [{"temperature_max": np.nan}, {"temperature_hysteresis": -1.0}])
+def test_limits_that_make_no_sense(bad: Any) -> None:
+    with pytest.raises(UsageProblem, match="temperature"):
+        EmulatorLimits(**bad)
+
+
+def test_driver_has_the_columns_that_tests_give() -> None:
+    assert DRIVER.count("in[") == 14
