@@ -72,7 +72,7 @@ def grid(parameters: Parameters, asked: Asked) -> Grid:
         v_k = v_max (k / n)^2,  k = 1..n
 
     There is none at 0: the force jumps there (Eq. 18), and a spline of a vehicle program through a
-    point on the jump can overshoot its ends by a tenth.
+    point on the jump can overshoot its ends.
     Check: 0.1 m/s and 2 points give -0.1, -0.025, 0.025 and 0.1 m/s.
     >>> from erdctl.model.composed import Model
     >>> nothing = Parameters(model=Model(), estimates={})
