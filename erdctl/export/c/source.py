@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from erdctl.core.errors import UsageProblem
 from erdctl.export.c import series
-from erdctl.export.c.hooks import functions, hooks
+from erdctl.export.c.functions import functions
+from erdctl.export.c.hooks import hooks
 from erdctl.export.c.layout import (
     CMember,
     defaults,

@@ -1,6 +1,5 @@
-static int heading(const State *st, real xdot, int up)
+static int heading(real xdot, int up)
 {
-    (void)st;
     return xdot > K(0.0) ? 1 : xdot < K(0.0) ? 0 : up;
 }
 
@@ -44,7 +43,7 @@ static void take(State *st, Sample *s, real dt, real x, real xdot, real duty)
     s->engaged = K(1.0);
     s->rests = s->first && (st->rests == 1 || (st->rests != 0 && !(xdot > K(0.0) || xdot < K(0.0))));
     s->up0 = st->up;
-    s->up = heading(st, xdot, st->up);
+    s->up = heading(xdot, st->up);
     m.x = x;
     m.xdot = xdot;
     m.engaged = K(1.0);
@@ -58,7 +57,7 @@ static void take(State *st, Sample *s, real dt, real x, real xdot, real duty)
         s->xdot0 = m.xdot;
     }
     s->sign = (m.xdot > K(0.0) ? K(1.0) : m.xdot < K(0.0) ? K(-1.0) : K(0.0)) * m.engaged;
-    s->up = heading(st, m.xdot, st->up);
+    s->up = heading(m.xdot, st->up);
     /* Before the first motion no direction is known, and the first one is no turn. */
     if (!st->moved)
         s->up0 = s->up;
