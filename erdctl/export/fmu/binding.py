@@ -128,7 +128,9 @@ def binding(block: Block, token: str) -> str:
         parameters=len(block.parameters),
         initial=len(block.initial),
         begins="\n".join(_begins(v) for v in block.initial),
-        read_initial=_lines(f"const double {v.name} = z[{i}];" for i, v in enumerate(block.initial)),
+        read_initial=_lines(
+            f"const double {v.name} = z[{i}];" for i, v in enumerate(block.initial)
+        ),
         begin=_lines(block.begin.strip().splitlines()),
         starts=", ".join(_number(v.start) for v in block.inputs),
         kinds=", ".join(f"'{v.kind.value}'" for v in block.computed),
@@ -152,9 +154,7 @@ def _row(block: Block, v: Variable) -> str:
 
 
 def _begins(v: Variable) -> str:
-    return (
-        f"    {{'{v.kind.value}', {_number(v.start)}, {_number(v.low)}, {_number(v.high)}}},"
-    )
+    return f"    {{'{v.kind.value}', {_number(v.start)}, {_number(v.low)}, {_number(v.high)}}},"
 
 
 def _number(value: float) -> str:

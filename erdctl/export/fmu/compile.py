@@ -1,4 +1,4 @@
-"""Binaries of an FMU: by the packaged cross-compiler for all platforms, or by the host's for one."""
+"""Binaries of an FMU: by a packaged cross-compiler for all platforms, or by the host's for one."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -18,6 +19,7 @@ from pathlib import Path
 from erdctl.core.errors import ComputationProblem
 from erdctl.export.fmu.version import LINUX, LINUX_ARM, MAC, MAC_ARM, WINDOWS, Target
 
+_PACKAGE = "ziglang"  # of the extra `fmu`
 CROSS = (LINUX, WINDOWS, MAC, MAC_ARM)
 
 # The same numbers on every processor: no fused multiply-add, which one has and another has not.
@@ -49,20 +51,36 @@ def compiled(sources: Mapping[str, str]) -> Compiled:
     sources : text of all files by name
     Raises ComputationProblem if there is a compiler, and it fails on every platform.
     """
-    build = _cross if find_spec("ziglang") is not None else _host
+    return cross_compiled(sources) if find_spec(_PACKAGE) is not None else host_compiled(sources)
+
+
+def cross_compiled(sources: Mapping[str, str]) -> Compiled:
+    """Shared libraries for the platforms of `CROSS`, by the packaged cross-compiler."""
+    with _written(sources) as folder:
+        return _cross(folder, _of_c(sources))
+
+
+def host_compiled(sources: Mapping[str, str]) -> Compiled:
+    """The shared library for this machine, by its own compiler; none without one."""
+    with _written(sources) as folder:
+        return _host(folder, _of_c(sources))
+
+
+@contextmanager
+def _written(sources: Mapping[str, str]) -> Iterator[str]:
     with tempfile.TemporaryDirectory(prefix="erdctl-") as folder:
         for name, text in sources.items():
             Path(folder, name).write_text(text, "utf-8", newline="\n")
-        done = build(folder, [name for name in sources if name.endswith(".c")])
-    if done.failed and not done.binaries:
-        target, reason = next(iter(done.failed.items()))
-        raise ComputationProblem(f"{done.compiler} could not build for {target.name}: {reason}")
-    return done
+        yield folder
+
+
+def _of_c(sources: Mapping[str, str]) -> list[str]:
+    return [name for name in sources if name.endswith(".c")]
 
 
 def _cross(folder: str, files: Sequence[str]) -> Compiled:
-    command = [sys.executable, "-m", "ziglang"]
-    spec = find_spec("ziglang")
+    command = [sys.executable, "-m", _PACKAGE]
+    spec = find_spec(_PACKAGE)
     assert spec is not None
     assert spec.origin is not None
     headers = Path(spec.origin).parent / "lib" / "libc" / "include" / "any-windows-any"
@@ -109,12 +127,17 @@ def _all(targets: Sequence[Target], build: Callable[[Target], bytes], compiler: 
                 binaries[target] = work.result()
             except (OSError, subprocess.CalledProcessError) as error:
                 failed[target] = _reason(error)
+    if failed and not binaries:
+        target, reason = next(iter(failed.items()))
+        raise ComputationProblem(f"{compiler} could not build for {target.name}: {reason}")
     return Compiled(binaries=binaries, compiler=compiler, failed=failed)
 
 
 def _run(command: Sequence[str], folder: str) -> None:
     # Names of files are relative: no path of this machine gets into a binary.
-    subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True, errors="replace")
+    subprocess.run(
+        command, cwd=folder, check=True, capture_output=True, text=True, errors="replace"
+    )
 
 
 def _reason(error: OSError | subprocess.CalledProcessError) -> str:

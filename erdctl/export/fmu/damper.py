@@ -18,13 +18,13 @@ INPUTS = (
     Variable(name="xdot", unit="m/s", title="speed of deflection, positive in compression"),
     Variable(name="duty", title="control, held from one sample to the next", low=0.0, high=1.0),
 )
-FACTORS = (
+_FACTORS = (
     Variable(name="f_oil", title="effectiveness left by an oil leakage"),
     Variable(name="f_electrical", title="effectiveness left by an electrical fault"),
     Variable(name="f_deformation", title="effectiveness left by a deformation"),
 )
 # A healthy damper unless told otherwise.
-FACTORS = tuple(replace(v, start=1.0, low=0.0, high=1.0) for v in FACTORS)
+FACTORS = tuple(replace(v, start=1.0, low=0.0, high=1.0) for v in _FACTORS)
 FORCE = Variable(name="force", unit="N", title="damper force, with the sign of Eq. 13")
 STATUS = Variable(
     name="status", kind=Kind.INTEGER,
@@ -43,10 +43,10 @@ INITIAL = (
 )  # fmt: skip
 
 MEANING = (
-    "force at a communication point is the damper's force at that time for the inputs as they were "
-    "set for the step that ends there: set x, xdot and duty of the END of the step, call the step, "
-    "read force. After initialisation it is the force at the first sample, the start time. A master "
-    "that sets the values of the beginning of each step gets the same forces one step late.",
+    "force at a communication point is the damper's force at that time for the inputs as they were"
+    " set for the step that ends there: set x, xdot and duty of the END of the step, call the step,"
+    " read force. After initialisation it is the force at the first sample, the start time. A"
+    " master that sets the values of the beginning of a step gets the same forces one step late.",
     "duty acts from the communication point for which it is set, and is held until the next, as in "
     "erdctl simulate. Fault factors act on the force at that point.",
     "FMI 2.0: with derivatives of the inputs (fmi2SetRealInputDerivatives) their values at the end "
@@ -82,7 +82,10 @@ def damper_block(c: CBlock, parameters: Parameters) -> Block:
         words={
             f"{c.prefix}_{name}": text
             for name, text in (
-                ("NOT_FINITE", "an input is not finite or beyond all reason: the last force is held"),
+                (
+                    "NOT_FINITE",
+                    "an input is not finite or beyond all reason: the last force is held",
+                ),
                 ("STEP_NOT_POSITIVE", "the step is not positive: the last force is held"),
                 ("DUTY_LIMITED", "the duty lies outside 0 to 1, and was limited"),
                 ("FAULT_LIMITED", "a fault factor lies outside 0 to 1, and was limited"),

@@ -58,8 +58,7 @@ def model_description(block: Block, version: Version, token: str, c_files: list[
     for element in _variables(block, version):
         variables.append(element)
     root.append(_structure(block, version))
-    ET.indent(root)
-    return ET.tostring(root, encoding="UTF-8", xml_declaration=True) + b"\n"
+    return _text(root)
 
 
 def build_description(block: Block, c_files: list[str]) -> bytes:
@@ -69,8 +68,7 @@ def build_description(block: Block, c_files: list[str]) -> bytes:
     files = ET.SubElement(built, "SourceFileSet", language="C99")
     for name in c_files:
         ET.SubElement(files, "SourceFile", name=name)
-    ET.indent(root)
-    return ET.tostring(root, encoding="UTF-8", xml_declaration=True) + b"\n"
+    return _text(root)
 
 
 def page(block: Block) -> bytes:
@@ -97,7 +95,14 @@ def page(block: Block) -> bytes:
                 row = ET.SubElement(table, "tr")
                 for cell in (v.name, v.unit, v.title):
                     ET.SubElement(row, "td").text = cell
-    return b"<!DOCTYPE html>\n" + ET.tostring(html, encoding="UTF-8", method="html") + b"\n"
+    text: bytes = ET.tostring(html, encoding="UTF-8", method="html")
+    return b"<!DOCTYPE html>\n" + text + b"\n"
+
+
+def _text(root: ET.Element) -> bytes:
+    ET.indent(root)
+    text: bytes = ET.tostring(root, encoding="UTF-8", xml_declaration=True)
+    return text + b"\n"
 
 
 def _co_simulation(block: Block, version: Version, c_files: list[str]) -> ET.Element:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import io
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
@@ -15,6 +15,8 @@ from erdctl.export.fmu.compile import Compiled, compiled
 from erdctl.export.fmu.description import build_description, model_description, page
 from erdctl.export.fmu.fat import universal
 from erdctl.export.fmu.version import TWO, Version
+
+Builder = Callable[[Mapping[str, str]], Compiled]  # of the text of all sources by name
 
 _EARLIEST = (1980, 1, 1, 0, 0, 0)  # of a zip file: the same content gives the same bytes
 
@@ -33,7 +35,7 @@ class Package:
     compiler: str
 
 
-def packaged(block: Block, *, version: Version = TWO) -> Package:
+def packaged(block: Block, *, version: Version = TWO, build: Builder = compiled) -> Package:
     """The FMU of a block for co-simulation.
 
     Its sources are in it; its binaries are those that can be built here.
@@ -41,7 +43,7 @@ def packaged(block: Block, *, version: Version = TWO) -> Package:
     """
     token = _token(block, version)
     texts = sources(block, version, token)
-    built = compiled(texts)
+    built = build(texts)
     return Package(
         data=_zip(_files(block, version, token, texts, built)),
         platforms=tuple(target.name for target in built.binaries),

@@ -273,6 +273,14 @@ Status FMI(fmi2GetDirectionalDerivative)(void *c, const Reference unknown[], siz
     return refused((Instance *)c, "no directional derivatives");
 }
 
+static Status set_slope(Instance *m, unsigned int reference, int order, double value)
+{
+    if (input_at(&m->v, reference) == NULL || order != 1)
+        return refused(m, "only the first derivative of an input can be set");
+    m->v.slope[reference - 1] = value;
+    return OK;
+}
+
 Status FMI(fmi2SetRealInputDerivatives)(void *c, const Reference reference[], size_t n,
                                         const int order[], const double value[])
 {

@@ -286,14 +286,6 @@ static Status set_real(Instance *m, unsigned int reference, double value)
     return OK;
 }
 
-static Status set_slope(Instance *m, unsigned int reference, int order, double value)
-{
-    if (input_at(&m->v, reference) == NULL || order != 1)
-        return refused(m, "only the first derivative of an input can be set");
-    m->v.slope[reference - 1] = value;
-    return OK;
-}
-
 static Status save(const Instance *m, void **state)
 {
     Saved *saved = (Saved *)*state;
