@@ -17,13 +17,6 @@ class Positive(StrEnum):
     COMPRESSION = "compression"
 
 
-class FmiVersion(StrEnum):
-    """Version of an FMU."""
-
-    TWO = "2"
-    THREE = "3"
-
-
 def command(
     params: Params,
     output: Annotated[
@@ -32,7 +25,7 @@ def command(
             "--output",
             "-o",
             metavar="FILE",
-            help="Where to; its suffix says what: .c, .fmu, .dpr, .csv, .mat.",
+            help="Where to; its suffix says what: .c, .dpr, .csv, .mat.",
         ),
     ],
     duty: Annotated[
@@ -64,9 +57,6 @@ def command(
             help="What a .dpr counts as positive speed and force; by default extension, as Adams"
             " Car reads it."
         ),
-    ] = None,
-    fmi: Annotated[
-        FmiVersion | None, typer.Option(help="Version of FMI of an FMU; by default 2, that is 2.0.")
     ] = None,
     emulate: Annotated[
         str | None,
@@ -103,8 +93,6 @@ def command(
     \b
     .c          C99, with its header beside it: dSPACE and any other C target, an
                 S-Function; init, step(dt, x, xdot, duty) -> force, no allocation
-    .fmu        the same for co-simulation, FMI 2.0 or 3.0, with sources and tunable
-                parameters: FMU import of Simulink, dSPACE, multibody programs
     .dpr        force over speed at one duty: damper property file of Adams Car and
                 other multibody programs (MotionView, SIMPACK)
     .csv, .mat  force over speed and duty, with standard errors: any program, MATLAB,
@@ -123,7 +111,6 @@ def command(
     \b
     Examples:
       erdctl export damper.json -o damper.c
-      erdctl export damper.json -o damper.fmu --fmi 3
       erdctl export damper.json -o emulator.c --emulate oil,electrical --update-rate 1000
       erdctl export damper.json -o damper.dpr --duty 0.3
       erdctl export damper.json -o map.csv
@@ -146,7 +133,7 @@ def command(
 
     options = {
         "--duty": duty or None, "--speed": speed, "--points": points, "--amplitude": amplitude,
-        "--positive": positive, "--fmi": fmi, "--emulate": emulate, "--duty-max": duty_max,
+        "--positive": positive, "--emulate": emulate, "--duty-max": duty_max,
         "--resolution": resolution, "--slew": slew, "--update-rate": update_rate,
         "--max-temperature": max_temperature,
     }  # fmt: skip
@@ -172,8 +159,7 @@ def command(
     with progress() as step:
         remarks = wanted.write(Order(
             parameters=parameters, origin=Origin(name=name, sha256=sha256(data).hexdigest()),
-            path=output, table=asked, emulate=faults, limits=limits,
-            fmi=(fmi or FmiVersion.TWO).value, progress=step,
+            path=output, table=asked, emulate=faults, limits=limits, progress=step,
         ))  # fmt: skip
     for line in remarks:
         say(line)

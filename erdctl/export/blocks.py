@@ -6,9 +6,7 @@ import os
 from collections.abc import Sequence
 
 from erdctl.core.errors import UsageProblem
-from erdctl.export.c.names import identifier
 from erdctl.export.c.source import CBlock, write_c
-from erdctl.export.damper_alone import of_the_bench
 from erdctl.export.emulator.limits import EmulatorLimits
 from erdctl.export.emulator.source import EmulatorBlock, write_emulator
 from erdctl.model.faults import FaultKind
@@ -26,27 +24,16 @@ def stem_of(path: str) -> str:
     return stem
 
 
-def damper_in_c(parameters: Parameters, path: str) -> CBlock:
-    """The damper as a block whose names come from a file's."""
-    return write_c(parameters, prefix=stem_of(path))
+def block_of(
+    parameters: Parameters, stem: str, faults: Sequence[FaultKind], limits: EmulatorLimits
+) -> tuple[CBlock | EmulatorBlock, list[str]]:
+    """The block, and what is to be said of it: what is left out.
 
-
-def emulator_in_c(
-    parameters: Parameters, path: str, faults: Sequence[FaultKind], limits: EmulatorLimits
-) -> EmulatorBlock:
-    """The emulator as a block whose names come from a file's."""
-    return write_emulator(
-        parameters, prefix=identifier(stem_of(path)), faults=faults, limits=limits,
-        remarks=not_inverted(parameters),
-    )  # fmt: skip
-
-
-def not_inverted(parameters: Parameters) -> list[str]:
-    """What the emulator does not know of the damper."""
-    names = ", ".join(e.name for e in parameters.model.effects if not of_the_bench(e))
-    return [f"the emulator inverts the paper's model, without {names}"] if names else []
-
-
-def left_out_of(block: CBlock) -> list[str]:
-    """What the block of a damper has not, in words."""
-    return [f"left out: {what}" for what in block.left_out]
+    stem : of the file, from which its names come;  faults : of an emulator, none for the damper
+    """
+    block: CBlock | EmulatorBlock
+    if faults:
+        block = write_emulator(parameters, prefix=stem, faults=faults, limits=limits)
+    else:
+        block = write_c(parameters, prefix=stem)
+    return block, [f"left out: {what}" for what in block.left_out]

@@ -5,10 +5,8 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
-from erdctl.export.blocks import damper_in_c, emulator_in_c, left_out_of, not_inverted, stem_of
-from erdctl.export.c.source import CBlock
+from erdctl.export.blocks import block_of, stem_of
 from erdctl.export.emulator.limits import EmulatorLimits
-from erdctl.export.emulator.source import EmulatorBlock
 from erdctl.io.atomic import output
 from erdctl.model.faults import FaultKind
 from erdctl.model.parameters import Parameters
@@ -21,14 +19,9 @@ def write_sources(
 
     faults : of an emulator, none for the damper itself
     """
-    block: CBlock | EmulatorBlock
-    if faults:
-        block = emulator_in_c(parameters, path, faults, limits)
-        remarks = not_inverted(parameters)
-    else:
-        block = damper_in_c(parameters, path)
-        remarks = left_out_of(block)
-    name = f"{stem_of(path)}.h"
+    stem = stem_of(path)
+    block, remarks = block_of(parameters, stem, faults, limits)
+    name = f"{stem}.h"
     header = f"{os.path.splitext(path)[0]}.h"
     # A file's name need be no name of C.
     source = block.source.replace(f'#include "{block.prefix}.h"', f'#include "{name}"', 1)

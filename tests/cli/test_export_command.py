@@ -72,7 +72,7 @@ def test_each_suffix_makes_its_file(name: str, beside: list[str], folder: Path) 
         ("-o d.c --slew 3", "add --emulate"),
         ("-o d.c --emulate oil --duty-max 2", "highest duty"),
         ("-o d.c --emulate oil --max-temperature nan", "temperature"),
-        ("-o d.dpr --fmi 3", "only for .fmu"),
+        ("-o d.dpr --fmi 3", "fmi"),
         ("-o nowhere/d.csv", "make it first"),
         ("-o nowhere/d.c", "make it first"),
     ],
