@@ -85,7 +85,9 @@ def test_what_makes_no_sense_is_wrong_usage(words: str, why: str, folder: Path) 
 
 
 @pytest.mark.parametrize("suffix", [".dpr", ".c"])
-@pytest.mark.parametrize("given", [b"", b"no JSON", b"{}", b'{"schema": "erdctl.pwm/1"}', b"[" * 9999])
+@pytest.mark.parametrize(
+    "given", [b"", b"no JSON", b"{}", b'{"schema": "erdctl.pwm/1"}', b"[" * 9999]
+)
 def test_unreadable_parameters_are_bad_input(given: bytes, suffix: str, folder: Path) -> None:
     done = run(f"export - -o d{suffix}", given)
     assert done.exit_code == 3, done.output
