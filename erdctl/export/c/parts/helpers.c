@@ -54,6 +54,8 @@ static real onset_weight(real t, real t_0, real t_r, real step)
 
     if (!(step > K(0.0)))
         return since >= t_r ? K(1.0) : clipped(since / t_r, K(0.0), K(1.0));
+    if (since >= K(0.5) * step && since <= t_r - K(0.5) * step)
+        return since / t_r;  /* as below, with all its digits */
     low = clipped(since - K(0.5) * step, K(0.0), t_r);
     high = clipped(since + K(0.5) * step, K(0.0), t_r);
     area = t_r > K(0.0) ? K(0.5) * (high - low) * (high + low) / t_r : K(0.0);
