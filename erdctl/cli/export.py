@@ -10,6 +10,13 @@ import typer
 from erdctl.cli.options import Params, emulated_faults
 
 
+class Fmi(StrEnum):
+    """Version of FMI."""
+
+    TWO = "2"
+    THREE = "3"
+
+
 class Positive(StrEnum):
     """Which way a damper property file counts as positive."""
 
@@ -25,7 +32,7 @@ def command(
             "--output",
             "-o",
             metavar="FILE",
-            help="Where to; its suffix says what: .c, .dpr, .csv, .mat.",
+            help="Where to; its suffix says what: .c, .fmu, .dpr, .csv, .mat.",
         ),
     ],
     duty: Annotated[
@@ -62,6 +69,10 @@ def command(
             " Car reads it."
         ),
     ] = None,
+    fmi: Annotated[
+        Fmi | None,
+        typer.Option(help="Version of an FMU; by default 2, which most programs read."),
+    ] = None,
     emulate: Annotated[
         str | None,
         typer.Option(
@@ -97,6 +108,9 @@ def command(
     \b
     .c          C99, with its header beside it: dSPACE and any other C target, an
                 S-Function; init, step(dt, x, xdot, duty) -> force, no allocation
+    .fmu        FMI 2.0 (--fmi 3: 3.0) for co-simulation: Simulink, Dymola, OpenModelica,
+                a multibody program, FMPy; tunable parameters, sources, and binaries for
+                Linux, Windows and macOS with 'erdctl[fmu]', else for this machine
     .dpr        force over speed at one duty: damper property file of Adams Car and
                 other multibody programs (MotionView, SIMPACK)
     .csv, .mat  force over speed and duty, with standard errors: any program, MATLAB,
@@ -116,6 +130,7 @@ def command(
     Examples:
       erdctl export damper.json -o damper.c
       erdctl export damper.json -o emulator.c --emulate oil,electrical --update-rate 1000
+      erdctl export damper.json -o damper.fmu
       erdctl export damper.json -o damper.dpr --duty 0.3
       erdctl export damper.json -o map.csv
       erdctl export damper.json -o map.mat --duty 0 --duty 0.2 --duty 0.4 --points 40
@@ -138,7 +153,7 @@ def command(
     options = {
         "--duty": duty or None, "--speed": speed, "--points": points, "--amplitude": amplitude,
         "--temperature": temperature,
-        "--positive": positive, "--emulate": emulate, "--duty-max": duty_max,
+        "--positive": positive, "--fmi": fmi, "--emulate": emulate, "--duty-max": duty_max,
         "--resolution": resolution, "--slew": slew, "--update-rate": update_rate,
         "--max-temperature": max_temperature,
     }  # fmt: skip
@@ -164,7 +179,8 @@ def command(
     with progress() as step:
         remarks = wanted.write(Order(
             parameters=parameters, origin=Origin(name=name, sha256=sha256(data).hexdigest()),
-            path=output, table=asked, emulate=faults, limits=limits, progress=step,
+            path=output, table=asked, emulate=faults, limits=limits,
+            fmi=(fmi or Fmi.TWO).value, progress=step,
         ))  # fmt: skip
     for line in remarks:
         say(line)

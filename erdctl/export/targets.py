@@ -28,7 +28,7 @@ class Order:
 
     parameters, origin : of the damper, and the file that they stand in;  path : to write
     table : which table;  emulate : the faults of an emulator, none for the damper itself
-    limits : of an emulator
+    limits : of an emulator;  fmi : version of an FMU
     """
 
     parameters: Parameters
@@ -37,6 +37,7 @@ class Order:
     table: Asked
     emulate: tuple[FaultKind, ...] = ()
     limits: EmulatorLimits
+    fmi: str = "2"
     progress: Progress = field(default=lambda stage, what: None)
 
 
@@ -59,6 +60,13 @@ def _sources(order: Order) -> Sequence[str]:
     return write_sources(order.parameters, order.path, order.emulate, order.limits)
 
 
+def _fmu(order: Order) -> Sequence[str]:
+    from erdctl.export.fmu.file import write_fmu
+
+    order.progress("building", "the FMU for all platforms; the first time takes longer")
+    return write_fmu(order.parameters, order.path, order.emulate, order.limits, order.fmi)
+
+
 @dataclass(frozen=True)
 class Exported:
     """One suffix.
@@ -73,6 +81,7 @@ class Exported:
 
 TARGETS: Mapping[str, Exported] = {
     ".c": Exported("C99 source, and its header beside it", _sources, EMULATOR),
+    ".fmu": Exported("FMU for co-simulation", _fmu, (*EMULATOR, "--fmi")),
     ".dpr": Exported("damper property file", _table, (*TABLE, "--positive")),
     ".csv": Exported("force over speed and duty", _table, TABLE),
     ".mat": Exported("force over speed and duty, for MATLAB", _table, TABLE),

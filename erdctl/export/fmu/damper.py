@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from erdctl.core.quantity import Quantity
-from erdctl.core.recording import DIRECTIONS
-from erdctl.export.c.layout import CMember
-from erdctl.export.c.names import identifier
 from erdctl.export.c.source import CBlock
 from erdctl.export.fmu.block import Block, Kind, Variable
-from erdctl.model.paper import QUANTITIES
+from erdctl.export.fmu.members import of_model, variables
 from erdctl.model.parameters import Parameters
 
 INPUTS = (
@@ -62,7 +58,6 @@ def damper_block(c: CBlock, parameters: Parameters) -> Block:
 
     c : its C, made of the same parameters
     """
-    bounds = _bounds(parameters)
     left_out = (f"Left out: {'; '.join(c.left_out)}.",) if c.left_out else ()
     return Block(
         prefix=c.prefix,
@@ -72,7 +67,7 @@ def damper_block(c: CBlock, parameters: Parameters) -> Block:
         inputs=INPUTS + FACTORS,
         outputs=(FORCE,),
         watched=(STATUS,),
-        parameters=tuple(_parameter(m, bounds.get(m.path)) for m in c.parameters),
+        parameters=variables(c.parameters, of_model(parameters)),
         initial=INITIAL,
         begin=f"{c.prefix}_begin(s, t, first_compressing != 0.0, (int)at_rest);",
         calls=f"{c.prefix}_faults(s, f_oil, f_electrical, f_deformation);\n"
@@ -93,24 +88,3 @@ def damper_block(c: CBlock, parameters: Parameters) -> Block:
         },
         notes=(*MEANING, *left_out),
     )
-
-
-def _parameter(m: CMember, q: Quantity | None) -> Variable:
-    way, _, symbol = m.path.partition("_")
-    name = f"{way}.{symbol}" if way in DIRECTIONS and symbol in QUANTITIES else m.path
-    plain = Variable(name=name, unit=m.unit, title=m.title, member=m.path, start=m.value)
-    if q is None:
-        return plain
-    # A value that a file has is taken, wherever it lies.
-    return replace(plain, low=min(q.low, m.value), high=max(q.high, m.value))
-
-
-def _bounds(parameters: Parameters) -> dict[str, Quantity]:
-    """What is known of each member of the struct."""
-    paper = {f"{way}_{symbol}": q for way in DIRECTIONS for symbol, q in QUANTITIES.items()}
-    own = {
-        f"{identifier(e.name)}.{identifier(q.symbol)}": q
-        for e in parameters.model.effects
-        for q in e.quantities
-    }
-    return paper | own

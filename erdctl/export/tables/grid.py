@@ -109,6 +109,15 @@ def grid(parameters: Parameters, asked: Asked) -> Grid:
     )  # fmt: skip
 
 
+def _of_temperature(parameters: Parameters) -> bool:
+    """Whether a law is one of a temperature that logs have."""
+    return any(
+        Requirement.TEMPERATURE in e.requires
+        or (isinstance(e, LearnedEffect) and any(a.kind.logged for a in e.law.curve.axes))
+        for e in parameters.model.effects
+    )
+
+
 POSSIBLE = {"x": (-LARGEST, LARGEST), "xdot": (-FASTEST, FASTEST), "duty": (0.0, 1.0)}
 
 
