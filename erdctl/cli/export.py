@@ -161,7 +161,8 @@ def command(
     wanted = target(output, given)
     asked = Asked(
         duty=tuple(duty), speed=speed, points=POINTS if points is None else points,
-        amplitude=amplitude, temperature=temperature, extension=positive is not Positive.COMPRESSION,
+        amplitude=amplitude, temperature=temperature,
+        extension=positive is not Positive.COMPRESSION,
     )  # fmt: skip
     amplifier = {"duty_max": duty_max, "resolution": resolution, "slew": slew,
               "update_rate": update_rate}  # fmt: skip
