@@ -58,6 +58,10 @@ def command(
             " seen.",
         ),
     ] = None,
+    temperature: Annotated[
+        float | None,
+        typer.Option(metavar="C", help="Temperature of a table, where a learned law has it."),
+    ] = None,
     positive: Annotated[
         Positive | None,
         typer.Option(
@@ -148,6 +152,7 @@ def command(
 
     options = {
         "--duty": duty or None, "--speed": speed, "--points": points, "--amplitude": amplitude,
+        "--temperature": temperature,
         "--positive": positive, "--fmi": fmi, "--emulate": emulate, "--duty-max": duty_max,
         "--resolution": resolution, "--slew": slew, "--update-rate": update_rate,
         "--max-temperature": max_temperature,
@@ -156,7 +161,8 @@ def command(
     wanted = target(output, given)
     asked = Asked(
         duty=tuple(duty), speed=speed, points=POINTS if points is None else points,
-        amplitude=amplitude, extension=positive is not Positive.COMPRESSION,
+        amplitude=amplitude, temperature=temperature,
+        extension=positive is not Positive.COMPRESSION,
     )  # fmt: skip
     amplifier = {"duty_max": duty_max, "resolution": resolution, "slew": slew,
               "update_rate": update_rate}  # fmt: skip

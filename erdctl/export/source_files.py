@@ -5,8 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
-from erdctl.core.errors import UsageProblem
-from erdctl.export.blocks import Block, block_of
+from erdctl.export.blocks import block_of, stem_of
 from erdctl.export.emulator.limits import EmulatorLimits
 from erdctl.io.atomic import output
 from erdctl.model.faults import FaultKind
@@ -20,17 +19,13 @@ def write_sources(
 
     faults : of an emulator, none for the damper itself
     """
-    stem = os.path.splitext(path)[0]
-    name = f"{os.path.basename(stem)}.h"
-    if not name.isprintable() or any(c in name for c in '"\\'):
-        raise UsageProblem(f"'{name}' cannot stand in an #include; name another file")
-    block, remarks = block_of(parameters, os.path.basename(stem), faults, limits)
-    with output(f"{stem}.h") as header, output(path) as source:
-        header.write(block.header.encode())
-        source.write(including(block, name).encode())
+    stem = stem_of(path)
+    block, remarks = block_of(parameters, stem, faults, limits)
+    name = f"{stem}.h"
+    header = f"{os.path.splitext(path)[0]}.h"
+    # A file's name need be no name of C.
+    source = block.source.replace(f'#include "{block.prefix}.h"', f'#include "{name}"', 1)
+    with output(header) as first, output(path) as second:
+        first.write(block.header.encode())
+        second.write(source.encode())
     return [*remarks, f"{name} is beside it; every name in both begins with {block.prefix}_"]
-
-
-def including(block: Block, header: str) -> str:
-    """The source, with the header's name as its file has it, which need be no name of C."""
-    return block.source.replace(f'#include "{block.prefix}.h"', f'#include "{header}"', 1)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from erdctl.model.parameters import Parameters
 
 Progress = Callable[[str, str], None]
-TABLE = ("--duty", "--speed", "--points", "--amplitude")
+TABLE = ("--duty", "--speed", "--points", "--amplitude", "--temperature")
 EMULATOR = ("--emulate", "--duty-max", "--resolution", "--slew", "--update-rate",
             "--max-temperature")  # fmt: skip
 

@@ -54,6 +54,22 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, kw_only=True)
+class Told:
+    """What a program may tell an effect, besides motion, control and faults, by a function for it.
+
+    name : of the function: PREFIX_temperature(state, temperature); one for all effects that ask
+    given : its arguments, reals; a call with one that is no number changes nothing
+    words : what they are, and what holds before the first call, for the header
+    code : body of the function, which has `p`, `z` and what is given
+    """
+
+    name: str
+    given: tuple[str, ...]
+    words: str
+    code: str
+
+
+@dataclass(frozen=True, kw_only=True)
 class CLaw:
     """An effect in C99.
 
@@ -61,6 +77,7 @@ class CLaw:
     force : body of the function that gives its added force [N]; empty if it adds none
     play : body of the function that gives a joint's free play [m]
     state : members of its state, reals: a name, or an array with its length, "past[64]"
+    told : what a program may tell it
     note : what the causal form cannot do that Python does, for the header
     """
 
@@ -68,4 +85,5 @@ class CLaw:
     force: str = ""
     play: str = ""
     state: tuple[str, ...] = ()
+    told: tuple[Told, ...] = ()
     note: str = ""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import TypeVar
 
@@ -94,7 +94,7 @@ class Effect:
     sets_in : groups of which it takes a part from a time on, by the law of `erdctl.model.onset`,
         whose time a fit finds by a search of all (`estimate.onsets`); no others
     order : effects of one slot act in this order
-    c : the same in C99, for the export
+    c : the same in C99, for the export;  writes_c : makes it, where that costs something
     earlier : parameters that files lack which were written before there were any, and what they are
         there: a number, or the symbol whose value it is
     """
@@ -123,6 +123,7 @@ class Effect:
     order: int = 0
     earlier: tuple[tuple[str, float | str], ...] = ()
     c: CLaw | None = field(default=None, repr=False)
+    writes_c: Callable[[], CLaw] | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         if bool(self.amplitudes) != (self.columns is not None):
@@ -135,6 +136,10 @@ class Effect:
         if self.columns is None:
             return np.empty((0, len(s)))
         return added_forces(self.columns, len(self.amplitudes), s, p)
+
+    def with_c(self) -> Effect:
+        """Itself with its C, where that is made only for an export."""
+        return self if self.writes_c is None else replace(self, c=self.writes_c())
 
     def starts(self, s: Signals, rest: Array) -> list[dict[str, float]] | None:
         """Starts of a search by symbol; None where the effect leaves them to a grid."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -52,7 +53,7 @@ def parameter_struct(
     lines = ["typedef struct PREFIX_params {", *(_declared(m.path, m) for m in paper)]
     for effect, members in effects:
         name = identifier(effect.name)
-        lines += [f"    struct PREFIX_{name}_params {{ /* {comment(effect.equation)} */"]
+        lines += [f"    struct PREFIX_{name}_params {{", *_remark(effect.equation)]
         lines += [f"    {_declared(m.path.partition('.')[2], m)}" for m in members]
         lines += [f"    }} {name};"]
     return "\n".join([*lines, "} PREFIX_params;"])
@@ -60,6 +61,12 @@ def parameter_struct(
 
 def _declared(name: str, member: CMember) -> str:
     return f"    PREFIX_real {name}; /* [{comment(member.unit)}] {comment(member.title)} */"
+
+
+def _remark(text: str) -> list[str]:
+    """A comment of as many lines as it needs."""
+    lines = textwrap.wrap(f"/* {comment(text)} */", 88, break_long_words=False)
+    return [f"        {' * ' if i else ''}{line}" for i, line in enumerate(lines)]
 
 
 def state_structs(effects: Sequence[Effect]) -> str:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from erdctl.core.errors import IncompatibleEffects
-from erdctl.export.c.hooks import call, law_of
+from erdctl.export.c.functions import call, function, law_of
+from erdctl.export.c.hooks import total
 from erdctl.export.c.layout import CMember
 from erdctl.export.c.names import identifier, part
 from erdctl.model.effect import Effect, in_slot
@@ -71,8 +72,8 @@ def march(spring: Effect, effects: Sequence[Effect]) -> str:
     text = "\n\n".join(
         [
             f"enum {{ WHOLE = {int(whole(spring))} }};  /* in series with all, or the fluid */",
-            _sum("friction", inside if whole(spring) else []),
-            _sum("outside", outside),
+            total("friction", [call("force", e) for e in inside if whole(spring)]),
+            total("outside", [call("force", e) for e in outside]),
             part("spring.c").strip(),
         ]
     )
@@ -84,21 +85,15 @@ def joint(spring: Effect, effects: Sequence[Effect]) -> str:
     """What the motion asks of the spring: its compliance, and the free play that it takes over."""
     p = f"&st->p.{identifier(spring.name)}"
     plays = [e for e in effects if law_of(e).play and whole(spring)]
-    lines = [f"    gap += play_{identifier(e.name)}(&st->p.{identifier(e.name)});" for e in plays]
-    return "\n".join([
-        "static real compliance(const State *st)",
-        "{",
-        f"    return law_{identifier(spring.name)}({p});",
-        "}",
-        "",
-        "static real free_play(const State *st)",
-        "{",
-        "    real gap = K(0.0);",
-        "",
-        *lines,
-        "    (void)st;",
-        "    return gap;",
-        "}",
+    lines = [f"gap += play_{identifier(e.name)}(&st->p.{identifier(e.name)});" for e in plays]
+    return "\n\n".join([
+        function(
+            "real compliance", ["const State *st"], f"return law_{identifier(spring.name)}({p});"
+        ),
+        function(
+            "real free_play", ["const State *st"],
+            "\n".join(["real gap = K(0.0);", "", *lines, "return gap;"]),
+        ),
     ])  # fmt: skip
 
 
@@ -106,17 +101,3 @@ def state(effects: Sequence[Effect]) -> str:
     """Members of the state."""
     marches = 1 + len(in_slot(effects, FeedbackSlot))
     return part("spring_state.h").replace("@MARCHES@", str(marches))
-
-
-def _sum(name: str, effects: Sequence[Effect]) -> str:
-    rows = [f"    sum += {call('force', e)};" for e in effects]
-    return "\n".join([
-        f"static real {name}(State *st, const Sample *s)",
-        "{",
-        "    real sum = K(0.0);",
-        "",
-        *rows,
-        "    (void)st; (void)s;",
-        "    return sum;",
-        "}",
-    ])  # fmt: skip

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from erdctl.core.errors import UsageProblem
 from erdctl.export.c import series
-from erdctl.export.c.hooks import functions, hooks
+from erdctl.export.c.functions import functions
+from erdctl.export.c.hooks import hooks
 from erdctl.export.c.layout import (
     CMember,
     defaults,
@@ -17,6 +18,7 @@ from erdctl.export.c.layout import (
 )
 from erdctl.export.c.names import helpers, identifier, part
 from erdctl.export.c.provenance import about
+from erdctl.export.c.told import told, told_heads
 from erdctl.model.effect import Effect, Stage
 from erdctl.model.parameters import Parameters
 from erdctl.model.slots import ChannelSlot
@@ -61,6 +63,7 @@ def write_c(parameters: Parameters, *, prefix: str) -> CBlock:
 
     header = part("header.h").replace("@GUARD@", f"{prefix.upper()}_H")
     header = header.replace("@PARAMETERS@", parameter_struct(paper, own))
+    header = header.replace("@TOLD@", told_heads(effects))
     header = header.replace(
         "@STATES@",
         state_structs(effects) + ("" if spring is None else series.state(effects)),
@@ -70,7 +73,7 @@ def write_c(parameters: Parameters, *, prefix: str) -> CBlock:
         "" if spring is None else series.joint(spring, effects),
         hooks(effects, plays=plays), part("sample.c"), part("forces.c"),
         part("plain.c") if spring is None else series.march(spring, effects),
-        defaults(members), part("interface.c"),
+        defaults(members), part("interface.c"), told(effects),
     ]  # fmt: skip
     called = helpers("\n".join(body))
     pieces = [part("types.c"), *([called] if called else []), *body]
@@ -91,5 +94,5 @@ def on_the_vehicle(effects: tuple[Effect, ...]) -> tuple[tuple[Effect, ...], tup
         if effect.stage is Stage.SENSOR or isinstance(effect.slot, ChannelSlot):
             left_out.append(f"{effect.name}: {effect.title}; belongs to the bench")
         else:
-            kept.append(effect)
+            kept.append(effect.with_c())
     return tuple(kept), tuple(left_out)

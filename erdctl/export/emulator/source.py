@@ -1,37 +1,31 @@
 """The C of the online emulator, put together from its `parts/`.
 
-The parts are C as it stands but for three places: PREFIX, and @...@ lines that are written here.
+The parts are C as it stands but for a few places: PREFIX, and @...@, which are filled here.
 """
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Collection
 from dataclasses import dataclass
-from importlib import resources
+from functools import cache
+from importlib.resources import files
 
 from erdctl.core.errors import UsageProblem
-from erdctl.core.recording import DIRECTIONS
 from erdctl.core.version import __version__
+from erdctl.export.c.layout import CMember
+from erdctl.export.c.names import comment, identifier, literal
+from erdctl.export.c.provenance import hash_of
+from erdctl.export.c.source import on_the_vehicle
 from erdctl.export.emulator.limits import EmulatorLimits
+from erdctl.export.emulator.model_part import declared, model_part
 from erdctl.model.faults import FaultKind
-from erdctl.model.paper import QUANTITIES
 from erdctl.model.parameters import Parameters
 
-PARTS = ("numbers", "amplifier", "inverse", "motion", "step", "entries")
+COMMON = ("numbers.c", "amplifier.c", "motion.c")
+LAST = ("step.c", "entries.c")
 ALL = tuple(FaultKind)
-
-
-@dataclass(frozen=True)
-class Member:
-    """One tunable number of the block.
-
-    path : within PREFIX_params;  value : its default in `unit`;  title : in words
-    """
-
-    path: str
-    value: float
-    unit: str
-    title: str
+INCLUDES = '#include <math.h>\n\n#include "PREFIX.h"\n\n'
 
 
 @dataclass(frozen=True)
@@ -40,13 +34,15 @@ class EmulatorBlock:
 
     parameters : every member of PREFIX_params
     faults : whose factors count; those of the others are ignored
+    left_out : effects that it does not know, each with why, for people
     """
 
     prefix: str
     header: str
     source: str
-    parameters: tuple[Member, ...]
+    parameters: tuple[CMember, ...]
     faults: tuple[FaultKind, ...]
+    left_out: tuple[str, ...] = ()
 
 
 def write_emulator(
@@ -59,22 +55,28 @@ def write_emulator(
 ) -> EmulatorBlock:
     """The online emulator of a damper as `PREFIX.h` and `PREFIX.c`.
 
-    prefix : a C identifier, of the names of all that can be seen;  faults : that can be emulated
-    remarks : lines for the comment on top
+    prefix : begins all names that can be seen, made a name of C if it is none
+    faults : that can be emulated
+    remarks : what else is left out, for the comment on top
 
-    Raises UsageProblem for a prefix that is no identifier, or without any fault.
+    Raises UsageProblem without any fault, and for an effect that has no C.
     """
-    if not (prefix.isidentifier() and prefix.isascii()):
-        raise UsageProblem(f"{prefix!r} is no name in C: letters, digits and _ only")
+    prefix = identifier(prefix)
     chosen = tuple(kind for kind in FaultKind if kind in faults)
     if not chosen:
         raise UsageProblem("an emulator needs a fault: oil, electrical or deformation")
-    found = members(parameters, limits or EmulatorLimits())
+    model, own = model_part(parameters, prefix), limit_members(limits or EmulatorLimits())
+    members = (*model.members, *own)
     places = {
-        "@MEMBERS@": "\n".join(
-            f"    PREFIX_real {m.path}; /* [{m.unit}] {m.title} */" for m in found
+        "@DAMPER@": model.before,
+        "@GUARD@": f"{prefix.upper()}_H",
+        "@REAL@": model.real,
+        "@MEMBERS@": "\n".join((*model.declared, *map(declared, own))),
+        "@OBSERVED@": part(model.state).rstrip(),
+        "@DEFAULTS@": "\n".join(f"    p->{m.path} = {literal(m.value)};" for m in members),
+        "@USABLE@": "\n".join(
+            f"        && within(p->{m.path}, K(-1e30), K(1e30))" for m in model.members
         ),
-        "@DEFAULTS@": "\n".join(f"    p->{m.path} = K({float(m.value)!r});" for m in found),
         "@FAULTS@": "\n".join(
             f"    s->f_{k.short} = factor(s, s->f_{k.short}, f_{k.short});"
             if k in chosen
@@ -82,49 +84,73 @@ def write_emulator(
             for k in FaultKind
         ),
     }
-    top = _top(parameters, chosen, remarks)
-    header = top + _filled(_part("emulator.h"), places, prefix)
-    source = top + _filled("".join(_part(f"{name}.c") for name in PARTS), places, prefix)
-    return EmulatorBlock(prefix, header, source, found, chosen)
+    types = model.types or INCLUDES + part("types.c")
+    body = [*map(part, COMMON), part(model.code), *map(part, LAST)]
+    top = about(parameters, chosen, (*model.left_out, *remarks))
+    return EmulatorBlock(
+        prefix=prefix,
+        header=filled(f"{top}\n\n{part('emulator.h')}", places, prefix),
+        source=filled(f"{top}\n\n{types}" + "".join(body), places, prefix),
+        parameters=members,
+        faults=chosen,
+        left_out=model.left_out,
+    )
 
 
-def members(parameters: Parameters, limits: EmulatorLimits) -> tuple[Member, ...]:
-    """The members of PREFIX_params, with their values."""
-    values, a = parameters.values, limits.amplifier
-    found = [
-        Member(f"{d}_{symbol}", values[f"{d}.{symbol}"], q.unit, f"{q.title}, {d}")
-        for d in DIRECTIONS
-        for symbol, q in QUANTITIES.items()
-    ]
+def limit_members(limits: EmulatorLimits) -> tuple[CMember, ...]:
+    """The members of PREFIX_params that are limits."""
+    a = limits.amplifier
     return (
-        *found,
-        Member("duty_max", a.duty_max, "1", "highest duty"),
-        Member("resolution", a.resolution, "1", "smallest step of the duty, 0 for none"),
-        Member("slew", limits.slew, "1/s", "fastest change of the duty, 0 for no limit"),
-        Member("update_period", limits.update_period, "s", "between changes, at least; 0 for any"),
-        Member("temperature_max", limits.temperature_max, "degC", "above it the output is closed"),
-        Member(
+        CMember("duty_max", a.duty_max, "1", "highest duty"),
+        CMember("resolution", a.resolution, "1", "smallest step of the duty, 0 for none"),
+        CMember("slew", limits.slew, "1/s", "fastest change of the duty, 0 for no limit"),
+        CMember("update_period", limits.update_period, "s", "between changes, at least; 0 for any"),
+        CMember("temperature_max", limits.temperature_max, "degC", "closes the output above it"),
+        CMember(
             "temperature_hysteresis", limits.temperature_hysteresis, "K", "it opens that much below"
         ),
     )
 
 
-def _part(name: str) -> str:
-    return (resources.files("erdctl.export.emulator") / "parts" / name).read_text(encoding="utf-8")
+@cache
+def part(name: str) -> str:
+    """A fixed part of the source."""
+    return (files("erdctl.export.emulator") / "parts" / name).read_text(encoding="utf-8")
 
 
-def _filled(text: str, places: dict[str, str], prefix: str) -> str:
+def filled(text: str, places: dict[str, str], prefix: str) -> str:
+    """A text with what belongs into its places."""
     for place, lines in places.items():
         text = text.replace(place, lines)
     return text.replace("PREFIX", prefix)
 
 
-def _top(parameters: Parameters, chosen: Collection[FaultKind], remarks: Collection[str]) -> str:
+def about(parameters: Parameters, chosen: Collection[FaultKind], remarks: Collection[str]) -> str:
+    """The comment on top: what it is, where it comes from, what it has not."""
+    known = parameters.provenance
+    effects = on_the_vehicle(parameters.model.effects)[0]
     lines = [
-        "Online fault emulator of an electro-rheological damper, Eqs. 12, 13 and 24-35:"
-        " the healthy damper, driven by duty_out, acts as a faulty one.",
-        f"Written by erdctl {__version__}; do not edit, export again.",
+        "PREFIX: online fault emulator of an electro-rheological damper (Eqs. 12, 13, 24-35): the"
+        " healthy damper under duty_out has the force of a faulty one. From what has been measured"
+        " so far alone.",
         f"Faults: {', '.join(k.short for k in chosen)}.",
-        *remarks,
+        *([f"The damper has {', '.join(e.name for e in effects)}."] if effects else []),
+        f"Written by erdctl {__version__}; parameters identified by erdctl"
+        f" {known.get('erdctl', '(version not stated)')}.",
+        f"SHA-256 of the parameters: {hash_of(parameters)}",
+        *(
+            f"Log {log.get('name', '')}, SHA-256 {log.get('sha256', 'not stated')}"
+            for log in known.get("logs", ())
+        ),
+        *(f"Left out: {what}" for what in remarks),
+        "C99; needs <math.h> only. -DERDCTL_FLOAT takes float in place of double. Not with"
+        " -ffast-math: it would take NaN for a number.",
     ]
-    return "/* " + "\n   ".join(line.replace("*/", "* /") for line in lines) + " */\n\n"
+    out = [
+        text
+        for line in lines
+        for text in textwrap.wrap(
+            comment(line), 96, subsequent_indent="    ", break_long_words=False
+        )
+    ]
+    return "\n".join(["/*", *(f" * {line}" for line in out), " */"])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -10,6 +9,8 @@ import numpy as np
 
 from erdctl.core.errors import UsageProblem
 from erdctl.core.recording import Array
+from erdctl.model.effect import Requirement
+from erdctl.model.learned.law import LearnedEffect
 from erdctl.model.parameters import Parameters
 
 POINTS = 20  # speeds in each direction
@@ -17,7 +18,10 @@ MOST_POINTS = 500
 LEVELS = 10  # steps of the duty over the range that was seen
 # Where the parameters do not say on what they were identified; the duty is the paper's highest.
 SPEED, STROKE, DUTY = 0.2, 0.02, 0.45
-FASTEST = 100.0  # m/s, beyond which no damper moves
+# What a damper can have: speeds [m/s] and amplitudes [m]. What is said beyond is no range.
+SLOWEST, FASTEST = 1e-6, 100.0
+SMALLEST, LARGEST = 1e-6, 1.0
+COLDEST, HOTTEST = -100.0, 500.0  # degC, of any damper's fluid
 BEYOND = 0.05  # as a simulation's remark: how far beyond a range is worth one
 
 
@@ -26,7 +30,7 @@ class Asked:
     """What the user says of a table; None and () stand for what the provenance says.
 
     duty : levels [1];  speed : highest [m/s];  points : speeds in each direction
-    amplitude : of the sines whose peaks are taken [m]
+    amplitude : of the sines whose peaks are taken [m];  temperature : [degC], for laws of it
     extension : whether a damper property file counts extension as positive, as Adams Car does
     """
 
@@ -34,18 +38,25 @@ class Asked:
     speed: float | None = None
     points: int = POINTS
     amplitude: float | None = None
+    temperature: float | None = None
     extension: bool = True
 
     def __post_init__(self) -> None:
         for level in self.duty:
             if not 0.0 <= level <= 1.0:
                 raise UsageProblem(f"--duty {level:g} is outside 0..1 (a fraction: 30 % is 0.3)")
-        if self.speed is not None and not 0.0 < self.speed <= FASTEST:
-            raise UsageProblem(f"--speed {self.speed:g}: expected above 0 to {FASTEST:g} m/s")
+        if self.speed is not None and not SLOWEST <= self.speed <= FASTEST:
+            raise UsageProblem(f"--speed {self.speed:g}: expected {SLOWEST:g} to {FASTEST:g} m/s")
         if not 2 <= self.points <= MOST_POINTS:
             raise UsageProblem(f"--points {self.points}: expected 2 to {MOST_POINTS}")
-        if self.amplitude is not None and not 0.0 < self.amplitude <= 1.0:
-            raise UsageProblem(f"--amplitude {self.amplitude:g}: expected above 0 to 1 m")
+        if self.amplitude is not None and not SMALLEST <= self.amplitude <= LARGEST:
+            raise UsageProblem(
+                f"--amplitude {self.amplitude:g}: expected {SMALLEST:g} to {LARGEST:g} m"
+            )
+        if self.temperature is not None and not COLDEST <= self.temperature <= HOTTEST:
+            raise UsageProblem(
+                f"--temperature {self.temperature:g}: expected {COLDEST:g} to {HOTTEST:g} degC"
+            )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -54,6 +65,7 @@ class Grid:
 
     speed : (2 n,) with sign, rising, none at 0 [m/s];  duty : (m,) rising [1]
     centre, amplitude : of the sines whose peaks are taken [m]
+    temperature : [degC], None where no law depends on it
     remarks : what was assumed, and where it goes beyond what was identified
     """
 
@@ -61,7 +73,8 @@ class Grid:
     duty: Array
     centre: float
     amplitude: float
-    remarks: tuple[str, ...]
+    temperature: float | None = None
+    remarks: tuple[str, ...] = ()
 
 
 def grid(parameters: Parameters, asked: Asked) -> Grid:
@@ -72,28 +85,54 @@ def grid(parameters: Parameters, asked: Asked) -> Grid:
         v_k = v_max (k / n)^2,  k = 1..n
 
     There is none at 0: the force jumps there (Eq. 18), and a spline of a vehicle program through a
-    point on the jump can overshoot its ends by a tenth.
+    point on the jump can overshoot its ends.
     Check: 0.1 m/s and 2 points give -0.1, -0.025, 0.025 and 0.1 m/s.
     >>> from erdctl.model.composed import Model
     >>> nothing = Parameters(model=Model(), estimates={})
     >>> grid(nothing, Asked(speed=0.1, points=2)).speed.round(9).tolist()
     [-0.1, -0.025, 0.025, 0.1]
     """
-    ranges = {k: tuple(v) for k, v in dict(parameters.provenance.get("ranges", {})).items()}
+    given = dict(parameters.provenance.get("ranges", {}))
+    seen = {name: _within(given.get(name), *ends) for name, ends in POSSIBLE.items()}
     remarks: list[str] = []
-    fastest = _speeds(ranges.get("xdot"), asked.speed, remarks)
+    temperature = asked.temperature if _of_temperature(parameters) else None
+    if temperature is None and _of_temperature(parameters):
+        raise UsageProblem("the force depends on the temperature; --temperature says on which")
+    fastest = _speeds(seen["xdot"], asked.speed, remarks)
     part = (np.arange(1, asked.points + 1) / asked.points) ** 2
-    duty = _duties(ranges.get("duty"), asked.duty, remarks)
-    centre, amplitude = _stroke(ranges.get("x"), asked.amplitude, remarks)
+    duty = _duties(seen["duty"], asked.duty, remarks)
+    centre, amplitude = _stroke(seen["x"], asked.amplitude, remarks)
     speed = np.concatenate([-fastest[0] * part[::-1], fastest[1] * part])
-    return Grid(speed=speed, duty=duty, centre=centre, amplitude=amplitude, remarks=tuple(remarks))
+    return Grid(
+        speed=speed, duty=duty, centre=centre, amplitude=amplitude, temperature=temperature,
+        remarks=tuple(remarks),
+    )  # fmt: skip
+
+
+def _of_temperature(parameters: Parameters) -> bool:
+    """Whether a law is one of a temperature that logs have."""
+    return any(
+        Requirement.TEMPERATURE in e.requires
+        or (isinstance(e, LearnedEffect) and any(a.kind.logged for a in e.law.curve.axes))
+        for e in parameters.model.effects
+    )
+
+
+POSSIBLE = {"x": (-LARGEST, LARGEST), "xdot": (-FASTEST, FASTEST), "duty": (0.0, 1.0)}
+
+
+def _within(ends: Sequence[float] | None, low: float, high: float) -> tuple[float, float] | None:
+    """A range that can be; None for one that is not known, or that no damper has."""
+    if ends is None or not low <= ends[0] <= ends[1] <= high:
+        return None
+    return float(ends[0]), float(ends[1])
 
 
 def _speeds(
-    seen: tuple[float, ...] | None, asked: float | None, remarks: list[str]
+    seen: tuple[float, float] | None, asked: float | None, remarks: list[str]
 ) -> tuple[float, float]:
     """Highest speed of release and of compression [m/s]."""
-    if seen is None or not (seen[0] < 0.0 < seen[1]):
+    if seen is None or not (seen[0] <= -SLOWEST and seen[1] >= SLOWEST):
         if asked is None:
             remarks.append(
                 "the parameters do not say which speeds they were identified on: the table goes"
@@ -110,7 +149,7 @@ def _speeds(
     return asked, asked
 
 
-def _duties(seen: tuple[float, ...] | None, asked: Sequence[float], remarks: list[str]) -> Array:
+def _duties(seen: tuple[float, float] | None, asked: Sequence[float], remarks: list[str]) -> Array:
     if not asked:
         if seen is None:
             remarks.append(
@@ -133,13 +172,13 @@ def _duties(seen: tuple[float, ...] | None, asked: Sequence[float], remarks: lis
 
 
 def _stroke(
-    seen: tuple[float, ...] | None, asked: float | None, remarks: list[str]
+    seen: tuple[float, float] | None, asked: float | None, remarks: list[str]
 ) -> tuple[float, float]:
     """Centre and amplitude: half the way to the nearer end of what was seen, about 0 if it can."""
     low, high = (-STROKE, STROKE) if seen is None else seen
     centre = 0.0 if low < 0.0 < high else 0.5 * (low + high)
     reach = min(centre - low, high - centre)
-    if not (math.isfinite(reach) and reach > 0.0):
+    if reach < 2.0 * SMALLEST:
         centre, reach = 0.5 * (low + high), STROKE
     if asked is not None and seen is not None and asked > (1.0 + BEYOND) * reach:
         remarks.append(

@@ -37,7 +37,7 @@ class PeakMap:
 
         Check: 0 N at -1 m/s and 10 N at 1 m/s give 7.5 N at 0.5 m/s, and 10 N at 2 m/s.
         >>> at = Grid(
-        ...     speed=np.array([-1.0, 1.0]), duty=np.zeros(1), centre=0.0, amplitude=1.0, remarks=()
+        ...     speed=np.array([-1.0, 1.0]), duty=np.zeros(1), centre=0.0, amplitude=1.0
         ... )
         >>> table = PeakMap(at, np.array([[0.0], [10.0]]), np.zeros((2, 1)), ())
         >>> table.at(np.array([0.5, 2.0]), np.zeros(2)).tolist()
@@ -136,6 +136,7 @@ def sines(speed: float, grid: Grid, lag: float) -> tuple[Recording, tuple[Index,
         duty=np.repeat(grid.duty, n),
         starts=starts,
         names=tuple(f"duty {u:g}" for u in grid.duty.tolist()),
+        temperature=None if grid.temperature is None else np.full(n * m, grid.temperature),
         xdot_note="closed form",
     )
     last = starts[1:] - 1

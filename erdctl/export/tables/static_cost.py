@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -51,7 +51,10 @@ def static_cost(parameters: Parameters, table: PeakMap) -> Cost:
             motion=motion, duty=Duty(levels), hold=HOLD, duration=duration, fs=SAMPLES * f1,
             offset=grid.centre,
         )  # fmt: skip
-        return record(described)
+        r = record(described)
+        if grid.temperature is None:
+            return r
+        return replace(r, temperature=np.full(len(r), grid.temperature))
 
     levels = grid.duty.tolist()
     held = concatenate([drive(u) for u in levels])

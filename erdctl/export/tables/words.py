@@ -27,7 +27,8 @@ def taken(table: PeakMap) -> list[str]:
         f" {1e3 * _inner(table, -1):.3g} and {1e3 * _inner(table, 1):.3g} mm/s is a line over that"
         " jump"
     )
-    return [how, jump, *_errors(table)]
+    warm = [] if g.temperature is None else [f"at a temperature of {g.temperature:g} degC"]
+    return [how, jump, *warm, *_errors(table)]
 
 
 def _inner(table: PeakMap, way: int) -> float:

@@ -15,15 +15,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from enum import StrEnum
 from itertools import pairwise
 
 import numpy as np
 
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Stage, Variable
 from erdctl.model.learned.curve import Curve
+from erdctl.model.learned.law_slot import LEAST_LAG
+from erdctl.model.learned.law_slot import LawSlot as LawSlot  # for those who make laws
 from erdctl.model.slots import (
     ControlSlot,
     LagSlot,
@@ -33,40 +35,6 @@ from erdctl.model.slots import (
     TermSlot,
     Values,
 )
-
-LEAST_LAG = 0.01  # of a time constant
-
-
-class LawSlot(StrEnum):
-    """Where in the model a learned law acts."""
-
-    FORCE = "force"
-    FRICTION = "friction"
-    YIELD = "yield"
-    VISCOUS = "viscous"
-    GAS = "gas"
-    FLUID = "fluid"
-    LAG = "lag"
-    DUTY = "duty"
-    DEFLECTION = "deflection"
-
-    @property
-    def adds(self) -> bool:
-        """Whether it adds a force, in place of a factor on one."""
-        return self in (LawSlot.FORCE, LawSlot.FRICTION)
-
-    @property
-    def groups(self) -> tuple[str, ...]:
-        """The groups of forces that it scales."""
-        return GROUPS_OF.get(self, ())
-
-
-GROUPS_OF = {
-    LawSlot.YIELD: ("yield",),
-    LawSlot.VISCOUS: ("viscous",),
-    LawSlot.GAS: ("gas",),
-    LawSlot.FLUID: ("viscous", "yield"),
-}
 
 
 @dataclass(frozen=True)
@@ -151,6 +119,12 @@ class Law:
         }
         return others[self.slot]() if self.slot in others else ScaleSlot(self.factors)
 
+    def in_c(self) -> CLaw:
+        """The same in C99."""
+        from erdctl.model.learned.c_law import c_law
+
+        return c_law(self)
+
     @property
     def where(self) -> str:
         """Its coordinates by their letters."""
@@ -176,6 +150,7 @@ class Law:
             requires=(), shows=Variable.TIME,
             quantities=(*curve.amplitudes(self.unit), *curve.shape()),
             columns=self.columns if adds else None, smooth=curve.form is None, law=self,
+            writes_c=self.in_c,
         )  # fmt: skip
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from c_motion import record
 
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
@@ -189,13 +190,3 @@ def forces(block: CBlock, s: Signals, *options: str, **given: object) -> Array:
         begin = (float(one.t[0]), int(one.compressing[0]), int(one.rests[0]))
         out[a:b] = run(block, rows_of(one), *options, begin=begin, **given).force  # type: ignore[arg-type]
     return out
-
-
-def record(s: Signals, a: int, b: int) -> Signals:
-    """The signals of samples a to b as one record."""
-    step = s.step[a:b].copy()
-    step[-1:] = 0.0
-    return Signals(
-        t=s.t[a:b], x=s.x[a:b], xdot=s.xdot[a:b], duty=s.duty[a:b], step=step,
-        starts=np.array([0, b - a]),
-    )  # fmt: skip

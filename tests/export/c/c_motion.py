@@ -38,3 +38,13 @@ def bench(name: str = "healthy_campaign") -> Signals:
     """A bundled log."""
     log = read_logs([str(FIXTURES / f"{name}.parquet")], need_force=True, report=lambda text: None)
     return Signals.of(log.recording)
+
+
+def record(s: Signals, a: int, b: int) -> Signals:
+    """The signals of samples a to b as one record."""
+    step = s.step[a:b].copy()
+    step[-1:] = 0.0
+    return Signals(
+        t=s.t[a:b], x=s.x[a:b], xdot=s.xdot[a:b], duty=s.duty[a:b], step=step,
+        starts=np.array([0, b - a]),
+    )  # fmt: skip

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from c_built import COMPILERS, FLOAT, block_of, built, forces, record, rows_of, run
-from c_motion import bench, random_motion
+from c_built import COMPILERS, FLOAT, block_of, built, forces, rows_of, run
+from c_motion import bench, random_motion, record
 from places import FIXTURES
 
 from erdctl.core.signals import Signals

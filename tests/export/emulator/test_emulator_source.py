@@ -138,16 +138,13 @@ def test_members_have_values_and_units() -> None:
         assert f"p->{m.path} = K({m.value!r});" in block.source
 
 
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        ({"prefix": "9 lives"}, "no name in C"),
-        ({"prefix": "fl", "faults": []}, "needs a fault"),
-    ],
-)
-def test_what_makes_no_sense(options: Any, words: str) -> None:
-    with pytest.raises(UsageProblem, match=words):
-        write_emulator(TABLE_2, **options)
+def test_a_prefix_becomes_a_name_of_c() -> None:
+    assert "_9_lives_step(" in write_emulator(TABLE_2, prefix="9 lives").header
+
+
+def test_without_any_fault_there_is_nothing_to_emulate() -> None:
+    with pytest.raises(UsageProblem, match="needs a fault"):
+        write_emulator(TABLE_2, prefix="fl", faults=[])
 
 
 @pytest.mark.parametrize("bad", [{"temperature_max": np.nan}, {"temperature_hysteresis": -1.0}])

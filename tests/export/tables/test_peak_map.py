@@ -11,11 +11,14 @@ from dampers import damper
 from rig import TRUTH
 
 from erdctl.bench.dyno import peak_force
+from erdctl.core.errors import UsageProblem
 from erdctl.core.recording import Recording
 from erdctl.effects import catalogue
 from erdctl.export.damper_alone import damper_alone, of_the_bench, set_in
 from erdctl.export.tables.grid import Asked, grid
 from erdctl.export.tables.peak_map import PeakMap, peak_map, sines, standard_errors
+from erdctl.io.documents import encode, plain
+from erdctl.io.parameters import parse_parameters, to_document
 from erdctl.model.parameters import Estimate, Parameters
 from erdctl.model.simulate import simulate
 
@@ -102,6 +105,11 @@ def test_speeds_and_duties_are_those_that_were_seen() -> None:
     assert grid(damper(ranges={"duty": [0.2, 0.2]}), Asked()).duty.tolist() == [0.2]
     assert grid(damper(ranges={"xdot": [0.0, 0.1]}), Asked()).speed[0] == -0.2
     assert grid(damper(ranges={"x": [0.0, 0.0]}), Asked()).amplitude > 0
+    # What no damper can have had is no range.
+    for wrong in ({"duty": [0.0, 40.0]}, {"duty": [0.4, 0.1]}, {"xdot": [-1e300, 1e300]}):
+        odd = grid(damper(ranges=wrong), Asked())
+        assert odd.duty[-1] == 0.45
+        assert odd.speed[-1] == 0.2
 
 
 def test_errors_are_those_of_a_thousand_dampers() -> None:
@@ -175,3 +183,20 @@ def test_a_long_lag_makes_a_long_sine_but_no_endless_one() -> None:
     assert short == 3 * 400 + 1
     assert long == pytest.approx(5.0 / (2 * math.pi * 0.01 / 0.1) * 400, rel=0.3)
     assert endless == 60 * 400 + 1
+
+
+def test_a_law_of_temperature_wants_one() -> None:
+    document = to_document(damper())
+    law = {
+        "slot": "viscous", "coordinates": [{"name": "temperature"}], "form": "line",
+        "knots": [0.0, 50.0],
+    }  # fmt: skip
+    sizes = {"a": {"value": -0.5, "unit": "1"}}
+    warm = {**plain(document), "effects": [{"effect": "learned", "law": law, "parameters": sizes}]}
+    p = parse_parameters(encode(warm), "warm.json")
+    with pytest.raises(UsageProblem, match="--temperature"):
+        grid(p, Asked())
+    cold, hot = (table(p, temperature=t, duty=(0.0,)).force[:, 0] for t in (0.0, 40.0))
+    assert np.abs(hot) == pytest.approx(np.abs(cold) * hot[0] / cold[0], rel=1e-6)
+    assert 0.0 < hot[0] / cold[0] < 1.0
+    assert grid(damper(), Asked(temperature=20.0)).temperature is None

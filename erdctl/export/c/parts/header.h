@@ -60,7 +60,7 @@ void PREFIX_begin(PREFIX_state *s, PREFIX_real clock, int compression, int rests
 void PREFIX_faults(PREFIX_state *s, PREFIX_real f_oil, PREFIX_real f_electrical,
                    PREFIX_real f_deformation);
 
-/* Force [N] at a sample: dt [s] since the last one (at the first, of no meaning), deflection x [m],
+@TOLD@/* Force [N] at a sample: dt [s] since the last one (at the first, of no meaning), deflection x [m],
  * xdot [m/s] > 0 in compression, duty 0..1, which is held from this sample to the next. */
 PREFIX_real PREFIX_step(PREFIX_state *s, PREFIX_real dt, PREFIX_real x, PREFIX_real xdot,
                         PREFIX_real duty);

@@ -1,17 +1,20 @@
 void PREFIX_retune(PREFIX_state *s, const PREFIX_params *p)
 {
-    s->p = *p;
+    if (p != &s->p)
+        s->p = *p;
     tabulate(s);
 }
 
 void PREFIX_init(PREFIX_state *s, const PREFIX_params *p)
 {
+    PREFIX_params own = *p;  /* which may be that of the state itself */
+
     memset(s, 0, sizeof *s);
     s->f_oil = s->f_electrical = s->f_deformation = K(1.0);
     s->rises = s->falls = K(1.0);
     s->up = 1;
     s->rests = -1;
-    PREFIX_retune(s, p);
+    PREFIX_retune(s, &own);
 }
 
 void PREFIX_begin(PREFIX_state *s, PREFIX_real clock, int compression, int rests)
@@ -36,6 +39,25 @@ void PREFIX_faults(PREFIX_state *s, PREFIX_real f_oil, PREFIX_real f_electrical,
     s->f_oil = effectiveness(s, f_oil, s->f_oil);
     s->f_electrical = effectiveness(s, f_electrical, s->f_electrical);
     s->f_deformation = effectiveness(s, f_deformation, s->f_deformation);
+}
+
+/* What no parameters within their bounds lead to: it has no past any more that could be believed. */
+static void forget(State *s)
+{
+    real f[3], force = s->force, clock = s->clock + s->t;
+    int fault_status = s->fault_status, up = s->up;
+
+    f[0] = s->f_oil;
+    f[1] = s->f_electrical;
+    f[2] = s->f_deformation;
+    PREFIX_init(s, &s->p);
+    s->f_oil = f[0];
+    s->f_electrical = f[1];
+    s->f_deformation = f[2];
+    s->force = force;
+    s->clock = clock;
+    s->fault_status = fault_status;
+    s->up = up;
 }
 
 PREFIX_real PREFIX_step(PREFIX_state *s, PREFIX_real dt, PREFIX_real x, PREFIX_real xdot,
@@ -64,7 +86,8 @@ PREFIX_real PREFIX_step(PREFIX_state *s, PREFIX_real dt, PREFIX_real x, PREFIX_r
     force = acting(s, &now);
     keep(s, &now, duty);
     if (!usable(force, HUGEST)) {
-        s->status |= PREFIX_NOT_FINITE;
+        forget(s);
+        s->status = s->fault_status | PREFIX_NOT_FINITE;
         return s->force;
     }
     s->force = force;

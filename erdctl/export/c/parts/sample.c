@@ -1,28 +1,6 @@
-static int heading(const State *st, real xdot, int up)
+static int heading(real xdot, int up)
 {
-    (void)st;
     return xdot > K(0.0) ? 1 : xdot < K(0.0) ? 0 : up;
-}
-
-/* The turn in this step: its place on the straight line between the two speeds. */
-static void turn(Sample *s, int joint)
-{
-    real span = s->xdot0 - s->xdot, last = s->up0 ? K(1.0) : K(0.0), now = s->up ? K(1.0) : K(0.0);
-
-    s->turned = !s->first && s->up != s->up0;
-    s->share = last + (now - last) * s->engaged;
-    s->before = span > K(0.0) || span < K(0.0) ? s->xdot0 / span : K(0.0);
-    s->before = FMIN(FMAX(s->before, K(0.0)), K(1.0));
-    /* From rest in the play the piston sets off when that runs out, not as the step begins. */
-    if (joint && !(s->xdot0 > K(0.0) || s->xdot0 < K(0.0)))
-        s->before = FMIN(K(1.5) - s->engaged, K(1.0));
-    if (s->turned) {
-        s->after = K(0.5) * FABS(s->xdot) * (K(1.0) - s->before) * s->h;
-        s->path = K(0.5) * FABS(s->xdot0) * s->before * s->h + s->after;
-    } else {
-        s->after = K(0.0);
-        s->path = K(0.5) * (FABS(s->xdot0) + FABS(s->xdot)) * s->h;
-    }
 }
 
 static void take(State *st, Sample *s, real dt, real x, real xdot, real duty)
@@ -44,7 +22,7 @@ static void take(State *st, Sample *s, real dt, real x, real xdot, real duty)
     s->engaged = K(1.0);
     s->rests = s->first && (st->rests == 1 || (st->rests != 0 && !(xdot > K(0.0) || xdot < K(0.0))));
     s->up0 = st->up;
-    s->up = heading(st, xdot, st->up);
+    s->up = heading(xdot, st->up);
     m.x = x;
     m.xdot = xdot;
     m.engaged = K(1.0);
@@ -58,7 +36,7 @@ static void take(State *st, Sample *s, real dt, real x, real xdot, real duty)
         s->xdot0 = m.xdot;
     }
     s->sign = (m.xdot > K(0.0) ? K(1.0) : m.xdot < K(0.0) ? K(-1.0) : K(0.0)) * m.engaged;
-    s->up = heading(st, m.xdot, st->up);
+    s->up = heading(m.xdot, st->up);
     /* Before the first motion no direction is known, and the first one is no turn. */
     if (!st->moved)
         s->up0 = s->up;

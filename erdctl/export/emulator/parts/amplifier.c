@@ -9,14 +9,14 @@ static real of_steps(real count, real step)
 }
 
 /* The highest duty: the last step of the resolution below the ceiling. */
-static real highest(const Params *p)
+static real highest(const Settings *p)
 {
     const real step = p->resolution;
     return step > K(0.0) ? of_steps(FLOOR(p->duty_max / step + EQUAL), step) : p->duty_max;
 }
 
 /* The duty that the amplifier knows nearest to a wanted one. */
-static real nearest(const Params *p, real top, real wanted)
+static real nearest(const Settings *p, real top, real wanted)
 {
     const real inside = clamped(wanted, K(0.0), top);
     if (!(p->resolution > K(0.0)))
@@ -25,21 +25,21 @@ static real nearest(const Params *p, real top, real wanted)
 }
 
 /* The same, but a given duty that it knows but for rounding stays as it is, bit for bit. */
-static real given(const Params *p, real top, real duty)
+static real given(const Settings *p, real top, real duty)
 {
     const real found = nearest(p, top, duty);
     return FABS(found - duty) <= ON_GRID * p->resolution && duty <= top ? duty : found;
 }
 
 /* Time until the next sample at which the duty can change, if it changes at one now [s]. */
-static real until_next(const Params *p, real dt)
+static real until_next(const Settings *p, real dt)
 {
     const real parts = p->update_period / dt;
     return parts > K(1.0) ? CEIL(parts * (K(1.0) - EQUAL)) * dt : dt;
 }
 
 /* Time since the latest sample at which the last change could have been [s], or less. */
-static real elapsed(const State *s, real dt)
+static real elapsed(const Emulator *s, real dt)
 {
     const real next = until_next(&s->p, dt);
     /* With uneven steps nobody knows it without a memory of all: then the least that it can be. */
@@ -47,7 +47,7 @@ static real elapsed(const State *s, real dt)
 }
 
 /* The duty that follows the last on the way to a target that the amplifier knows. */
-static real towards(const State *s, real target, real dt)
+static real towards(const Emulator *s, real target, real dt)
 {
     const real last = s->duty_out, step = s->p.resolution, slew = s->p.slew;
     const real way = target - last, size = FABS(way);
@@ -78,7 +78,7 @@ static real towards(const State *s, real target, real dt)
 }
 
 /* Whether the amplifier can be given another duty now. */
-static int may_change(const State *s)
+static int may_change(const Emulator *s)
 {
     return s->since_change >= s->p.update_period * (K(1.0) - EQUAL);
 }

@@ -1,15 +1,11 @@
-#ifndef PREFIX_H
-#define PREFIX_H
+@DAMPER@#ifndef @GUARD@
+#define @GUARD@
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-#ifdef ERDCTL_FLOAT
-typedef float PREFIX_real;
-#else
-typedef double PREFIX_real;
-#endif
+@REAL@
 
 /* May be changed between steps; what cannot be used closes the output (PREFIX_PARAMETER). */
 typedef struct PREFIX_params {
@@ -46,17 +42,13 @@ typedef struct PREFIX_state {
     int out_of_reach;               /* 1: no duty gives the faulty force now: the yield force would
                                        have to push */
     int called, moved, closed;      /* a duty was given out; motion is known; too hot */
-    int up, turning;                /* 1: compression, 0: release; any motion yet */
     int bad_steps, bad_factor;      /* calls in a row without a usable dt; a factor was not usable */
     PREFIX_real since_change;       /* [s] since duty_out changed */
     PREFIX_real step, even;         /* [s] the last good dt; for how long all were alike */
     PREFIX_real blind;              /* [s] since the last good inputs */
     PREFIX_real x, xdot, duty;      /* [m] [m/s] [1] the last good ones */
     PREFIX_real speed, slope, bend; /* [m/s] [m/s^2] [m/s^3] of the parabola that follows xdot */
-    PREFIX_real healthy, made;      /* [N] yield force of the healthy damper under the controller's
-                                       duty, and of the real one under duty_out */
-    PREFIX_real steady[4], of[4];   /* [N] steady yield forces of duty and of duty_out, each for
-                                       compression and release; sigma and beta that they are of */
+@OBSERVED@
     PREFIX_real strayed_x, strayed_xdot; /* [m] travel that a standing signal misses */
 } PREFIX_state;
 

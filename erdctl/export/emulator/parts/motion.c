@@ -11,7 +11,7 @@
 /* Takes in a good sample, `gap` after the last good one [s].
    Source of the gains: N. Morrison, Introduction to Sequential Smoothing and Prediction (1969),
    fading-memory polynomial filter of second degree. */
-static void take_motion(State *s, real gap, real x, real xdot)
+static void take_motion(Emulator *s, real gap, real x, real xdot)
 {
     const real moved = x - s->x, told = K(0.5) * (xdot + s->xdot) * gap;
     const real keeps = MEMORY / (MEMORY + gap), fresh = K(1.0) - keeps;
@@ -26,44 +26,12 @@ static void take_motion(State *s, real gap, real x, real xdot)
 }
 
 /* xdot [m/s] at a time h [s] from now. */
-static real speed_ahead(const State *s, real h)
+static real speed_ahead(const Emulator *s, real h)
 {
     return s->speed + h * (s->slope + K(0.5) * TRUSTED * h * s->bend);
 }
 
-static int stuck(const State *s)
+static int stuck(const Emulator *s)
 {
     return FABS(s->strayed_x) > STRAYED || FABS(s->strayed_xdot) > STRAYED;
-}
-
-/* Both yield forces at the end of a time dt [s], over which the duties were held. */
-static void relax(State *s, const Span *span, int up, int turned_up)
-{
-    const real *u = s->steady;
-    s->healthy = span->a * s->healthy + span->before * u[up ? 0 : 1]
-        + span->after * u[turned_up ? 0 : 1];
-    s->made = span->a * s->made + span->before * u[up ? 2 : 3] + span->after * u[turned_up ? 2 : 3];
-}
-
-/* Steady forces of a duty, kept for as long as it is held: powers cost. */
-static void set_steady(State *s, int which, real duty)
-{
-    const Law compression = law_of(&s->p, 1), release = law_of(&s->p, 0);
-    s->steady[which] = steady_force(&compression, duty);
-    s->steady[which + 1] = steady_force(&release, duty);
-}
-
-/* The same where the parameters have been changed in between. */
-static void renew(State *s)
-{
-    const Law compression = law_of(&s->p, 1), release = law_of(&s->p, 0);
-    if (s->of[0] == compression.sigma && s->of[1] == compression.beta
-        && s->of[2] == release.sigma && s->of[3] == release.beta)
-        return;
-    s->of[0] = compression.sigma;
-    s->of[1] = compression.beta;
-    s->of[2] = release.sigma;
-    s->of[3] = release.beta;
-    set_steady(s, 0, s->duty);
-    set_steady(s, 2, s->duty_out);
 }

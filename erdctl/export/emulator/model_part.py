@@ -1,0 +1,111 @@
+"""What of the emulator's C depends on the damper: the paper's model, or one with effects.
+
+The paper's model is inverted by formula. For a damper with effects its own exported C is asked.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from erdctl.core.recording import DIRECTIONS, Array
+from erdctl.core.signals import Signals
+from erdctl.export.c.layout import CMember, paper_members
+from erdctl.export.c.source import CBlock, on_the_vehicle, write_c
+from erdctl.model.composed import Model
+from erdctl.model.parameters import Parameters
+
+REAL = """#ifdef ERDCTL_FLOAT
+typedef float PREFIX_real;
+#else
+typedef double PREFIX_real;
+#endif"""
+FELT = 0.05  # of a step in force: so much of it is there when it begins to be felt
+FINE, LONG = 2e-4, 0.5  # s, of the steps by which that is looked for, and for how long
+
+
+@dataclass(frozen=True)
+class ModelPart:
+    """The part of the C that knows the damper.
+
+    before : text of the header before the emulator's own;  real : declares PREFIX_real
+    members : of PREFIX_params;  declared : lines that declare them
+    state : file with members of PREFIX_state;  types : of the source;  code : file
+    """
+
+    before: str
+    real: str
+    members: tuple[CMember, ...]
+    declared: tuple[str, ...]
+    state: str
+    types: str
+    code: str
+    left_out: tuple[str, ...] = ()
+
+
+def model_part(parameters: Parameters, prefix: str) -> ModelPart:
+    """The one for a damper; effects of its bench take no part in it."""
+    if on_the_vehicle(parameters.model.effects)[0]:
+        return _observer(parameters, prefix)
+    found = paper_members(parameters)
+    return ModelPart(
+        before="", real=REAL, members=found, declared=tuple(declared(m) for m in found),
+        state="paper_state.h", types="", code="paper.c",
+        left_out=on_the_vehicle(parameters.model.effects)[1],
+    )  # fmt: skip
+
+
+def _observer(parameters: Parameters, prefix: str) -> ModelPart:
+    damper: CBlock = write_c(parameters, prefix=f"{prefix}_damper")
+    include = f'#include "{damper.prefix}.h"'
+    assert damper.source.count(include) == 1
+    late = CMember(
+        "dead_time", dead_time(parameters), "s",
+        "before a duty begins to be felt, beyond what T_d alone makes of it",
+    )  # fmt: skip
+    return ModelPart(
+        before=damper.header + "\n",
+        real="typedef PREFIX_damper_real PREFIX_real;",
+        members=(*(m._replace(path=f"damper.{m.path}") for m in damper.parameters), late),
+        declared=("    PREFIX_damper_params damper; /* see there */", declared(late)),
+        state="observer_state.h",
+        types=damper.source.replace(include, '#include "PREFIX.h"'),
+        code="observer.c",
+        left_out=damper.left_out,
+    )
+
+
+def declared(member: CMember) -> str:
+    """The line that declares a member."""
+    return f"    PREFIX_real {member.path}; /* [{member.unit}] {member.title} */"
+
+
+def dead_time(parameters: Parameters) -> float:
+    """Time [s] by which a damper feels a duty later than by its T_d alone.
+
+    From a step of the duty at constant speed, to where FELT of its force is there; the mean of both
+    directions. Found for any effect that stands between them, without asking which it is.
+    """
+    kept = on_the_vehicle(parameters.model.effects)[0]
+    own = replace(parameters, model=Model(kept))
+    plain = replace(parameters, model=Model())
+    late = [_felt(own, way) - _felt(plain, way) for way in range(len(DIRECTIONS))]
+    found = float(np.mean(late))
+    return round(found, 4) if found > 2.0 * FINE else 0.0
+
+
+def _felt(parameters: Parameters, way: int) -> float:
+    n = round(LONG / FINE)
+    t: Array = FINE * np.arange(2.0 * n)
+    speed = 0.1 if way == 0 else -0.1
+    signals = Signals(
+        t=t, x=np.zeros(2 * n), xdot=np.full(2 * n, speed), duty=np.where(t < LONG, 0.05, 0.3),
+        step=np.append(np.full(2 * n - 1, FINE), 0.0), starts=np.array([0, 2 * n]),
+    )  # fmt: skip
+    force = parameters.model.force(signals, parameters.values)
+    rest = parameters.model.force(signals.with_duty(np.full(2 * n, 0.05)), parameters.values)
+    rise = np.abs(force - rest)[n:]
+    if not rise[-1] > 0.0:
+        return 0.0
+    return float(np.argmax(rise >= FELT * rise[-1])) * FINE
