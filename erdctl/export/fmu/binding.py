@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Sequence
 from importlib.resources import files
 
-from erdctl.export.fmu.block import Block, Variable
+from erdctl.export.fmu.block import FmuBlock, FmuVariable
 from erdctl.export.fmu.version import Version
 
 BINDING = "erdctl_block.h"
@@ -103,7 +103,7 @@ static void block_step(BlockState *s, double dt, const double u[], double out[])
 """
 
 
-def sources(block: Block, version: Version, token: str) -> dict[str, str]:
+def sources(block: FmuBlock, version: Version, token: str) -> dict[str, str]:
     """Text of all C files of an FMU by name; those that end in .c are to be compiled."""
     shim = files("erdctl.export.fmu") / "shim"
     return {
@@ -115,7 +115,7 @@ def sources(block: Block, version: Version, token: str) -> dict[str, str]:
     }
 
 
-def binding(block: Block, token: str) -> str:
+def binding(block: FmuBlock, token: str) -> str:
     """Text of the header.
 
     token : the GUID of FMI 2.0, the instantiation token of FMI 3.0
@@ -148,12 +148,12 @@ def binding(block: Block, token: str) -> str:
     )
 
 
-def _row(block: Block, v: Variable) -> str:
+def _row(block: FmuBlock, v: FmuVariable) -> str:
     at = f"offsetof({block.prefix}_params, {v.member})"
     return f"    {{{at}, {_number(v.low)}, {_number(v.high)}}},"
 
 
-def _begins(v: Variable) -> str:
+def _begins(v: FmuVariable) -> str:
     return f"    {{'{v.kind.value}', {_number(v.start)}, {_number(v.low)}, {_number(v.high)}}},"
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 
-class Kind(Enum):
+class FmuType(Enum):
     """Type of a variable, as the C that holds it knows it by."""
 
     REAL = "r"
@@ -17,12 +17,12 @@ class Kind(Enum):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Variable:
+class FmuVariable:
     """A variable of an FMU.
 
     name : in the FMU; dots and identifiers
     member : of a parameter, its place in the params struct (`compression_k_nom`, `backlash.g`);
-    of inputs, outputs and watched values unused, as `Block.calls` names them
+    of inputs, outputs and watched values unused, as `FmuBlock.calls` names them
     start : of inputs and parameters [unit];  low, high : values that are accepted of a parameter
     (and stated of an input)
     """
@@ -34,11 +34,11 @@ class Variable:
     start: float = 0.0
     low: float = -math.inf
     high: float = math.inf
-    kind: Kind = Kind.REAL
+    kind: FmuType = FmuType.REAL
 
 
 @dataclass(frozen=True, kw_only=True)
-class Block:
+class FmuBlock:
     """A block of C and its interface.
 
     prefix : of its C names, and of the files; the header declares PREFIX_real, PREFIX_params,
@@ -63,12 +63,12 @@ class Block:
     title: str
     header: str
     source: str
-    inputs: tuple[Variable, ...]
-    outputs: tuple[Variable, ...]
+    inputs: tuple[FmuVariable, ...]
+    outputs: tuple[FmuVariable, ...]
     calls: str
-    parameters: tuple[Variable, ...] = ()
-    watched: tuple[Variable, ...] = ()
-    initial: tuple[Variable, ...] = ()
+    parameters: tuple[FmuVariable, ...] = ()
+    watched: tuple[FmuVariable, ...] = ()
+    initial: tuple[FmuVariable, ...] = ()
     begin: str = ""
     retune: str = "s->p = *p;"
     status: str = "s->status"
@@ -77,6 +77,6 @@ class Block:
     step_size: float = 1e-3
 
     @property
-    def computed(self) -> tuple[Variable, ...]:
+    def computed(self) -> tuple[FmuVariable, ...]:
         """Outputs and watched values, in the order of their value references."""
         return self.outputs + self.watched

@@ -17,7 +17,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from erdctl.core.errors import ComputationProblem
-from erdctl.export.fmu.version import LINUX, LINUX_ARM, MAC, MAC_ARM, WINDOWS, Target
+from erdctl.export.fmu.version import LINUX, LINUX_ARM, MAC, MAC_ARM, WINDOWS, Platform
 
 _PACKAGE = "ziglang"  # of the extra `fmu`
 CROSS = (LINUX, WINDOWS, MAC, MAC_ARM)
@@ -40,9 +40,9 @@ strlen tan tanh tanhf tgamma trunc
 class Compiled:
     """Shared libraries by platform, what built them, and what failed (platform and reason)."""
 
-    binaries: Mapping[Target, bytes]
+    binaries: Mapping[Platform, bytes]
     compiler: str
-    failed: Mapping[Target, str]
+    failed: Mapping[Platform, str]
 
 
 def compiled(sources: Mapping[str, str]) -> Compiled:
@@ -85,17 +85,17 @@ def _cross(folder: str, files: Sequence[str]) -> Compiled:
     assert spec.origin is not None
     headers = Path(spec.origin).parent / "lib" / "libc" / "include" / "any-windows-any"
 
-    def build(target: Target) -> bytes:
-        out = f"{target.triple}{target.suffix}"
+    def build(system: Platform) -> bytes:
+        out = f"{system.triple}{system.suffix}"
         link = ["-s", "-fPIC", "-lm"]
-        if target is WINDOWS:
+        if system is WINDOWS:
             named = "\n".join([f'LIBRARY "{_RUNTIME}"', "EXPORTS", *_FUNCTIONS.split(), ""])
             Path(folder, "runtime.def").write_text(named, "utf-8")
             tool = ["dlltool", "-m", "i386:x86-64", "-d", "runtime.def", "-l", "runtime.lib"]
             _run([*command, *tool], folder)
             link = ["-s", "-nostdlib", "-Wl,--no-entry", "-mno-stack-arg-probe"]
             link += ["-isystem", str(headers), "runtime.lib"]
-        _run([*command, "cc", "-target", target.triple, *_FLAGS, "-o", out, *files, *link], folder)
+        _run([*command, "cc", "-target", system.triple, *_FLAGS, "-o", out, *files, *link], folder)
         return Path(folder, out).read_bytes()
 
     return _all(CROSS, build, "the cross-compiler")
@@ -105,31 +105,33 @@ def _host(folder: str, files: Sequence[str]) -> Compiled:
     names = [os.environ.get("CC", ""), "cc", "gcc", "clang"]
     commands = [shlex.split(name) for name in names if name]
     command = next((c for c in commands if shutil.which(c[0])), None)
-    target = _here()
-    if command is None or target is None:
+    system = _here()
+    if command is None or system is None:
         return Compiled(binaries={}, compiler="", failed={})
 
-    def build(target: Target) -> bytes:
-        out = f"built{target.suffix}"
-        position = [] if target is WINDOWS else ["-fPIC"]
+    def build(system: Platform) -> bytes:
+        out = f"built{system.suffix}"
+        position = [] if system is WINDOWS else ["-fPIC"]
         _run([*command, *_FLAGS, *position, "-o", out, *files, "-lm"], folder)
         return Path(folder, out).read_bytes()
 
-    return _all([target], build, command[0])
+    return _all([system], build, command[0])
 
 
-def _all(targets: Sequence[Target], build: Callable[[Target], bytes], compiler: str) -> Compiled:
+def _all(
+    systems: Sequence[Platform], build: Callable[[Platform], bytes], compiler: str
+) -> Compiled:
     """What can be built; a platform that fails does not take the others with it."""
     binaries, failed = {}, {}
-    with ThreadPoolExecutor(max_workers=min(len(targets), os.cpu_count() or 1)) as pool:
-        for target, work in [(t, pool.submit(build, t)) for t in targets]:
+    with ThreadPoolExecutor(max_workers=min(len(systems), os.cpu_count() or 1)) as pool:
+        for system, work in [(t, pool.submit(build, t)) for t in systems]:
             try:
-                binaries[target] = work.result()
+                binaries[system] = work.result()
             except (OSError, subprocess.CalledProcessError) as error:
-                failed[target] = _reason(error)
+                failed[system] = _reason(error)
     if failed and not binaries:
-        target, reason = next(iter(failed.items()))
-        raise ComputationProblem(f"{compiler} could not build for {target.name}: {reason}")
+        system, reason = next(iter(failed.items()))
+        raise ComputationProblem(f"{compiler} could not build for {system.name}: {reason}")
     return Compiled(binaries=binaries, compiler=compiler, failed=failed)
 
 
@@ -147,7 +149,7 @@ def _reason(error: OSError | subprocess.CalledProcessError) -> str:
     return str(lines[0])
 
 
-def _here() -> Target | None:
+def _here() -> Platform | None:
     """The platform of this machine; None for one that no FMU knows."""
     arm = platform.machine().lower() in {"arm64", "aarch64"}
     if sys.maxsize < 2**32 or not (arm or platform.machine().lower() in {"amd64", "x86_64"}):

@@ -4,39 +4,48 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from erdctl.export.c.source import CBlock
-from erdctl.export.fmu.block import Block, Kind, Variable
+from erdctl.export.c.source import CBlock, on_the_vehicle
+from erdctl.export.fmu.block import FmuBlock, FmuType, FmuVariable
 from erdctl.export.fmu.members import of_model, variables
+from erdctl.model.learned.law import LearnedEffect
 from erdctl.model.parameters import Parameters
 
 INPUTS = (
-    Variable(name="x", unit="m", title="deflection, positive in compression"),
-    Variable(name="xdot", unit="m/s", title="speed of deflection, positive in compression"),
-    Variable(name="duty", title="control, held from one sample to the next", low=0.0, high=1.0),
+    FmuVariable(name="x", unit="m", title="deflection, positive in compression"),
+    FmuVariable(name="xdot", unit="m/s", title="speed of deflection, positive in compression"),
+    FmuVariable(name="duty", title="control, held from one sample to the next", low=0.0, high=1.0),
 )
 _FACTORS = (
-    Variable(name="f_oil", title="effectiveness left by an oil leakage"),
-    Variable(name="f_electrical", title="effectiveness left by an electrical fault"),
-    Variable(name="f_deformation", title="effectiveness left by a deformation"),
+    FmuVariable(name="f_oil", title="effectiveness left by an oil leakage"),
+    FmuVariable(name="f_electrical", title="effectiveness left by an electrical fault"),
+    FmuVariable(name="f_deformation", title="effectiveness left by a deformation"),
 )
 # A healthy damper unless told otherwise.
 FACTORS = tuple(replace(v, start=1.0, low=0.0, high=1.0) for v in _FACTORS)
-FORCE = Variable(name="force", unit="N", title="damper force, with the sign of Eq. 13")
-STATUS = Variable(
-    name="status", kind=Kind.INTEGER,
+FORCE = FmuVariable(name="force", unit="N", title="damper force, with the sign of Eq. 13")
+STATUS = FmuVariable(
+    name="status", kind=FmuType.INTEGER,
     title="0 if all is well; the sum of 1: an input is not finite, 2: the step is not positive, "
     "4: the duty was limited, 8: a fault factor was limited",
 )  # fmt: skip
 INITIAL = (
-    Variable(
-        name="first_compressing", kind=Kind.BOOLEAN, start=1.0,
+    FmuVariable(
+        name="first_compressing", kind=FmuType.BOOLEAN, start=1.0,
         title="from rest it first moves in compression",
     ),
-    Variable(
-        name="at_rest", kind=Kind.INTEGER, start=-1.0, low=-1.0, high=1.0,
+    FmuVariable(
+        name="at_rest", kind=FmuType.INTEGER, start=-1.0, low=-1.0, high=1.0,
         title="1: begins at rest, 0: as a motion turns, -1: whichever its first speed says",
     ),
 )  # fmt: skip
+# Of a model with a law that counts passes over parts of the stroke.
+STROKE = (
+    FmuVariable(name="stroke_low", unit="m", title="least deflection of what follows, if known"),
+    FmuVariable(name="stroke_high", unit="m", title="the largest; not above: it is not known"),
+)
+_SWEPT = """if (stroke_low < stroke_high)
+    {}_stroke(s, stroke_low, stroke_high);
+"""
 
 MEANING = (
     "force at a communication point is the damper's force at that time for the inputs as they were"
@@ -53,24 +62,30 @@ MEANING = (
 )
 
 
-def damper_block(c: CBlock, parameters: Parameters) -> Block:
+def damper_block(c: CBlock, parameters: Parameters) -> FmuBlock:
     """The block of a damper.
 
     c : its C, made of the same parameters
     """
+    effects, _ = on_the_vehicle(parameters.model.effects)
+    told = {tell.name for e in effects if e.c is not None for tell in e.c.told}
+    warm = "temperature" in told
+    swept = "stroke" in told
     left_out = (f"Left out: {'; '.join(c.left_out)}.",) if c.left_out else ()
-    return Block(
+    return FmuBlock(
         prefix=c.prefix,
         title="Electro-rheological damper, as identified by erdctl",
         header=c.header,
         source=c.source,
-        inputs=INPUTS + FACTORS,
+        inputs=INPUTS + FACTORS + ((_temperature(parameters),) if warm else ()),
         outputs=(FORCE,),
         watched=(STATUS,),
         parameters=variables(c.parameters, of_model(parameters)),
-        initial=INITIAL,
-        begin=f"{c.prefix}_begin(s, t, first_compressing != 0.0, (int)at_rest);",
-        calls=f"{c.prefix}_faults(s, f_oil, f_electrical, f_deformation);\n"
+        initial=INITIAL + (STROKE if swept else ()),
+        begin=f"{c.prefix}_begin(s, t, first_compressing != 0.0, (int)at_rest);\n"
+        + (_SWEPT.format(c.prefix) if swept else ""),
+        calls=(f"{c.prefix}_temperature(s, temperature);\n" if warm else "")
+        + f"{c.prefix}_faults(s, f_oil, f_electrical, f_deformation);\n"
         f"force = {c.prefix}_step(s, dt, x, xdot, duty);\n"
         "status = s->status;",
         retune=f"{c.prefix}_retune(s, p);",
@@ -88,3 +103,16 @@ def damper_block(c: CBlock, parameters: Parameters) -> Block:
         },
         notes=(*MEANING, *left_out),
     )
+
+
+def _temperature(parameters: Parameters) -> FmuVariable:
+    """Of a model with a law of it; where nobody sets it, the middle of where that was learned."""
+    axes = [
+        axis
+        for effect in parameters.model.effects
+        if isinstance(effect, LearnedEffect)
+        for axis in effect.law.curve.axes
+        if axis.coordinate == "temperature"
+    ]
+    middle = sum(axes[0].range) / 2.0 if axes else 20.0
+    return FmuVariable(name="temperature", unit="degC", title="of the damper", start=middle)

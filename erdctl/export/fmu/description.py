@@ -12,13 +12,13 @@ from collections.abc import Iterator
 from xml.etree import ElementTree as ET
 
 from erdctl.core.version import __version__
-from erdctl.export.fmu.block import Block, Kind, Variable
+from erdctl.export.fmu.block import FmuBlock, FmuType, FmuVariable
 from erdctl.export.fmu.units import base_units
 from erdctl.export.fmu.version import TWO, Version
 
 _STRUCTURED = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*", re.ASCII)
-_TYPES_2 = {Kind.REAL: "Real", Kind.INTEGER: "Integer", Kind.BOOLEAN: "Boolean"}
-_TYPES_3 = {Kind.REAL: "Float64", Kind.INTEGER: "Int32", Kind.BOOLEAN: "Boolean"}
+_TYPES_2 = {FmuType.REAL: "Real", FmuType.INTEGER: "Integer", FmuType.BOOLEAN: "Boolean"}
+_TYPES_3 = {FmuType.REAL: "Float64", FmuType.INTEGER: "Int32", FmuType.BOOLEAN: "Boolean"}
 
 # How FMI calls what a variable is for, how it may change and how it begins.
 _INPUT = {"causality": "input", "variability": "continuous"}
@@ -28,7 +28,7 @@ _INITIAL = {"causality": "parameter", "variability": "fixed", "initial": "exact"
 _PARAMETER = {"causality": "parameter", "variability": "tunable", "initial": "exact"}
 
 
-def model_description(block: Block, version: Version, token: str, c_files: list[str]) -> bytes:
+def model_description(block: FmuBlock, version: Version, token: str, c_files: list[str]) -> bytes:
     """Text of modelDescription.xml.
 
     token : the GUID of FMI 2.0, the instantiation token of FMI 3.0
@@ -48,7 +48,7 @@ def model_description(block: Block, version: Version, token: str, c_files: list[
         },
     )
     root.append(_co_simulation(block, version, c_files))
-    units = sorted({v.unit for v in every if v.kind is Kind.REAL} | {"s"})
+    units = sorted({v.unit for v in every if v.kind is FmuType.REAL} | {"s"})
     root.append(_units(units))
     categories = ET.SubElement(root, "LogCategories")
     for name in ("logStatusWarning", "logStatusDiscard", "logStatusError"):
@@ -61,7 +61,7 @@ def model_description(block: Block, version: Version, token: str, c_files: list[
     return _text(root)
 
 
-def build_description(block: Block, c_files: list[str]) -> bytes:
+def build_description(block: FmuBlock, c_files: list[str]) -> bytes:
     """Text of sources/buildDescription.xml, which FMI 3.0 has beside its sources."""
     root = ET.Element("fmiBuildDescription", fmiVersion="3.0")
     built = ET.SubElement(root, "BuildConfiguration", modelIdentifier=block.prefix)
@@ -71,7 +71,7 @@ def build_description(block: Block, c_files: list[str]) -> bytes:
     return _text(root)
 
 
-def page(block: Block) -> bytes:
+def page(block: FmuBlock) -> bytes:
     """Text of documentation/index.html."""
     html = ET.Element("html", lang="en")
     head = ET.SubElement(html, "head")
@@ -105,7 +105,7 @@ def _text(root: ET.Element) -> bytes:
     return text + b"\n"
 
 
-def _co_simulation(block: Block, version: Version, c_files: list[str]) -> ET.Element:
+def _co_simulation(block: FmuBlock, version: Version, c_files: list[str]) -> ET.Element:
     said = {"modelIdentifier": block.prefix, "canHandleVariableCommunicationStepSize": "true"}
     if version is not TWO:
         return ET.Element(
@@ -135,7 +135,7 @@ def _units(units: list[str]) -> ET.Element:
     return element
 
 
-def _variables(block: Block, version: Version) -> Iterator[ET.Element]:
+def _variables(block: FmuBlock, version: Version) -> Iterator[ET.Element]:
     # FMI 3.0 wants time among the variables; value reference 0 is kept for it in both.
     if version is not TWO:
         yield ET.Element(
@@ -154,17 +154,17 @@ def _variables(block: Block, version: Version) -> Iterator[ET.Element]:
         yield _variable(v, reference, role, version)
 
 
-def _variable(v: Variable, reference: int, role: dict[str, str], version: Version) -> ET.Element:
+def _variable(v: FmuVariable, reference: int, role: dict[str, str], version: Version) -> ET.Element:
     common = {"name": v.name, "valueReference": str(reference)}
     if v.title:
         common["description"] = v.title
     common |= role
     # Only numbers with a fraction change continuously.
-    common.setdefault("variability", "continuous" if v.kind is Kind.REAL else "discrete")
+    common.setdefault("variability", "continuous" if v.kind is FmuType.REAL else "discrete")
     value: dict[str, str] = {}
-    if v.kind is Kind.REAL:
+    if v.kind is FmuType.REAL:
         value["unit"] = v.unit
-    if v.kind is not Kind.BOOLEAN:
+    if v.kind is not FmuType.BOOLEAN:
         value |= {k: _said(v, x) for k, x in (("min", v.low), ("max", v.high)) if math.isfinite(x)}
     if role.get("initial") != "calculated":
         value["start"] = _said(v, v.start)
@@ -175,14 +175,14 @@ def _variable(v: Variable, reference: int, role: dict[str, str], version: Versio
     return ET.Element(_TYPES_3[v.kind], common | value)
 
 
-def _said(v: Variable, value: float) -> str:
+def _said(v: FmuVariable, value: float) -> str:
     """A value of a variable as XML has it."""
-    if v.kind is Kind.BOOLEAN:
+    if v.kind is FmuType.BOOLEAN:
         return "true" if value else "false"
-    return repr(float(value)) if v.kind is Kind.REAL else str(int(value))
+    return repr(float(value)) if v.kind is FmuType.REAL else str(int(value))
 
 
-def _structure(block: Block, version: Version) -> ET.Element:
+def _structure(block: FmuBlock, version: Version) -> ET.Element:
     """Outputs and what initialisation computes; without dependencies all depend on all."""
     element = ET.Element("ModelStructure")
     first = 1 + len(block.inputs)

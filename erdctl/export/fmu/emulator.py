@@ -6,23 +6,23 @@ import math
 from dataclasses import replace
 
 from erdctl.export.emulator.source import EmulatorBlock
-from erdctl.export.fmu.block import Block, Kind, Variable
+from erdctl.export.fmu.block import FmuBlock, FmuType, FmuVariable
 from erdctl.export.fmu.damper import FACTORS, INPUTS
 from erdctl.export.fmu.members import Bounds, of_model, variables
 from erdctl.model.parameters import Parameters
 
 # 20 degC: where nobody measures it, the output is not closed.
-TEMPERATURE = Variable(name="temperature", unit="degC", title="of the damper", start=20.0)
+TEMPERATURE = FmuVariable(name="temperature", unit="degC", title="of the damper", start=20.0)
 OUTPUTS = (
-    Variable(name="duty_out", title="control for the amplifier"),
-    Variable(
+    FmuVariable(name="duty_out", title="control for the amplifier"),
+    FmuVariable(
         name="limited",
-        kind=Kind.BOOLEAN,
+        kind=FmuType.BOOLEAN,
         title="the output is not what was wanted: ceiling, slew limit, temperature or bad inputs",
     ),
-    Variable(
+    FmuVariable(
         name="out_of_reach",
-        kind=Kind.BOOLEAN,
+        kind=FmuType.BOOLEAN,
         title="no duty gives the faulty force now: the yield force would have to push",
     ),
 )
@@ -38,7 +38,9 @@ _WORDS = {
     "STUCK": (64, "x or xdot stands while the other says that the piston moves"),
 }
 _SUM = "; ".join(f"{number}: {text}" for number, text in _WORDS.values())
-STATUS = Variable(name="status", kind=Kind.INTEGER, title=f"0 if all is well; the sum of {_SUM}")
+STATUS = FmuVariable(
+    name="status", kind=FmuType.INTEGER, title=f"0 if all is well; the sum of {_SUM}"
+)
 
 _LIMITS: Bounds = {
     "duty_max": (0.0, 1.0),
@@ -60,7 +62,7 @@ MEANING = (
 )
 
 
-def emulator_block(c: EmulatorBlock, parameters: Parameters) -> Block:
+def emulator_block(c: EmulatorBlock, parameters: Parameters) -> FmuBlock:
     """The block of an emulator.
 
     c : its C, made of the same parameters
@@ -70,7 +72,7 @@ def emulator_block(c: EmulatorBlock, parameters: Parameters) -> Block:
         v if v.name.removeprefix("f_") in known else replace(v, title=f"{v.title} (ignored)")
         for v in FACTORS
     ]
-    return Block(
+    return FmuBlock(
         prefix=c.prefix,
         title="Online emulator of faults of an electro-rheological damper, by erdctl",
         header=c.header,

@@ -9,7 +9,7 @@ from typing import Protocol
 
 from erdctl.core.recording import DIRECTIONS
 from erdctl.export.c.names import identifier
-from erdctl.export.fmu.block import Variable
+from erdctl.export.fmu.block import FmuVariable
 from erdctl.model.paper import QUANTITIES
 from erdctl.model.parameters import Parameters
 
@@ -17,7 +17,7 @@ Bounds = Mapping[str, tuple[float, float]]  # by place in the params struct
 ANY = (-math.inf, math.inf)
 
 
-class Member(Protocol):
+class InStruct(Protocol):
     """A member of a block's params struct."""
 
     @property
@@ -30,15 +30,15 @@ class Member(Protocol):
     def title(self) -> str: ...
 
 
-def variables(members: Iterable[Member], bounds: Bounds) -> tuple[Variable, ...]:
+def variables(members: Iterable[InStruct], bounds: Bounds) -> tuple[FmuVariable, ...]:
     """Every member as a tunable parameter, named as in a parameter file where it is one of its."""
     return tuple(_variable(m, bounds.get(m.path, ANY)) for m in members)
 
 
-def _variable(m: Member, bounds: tuple[float, float]) -> Variable:
+def _variable(m: InStruct, bounds: tuple[float, float]) -> FmuVariable:
     way, _, symbol = m.path.partition("_")
     name = f"{way}.{symbol}" if way in DIRECTIONS and symbol in QUANTITIES else m.path
-    plain = Variable(name=name, unit=m.unit, title=m.title, member=m.path, start=m.value)
+    plain = FmuVariable(name=name, unit=m.unit, title=m.title, member=m.path, start=m.value)
     # A value that the file has is taken, wherever it lies.
     return replace(plain, low=min(bounds[0], m.value), high=max(bounds[1], m.value))
 

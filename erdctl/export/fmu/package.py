@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import PurePosixPath
 
 from erdctl.export.fmu.binding import sources
-from erdctl.export.fmu.block import Block
+from erdctl.export.fmu.block import FmuBlock
 from erdctl.export.fmu.compile import Compiled, compiled
 from erdctl.export.fmu.description import build_description, model_description, page
 from erdctl.export.fmu.fat import universal
@@ -36,7 +36,7 @@ class Package:
     compiler: str
 
 
-def packaged(block: Block, *, version: Version = TWO, build: Builder = compiled) -> Package:
+def packaged(block: FmuBlock, *, version: Version = TWO, build: Builder = compiled) -> Package:
     """The FMU of a block for co-simulation.
 
     Its sources are in it; its binaries are those that can be built here.
@@ -47,13 +47,13 @@ def packaged(block: Block, *, version: Version = TWO, build: Builder = compiled)
     built = build(texts)
     return Package(
         data=_zip(_files(block, version, token, texts, built)),
-        platforms=tuple(target.name for target in built.binaries),
-        failed={target.name: reason for target, reason in built.failed.items()},
+        platforms=tuple(system.name for system in built.binaries),
+        failed={system.name: reason for system, reason in built.failed.items()},
         compiler=built.compiler,
     )
 
 
-def _token(block: Block, version: Version) -> str:
+def _token(block: FmuBlock, version: Version) -> str:
     """GUID of an FMU, out of everything that it is made of."""
     texts = sources(block, version, "")
     said = model_description(block, version, "", _compiled(texts))
@@ -69,7 +69,7 @@ def _compiled(texts: Mapping[str, str]) -> list[str]:
 
 
 def _files(
-    block: Block, version: Version, token: str, texts: Mapping[str, str], built: Compiled
+    block: FmuBlock, version: Version, token: str, texts: Mapping[str, str], built: Compiled
 ) -> dict[str, bytes]:
     files = {
         "modelDescription.xml": model_description(block, version, token, _compiled(texts)),
@@ -79,8 +79,8 @@ def _files(
     if version is not TWO:
         files["sources/buildDescription.xml"] = build_description(block, _compiled(texts))
     parts: dict[str, list[bytes]] = {}
-    for target, data in built.binaries.items():
-        name = PurePosixPath("binaries", version.folders[target], block.prefix + target.suffix)
+    for system, data in built.binaries.items():
+        name = PurePosixPath("binaries", version.folders[system], block.prefix + system.suffix)
         parts.setdefault(str(name), []).append(data)
     return files | {name: universal(data) for name, data in parts.items()}
 

@@ -1,4 +1,4 @@
-"""The two versions of FMI, and where they differ in what an FMU holds and where."""
+"""The two versions of FMI, and the platforms that an FMU has a binary for."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, kw_only=True)
-class Target:
+class Platform:
     """A platform that a binary is built for.
 
     name : for people;  suffix : of its shared libraries
@@ -18,11 +18,11 @@ class Target:
     triple: str
 
 
-LINUX = Target(name="linux64", suffix=".so", triple="x86_64-linux-gnu.2.17")
-WINDOWS = Target(name="win64", suffix=".dll", triple="x86_64-windows-gnu")
-MAC = Target(name="macOS x86_64", suffix=".dylib", triple="x86_64-macos")
-MAC_ARM = Target(name="macOS arm64", suffix=".dylib", triple="aarch64-macos")
-LINUX_ARM = Target(name="linux arm64", suffix=".so", triple="aarch64-linux-gnu.2.17")
+LINUX = Platform(name="linux64", suffix=".so", triple="x86_64-linux-gnu.2.17")
+WINDOWS = Platform(name="win64", suffix=".dll", triple="x86_64-windows-gnu")
+MAC = Platform(name="macOS x86_64", suffix=".dylib", triple="x86_64-macos")
+MAC_ARM = Platform(name="macOS arm64", suffix=".dylib", triple="aarch64-macos")
+LINUX_ARM = Platform(name="linux arm64", suffix=".so", triple="aarch64-linux-gnu.2.17")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,7 +35,7 @@ class Version:
 
     number: str
     shim: str
-    folders: dict[Target, str]
+    folders: dict[Platform, str]
 
 
 # FMI 2.0 has one folder for a Mac of either kind: its file there holds both. Linux on arm is not in

@@ -16,7 +16,7 @@ from places import FIXTURES
 
 from erdctl.core.recording import Array
 from erdctl.export.c.source import write_c
-from erdctl.export.fmu.block import Block
+from erdctl.export.fmu.block import FmuBlock
 from erdctl.export.fmu.compile import host_compiled
 from erdctl.export.fmu.damper import damper_block
 from erdctl.export.fmu.package import packaged
@@ -41,7 +41,7 @@ def folder() -> Path:
     return Path(made)
 
 
-def built(block: Block, number: str) -> Path:
+def built(block: FmuBlock, number: str) -> Path:
     """The file of its FMU, with a binary for this machine alone."""
     out = folder() / f"{block.prefix}_{number}.fmu"
     out.write_bytes(packaged(block, version=VERSIONS[number], build=host_compiled).data)
@@ -143,8 +143,10 @@ class Instance:
         self.slave.freeInstance()
 
 
-def driven(instance: Instance, signals: Mapping[str, Array], t: Array) -> Array:
+def driven(instance: Instance, signals: Mapping[str, Array], t: Array, **initial: float) -> Array:
     """The first output at all samples: the inputs of each are set for the step that ends there.
+
+    initial : how it begins
 
     The functions of FMI are called directly, as FMPy's own for lists take ten times as long.
     """
@@ -155,7 +157,7 @@ def driven(instance: Instance, signals: Mapping[str, Array], t: Array) -> Array:
     asked, one, values = (ctypes.c_uint * 1)(instance.at[out]), (real * 1)(), (real * n)()
     view = np.frombuffer(values)
     rows = np.column_stack([*signals.values()])
-    instance.start(t[0], **{name: float(v[0]) for name, v in signals.items()})
+    instance.start(t[0], **{name: float(v[0]) for name, v in signals.items()}, **initial)
     force = np.empty(len(t))
     force[0] = instance.get(out)
     for i in range(1, len(t)):

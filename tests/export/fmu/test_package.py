@@ -21,7 +21,7 @@ from places import FIXTURES
 from erdctl.cli.app import run
 from erdctl.export.c.source import write_c
 from erdctl.export.fmu import compile as compiling
-from erdctl.export.fmu.block import Block, Variable
+from erdctl.export.fmu.block import FmuBlock, FmuVariable
 from erdctl.export.fmu.compile import CROSS, Compiled, cross_compiled, host_compiled
 from erdctl.export.fmu.damper import damper_block
 from erdctl.export.fmu.fat import universal
@@ -40,7 +40,7 @@ MAGIC = {".so": b"\x7fELF", ".dll": b"MZ", ".dylib": b"\xcf\xfa\xed\xfe"}
 UNIVERSAL = b"\xca\xfe\xba\xbe"
 
 
-def block(prefix: str = "damper") -> Block:
+def block(prefix: str = "damper") -> FmuBlock:
     p = table_2()
     return damper_block(write_c(p, prefix=prefix), p)
 
@@ -235,9 +235,9 @@ def test_a_block_that_is_no_damper(tmp_path: Path) -> None:
         "void twice_init(twice_state *s, const twice_params *p)"
         " { s->p = *p; s->last = 0.0; s->calls = 0; }\n"
     )
-    twice = Block(
+    twice = FmuBlock(
         prefix="twice", title="Twice", header=header, source=source,
-        inputs=(Variable(name="a", start=1.5),), outputs=(Variable(name="b"),),
+        inputs=(FmuVariable(name="a", start=1.5),), outputs=(FmuVariable(name="b"),),
         calls="s->calls++;\nb = 2.0 * a + (double)(s->calls - 1);", status="0", words={},
     )  # fmt: skip
     for number in NUMBERS:
