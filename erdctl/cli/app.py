@@ -125,8 +125,8 @@ def _full(error: OSError) -> typer.Exit:
 
 
 COMMANDS = (
-    "inspect", "identify", "simulate", "validate", "diagnose", "prove", "mimic", "plot", "convert",
-    "derive", "effects", "schema",
+    "inspect", "identify", "simulate", "validate", "diagnose", "prove", "mimic", "export", "plot",
+    "convert", "derive", "effects", "schema",
 )  # fmt: skip
 
 

@@ -42,6 +42,13 @@ def fault_kinds(incomplete: str) -> list[str]:
     return [f"{k.short}=" for k in FaultKind if k.short.startswith(incomplete)]
 
 
+def emulated_faults(incomplete: str) -> list[str]:
+    """Completes kinds of faults, also behind a comma."""
+    from erdctl.model.faults import FaultKind
+
+    return after_comma(incomplete, [kind.short for kind in FaultKind])
+
+
 def after_comma(incomplete: str, names: Iterable[str]) -> list[str]:
     """The lists that some names make of one whose last name is incomplete.
 

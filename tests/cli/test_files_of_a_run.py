@@ -40,6 +40,7 @@ CALLS = {
     "prove": "prove -o {output} --report {report}",
     "mimic": "mimic {params} {log} --fault oil=0.5 -o {output} --manifest {manifest}"
     " --report {report} --plot {plot}",
+    "export": "export {params} -o {output}",
     "plot": "plot {logs} --params {params} --before {before} -o {output}",
     "convert": "convert {log} {output}",
     "derive": "derive {geometry} -o {output}",
