@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import struct
 import subprocess
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -17,10 +18,11 @@ from places import FIXTURES
 from erdctl.core.errors import IncompatibleEffects
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.signals import Signals
-from erdctl.effects import catalogue
+from erdctl.effects import catalogue, get
 from erdctl.export.c.source import on_the_vehicle
 from erdctl.io.parameters import read_parameters
 from erdctl.model.composed import Model
+from erdctl.model.effect import Effect
 
 PAPER = read_parameters(str(FIXTURES / "table_2.json")).values
 ON_CAR, _ = on_the_vehicle(catalogue())
@@ -74,8 +76,8 @@ def test_it_equals_python(seed: int, options: tuple[str, ...], near: float) -> N
 @pytest.mark.parametrize("compiler", COMPILERS)
 @pytest.mark.parametrize("options", [(), (FLOAT,)], ids=["", "float"])
 @pytest.mark.parametrize("effect", ON_CAR, ids=lambda e: e.name)
-def test_no_warnings(effect: object, compiler: str, options: tuple[str, ...]) -> None:
-    found = Model((effect,))  # type: ignore[arg-type]
+def test_no_warnings(effect: Effect, compiler: str, options: tuple[str, ...]) -> None:
+    found = Model((effect,))
     values = PAPER | {q: known.start for q, known in found.quantities.items() if q not in PAPER}
     built(block_of(found, values), *options, compiler=compiler, optimised="-O2")
 
@@ -117,8 +119,8 @@ def test_sanitizers_find_nothing_whatever_comes_in(seed: int, options: tuple[str
 
 @pytest.mark.parametrize("options", [(), (FLOAT,)], ids=["", "float"])
 @pytest.mark.parametrize("effect", ON_CAR, ids=lambda e: e.name)
-def test_no_effect_lets_nan_out(effect: object, options: tuple[str, ...]) -> None:
-    found = Model((effect,))  # type: ignore[arg-type]
+def test_no_effect_lets_nan_out(effect: Effect, options: tuple[str, ...]) -> None:
+    found = Model((effect,))
     values = PAPER | {q: known.start for q, known in found.quantities.items() if q not in PAPER}
     s = random_motion()
     block = block_of(found, values, s)
@@ -172,3 +174,55 @@ def test_two_dampers_link_and_a_copied_state_goes_on_alike(compiler: str, tmp_pa
         cwd=tmp_path, check=True,
     )  # fmt: skip
     subprocess.run([str(tmp_path / "two")], check=True)
+
+
+# What meets in a spring: free play in its joint, factors from the forces, forces from those, laws
+# of speed; and what depends on the duty ahead where the fluid follows at once.
+TOGETHER = {
+    "mount": "mount_compliance backlash thermal_fade gas_thermal_drift stribeck_friction"
+    " preyield_viscosity shear_thinning power_law_yield gas_polytropic cavitation input_delay",
+    "fluid": "fluid_compressibility backlash thermal_fade gas_thermal_drift coulomb_friction"
+    " preyield_viscosity rise_decay_asymmetry supply_slew field_saturation presliding_friction",
+    "no spring": "backlash thermal_fade gas_thermal_drift yield_hysteresis signed_yield_lag"
+    " preyield_elasticity shear_thinning field_viscosity field_threshold supply_slew input_delay"
+    " rise_decay_asymmetry end_stop quadratic_damping oil_leakage electrical_fault",
+}
+
+
+@pytest.mark.parametrize("names", TOGETHER.values(), ids=TOGETHER)
+@pytest.mark.parametrize("T_d", [None, 0.0])
+@pytest.mark.parametrize(("options", "near"), [((), 1e-9), ((FLOAT,), 1e-5)], ids=["", "float"])
+def test_many_at_once_equal_python(
+    names: str, T_d: float | None, options: tuple[str, ...], near: float
+) -> None:
+    found, s = Model(tuple(get(name) for name in names.split())), even(random_motion())
+    rng = np.random.default_rng(2)
+    values = dict(PAPER)
+    if T_d is not None:
+        values |= {"compression.T_d": T_d, "release.T_d": T_d}
+    for effect in found.effects:
+        values |= {effect.key(q.symbol): drawn(q, rng) for q in effect.quantities}
+    expected = Model(tuple(causal(e) for e in found.effects)).force(s, values)
+    off = np.abs(forces(block_of(found, values, s), s, *options) - expected)
+    assert off.max() <= near * np.ptp(expected)
+
+
+def even(s: Signals) -> Signals:
+    """The same with even steps: C takes the step ahead to be as long as the last."""
+    n, step = len(s), 0.002
+    steps = np.full(n, step)
+    steps[s.starts[1:] - 1] = 0.0
+    return replace(s, t=step * np.arange(n), step=steps)
+
+
+@pytest.mark.parametrize("effect", ON_CAR, ids=lambda e: e.name)
+def test_without_a_lag_it_equals_python(effect: Effect) -> None:
+    found, s = Model((effect,)), even(random_motion())
+    values = PAPER | {q: known.start for q, known in found.quantities.items() if q not in PAPER}
+    values |= {"compression.T_d": 0.0, "release.T_d": 0.0}
+    expected = Model((causal(effect),)).force(s, values)
+    off = np.abs(forces(block_of(found, values, s), s) - expected)
+    # At the end of a record Python has no step ahead to take a mean over.
+    inner = np.ones(len(s), dtype=bool)
+    inner[s.starts[1:] - 1] = False
+    assert off[inner].max() <= 1e-9 * np.ptp(expected)

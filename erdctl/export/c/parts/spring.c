@@ -153,6 +153,7 @@ static void set_out(const State *st, Spring *b, const Joint *to, const Sample *s
     b->near = j - 1;
     b->stretch = to->s * F + (still ? K(0.0) : F > K(0.0) ? to->half : -to->half);
     b->speed = s->xdot;
+    b->faces = s->up;
 }
 
 /* One sample; returns the force of the spring. A step in which the rod turns has two legs. */
@@ -189,6 +190,8 @@ static real march(const State *st, Spring *b, const Joint *to, const Sample *s, 
         if (b->speed > K(0.0) || b->speed < K(0.0))
             b->up = b->speed > K(0.0);
     }
+    if (b->speed > K(0.0) || b->speed < K(0.0))
+        b->faces = b->speed > K(0.0);
     return held(b->stretch, to);
 }
 
@@ -207,7 +210,7 @@ static Groups behind(const State *st, const Spring *b, const Joint *to, const Sa
         friction_now = between(st->friction_at[way], j, w);
     }
     if (WHOLE) {
-        out.gas = (x - b->stretch) * to->k[b->up ? 0 : 1];
+        out.gas = (x - b->stretch) * to->k[b->faces ? 0 : 1];
         out.yield = force - out.gas - out.viscous - friction_now;
     } else {
         out.gas = x * along(s, st->p.compression_k_nom, st->p.release_k_nom) * to->gain.gas;

@@ -3,5 +3,6 @@
     PREFIX_real gas_past; /* [m] in place of x in the gas force, at the last sample */
     struct PREFIX_spring {
         PREFIX_real stretch, speed, yielding; /* [m], [m/s] behind it, [N] F_ER of Eq. 12 */
-        int up, near;
+        int up, faces; /* direction of the last motion, and of that at the samples */
+        int near; /* node below the last speed */
     } spring[@MARCHES@];
