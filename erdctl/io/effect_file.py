@@ -179,6 +179,7 @@ def effect_source(name: str, found: LearnedEffect, values: Values, origin: str) 
         "    quantities=(",
         *(line for q in quantities for line in _quantity(q)),
         "    ),",
+        "    writes_c=LAW.in_c,",
         ")  # fmt: skip",
     ]  # fmt: skip
     return "\n".join(lines) + "\n"

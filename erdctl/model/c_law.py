@@ -59,7 +59,7 @@ class Told:
 
     name : of the function: PREFIX_temperature(state, temperature); one for all effects that ask
     given : its arguments, reals; a call with one that is no number changes nothing
-    words : what they are, and what holds before the first call, for the header
+    words : what they are with units, and what holds before the first call, for the header
     code : body of the function, which has `p`, `z` and what is given
     """
 

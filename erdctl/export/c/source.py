@@ -18,7 +18,8 @@ from erdctl.export.c.layout import (
 )
 from erdctl.export.c.names import helpers, identifier, part
 from erdctl.export.c.provenance import about
-from erdctl.export.c.told import told, told_heads
+from erdctl.export.c.told import told, told_by, told_heads
+from erdctl.model.c_law import Told
 from erdctl.model.effect import Effect, Stage
 from erdctl.model.parameters import Parameters
 from erdctl.model.slots import ChannelSlot
@@ -30,6 +31,7 @@ class CBlock:
 
     prefix : begins every name that others see;  header, source : text of PREFIX.h and PREFIX.c
     left_out : effects that the block has not, each with why, for people
+    told : functions by which a program tells it more than motion, control and faults
     parameters : every member of PREFIX_params: path, value, unit and title
     """
 
@@ -38,6 +40,7 @@ class CBlock:
     source: str
     left_out: tuple[str, ...]
     parameters: tuple[CMember, ...]
+    told: tuple[Told, ...] = ()
 
 
 def write_c(parameters: Parameters, *, prefix: str) -> CBlock:
@@ -84,6 +87,7 @@ def write_c(parameters: Parameters, *, prefix: str) -> CBlock:
         source=f"{top}\n{source}\n".replace("PREFIX", prefix),
         left_out=left_out,
         parameters=members,
+        told=told_by(effects),
     )
 
 

@@ -10,6 +10,11 @@ from erdctl.model.c_law import Told
 from erdctl.model.effect import Effect
 
 
+def told_by(effects: Sequence[Effect]) -> tuple[Told, ...]:
+    """What there is to tell, each once."""
+    return tuple(tells[0][1] for tells in _by_name(effects).values())
+
+
 def told_heads(effects: Sequence[Effect]) -> str:
     """Their declarations."""
     out = []

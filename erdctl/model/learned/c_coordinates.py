@@ -46,7 +46,7 @@ class CCoordinate(NamedTuple):
     told: tuple[Told, ...] = ()
 
     def named(self, name: str, span: tuple[float, float], *, moves: bool) -> CCoordinate:
-        """It in a local variable of that name, over a range; `moves`: with its change over a step."""
+        """It in a variable of that name, over a range; `moves`: with its change over a step."""
         middle = f"K({0.5 * (span[0] + span[1])!r})"
 
         def own(text: str) -> str:
@@ -197,8 +197,8 @@ _STROKE = Told(
 _TEMPERATURE = Told(
     name="temperature",
     given=("temperature",),
-    words="Temperature [degC] of which the force is a law; held until called again. Before the first"
-    " call the middle of the range holds in which the law was learned.",
+    words="Temperature [degC] of which the force is a law; held until called again. Before the"
+    " first call the middle of the range holds in which the law was learned.",
     code="@told = temperature;\n@known = K(1.0);",
 )
 

@@ -100,7 +100,7 @@ class Law:
         for a, b in pairwise(s.starts.tolist()):
             if b - a > 1:
                 slope[a:b] = np.gradient(more[a:b], s.t[a:b])
-        return s.with_motion(s.x + more, s.xdot + slope)
+        return s.with_motion(s.x + more, s.xdot + slope, s.engaged)
 
     def _change(self, s: Signals, p: Values) -> Array | None:
         """(n,) the curve along a motion; None where all its sizes are 0."""

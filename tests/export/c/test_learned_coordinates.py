@@ -89,8 +89,10 @@ def program(kind: str, *, step: bool = False) -> str:
     return f"""
 typedef struct {{ real tau, zeta; }} params;
 typedef struct {{ {members} }} State;
-void run(int n, const double *const *whole, const double *memory, const double *told, double *out);
-void run(int n, const double *const *whole, const double *memory, const double *told, double *out) {{
+void run(int n, const double *const *whole, const double *memory,
+         const double *told, double *out);
+void run(int n, const double *const *whole, const double *memory,
+         const double *told, double *out) {{
   State state; State *z = &state; Sample sample; Sample *s = &sample;
   params given; const params *p = &given; int i;
   real in[{k + 2}][1];

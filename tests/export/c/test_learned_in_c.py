@@ -8,26 +8,41 @@ import subprocess
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 
+import causal as of_catalogue
 import numpy as np
 import pytest
-from c_built import FLOAT, SANITIZERS, WARNINGS, block_of, built, folder, forces, rows_of, run
+from c_built import (
+    FLOAT,
+    SANITIZERS,
+    WARNINGS,
+    block_of,
+    built,
+    folder,
+    forces,
+    record,
+    rows_of,
+    run,
+)  # fmt: skip
 from c_motion import random_motion
 from msgspec import to_builtins
 from rig import TRUTH
 
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.effects import get
 from erdctl.export.c.source import CBlock, write_c
 from erdctl.io.parameters import parse_parameters, to_document
 from erdctl.model.composed import Model
 from erdctl.model.learned.coordinates import KINDS, Memory, along
 from erdctl.model.learned.curve import Curve
 from erdctl.model.learned.forms import FORMS
-from erdctl.model.learned.law import Law, LawSlot
+from erdctl.model.learned.law import Law, LawSlot, LearnedEffect
 from erdctl.model.learned.surface import Surface
 from erdctl.model.parameters import Estimate, Parameters
+from erdctl.model.slots import MotionSlot, Values
 
 WARM = 25.0
 CAUSAL = [slot for slot in LawSlot if slot is not LawSlot.DEFLECTION]
@@ -139,6 +154,71 @@ def test_a_deflection_has_the_slope_that_is_known_at_the_sample(kind: str) -> No
             forces(block_of(model, values), smooth(5e-4)) - model.force(smooth(5e-4), values)
         )
         assert np.quantile(halved / np.ptp(expected), 0.9) < 0.3 * usual
+
+
+def causal(effect: LearnedEffect) -> LearnedEffect:
+    """A deflection in Python with the slope that C has."""
+    law, kind = effect.law, effect.law.curve.coordinate
+
+    def motion(s: Signals, p: Values) -> Signals:
+        out = [s.x.copy(), s.xdot.copy()]
+        for a, b in pairwise(s.starts.tolist()):
+            one = record(s, a, b)
+            h = np.append(1e-3, one.step[:-1])
+            z = along(kind, one, Memory.of(p))
+            speed = np.abs(one.xdot)
+            steps = {"x": one.xdot, "abs_x": np.where(one.x < 0, -one.xdot, one.xdot),
+                     "duty": 0.0, "t": 1.0, "travel": speed, "field_travel": speed * one.duty,
+                     "flow_work": speed**2, "path_since_reversal": speed}  # fmt: skip
+            if kind in steps:
+                dz = steps[kind] * h
+            elif kind == "late_xdot2":
+                dz = np.minimum(h / p["tau"], 1.0) * (one.xdot**2 - z)
+            else:
+                dz = np.diff(z, prepend=z[0])
+            sizes = np.array([p[q.symbol] for q in law.curve.amplitudes("m")])
+            low, mid, high = (sizes @ law.curve.at(z + k * dz, p) for k in (-1, 0, 1))
+            out[0][a:b] += mid
+            out[1][a:b] += (high - low) / (2 * h)
+        return s.with_motion(*out, s.engaged)
+
+    return replace(effect, slot=MotionSlot(motion))
+
+
+@pytest.mark.parametrize(
+    "kind",
+    ["x", "abs_x", "duty", "t", "travel", "field_travel", "flow_work", "path_since_reversal",
+     "late_xdot2", "xdot", "largest_x", "ringing_xdot"],
+)  # fmt: skip
+def test_a_deflection_equals_python_that_knows_the_past_alone(kind: str) -> None:
+    model, values = model_of(LawSlot.DEFLECTION, [curve(kind, LawSlot.DEFLECTION)], 1e-3)
+    (effect,) = model.effects
+    assert isinstance(effect, LearnedEffect)
+    expected = Model((causal(effect),)).force(rough(), values)
+    off = np.abs(forces(block_of(model, values), rough()) - expected)
+    assert off.max() < 1e-9 * np.ptp(expected)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["backlash", "mount_compliance", "fluid_compressibility", "preyield_viscosity", "thermal_fade",
+     "signed_yield_lag", "gas_polytropic", "input_delay", "supply_slew"],
+)  # fmt: skip
+def test_laws_act_with_the_catalogue(name: str) -> None:
+    """All slots at once, before and behind what else there is."""
+    other, effects, values = get(name), [], dict(TRUTH)
+    for slot, kind in zip(LawSlot, ("x", "travel", "largest_x", "t", "abs_x", "late_xdot2",
+                                    "since_reversal", "fresh_duty", "x"), strict=True):  # fmt: skip
+        size = 1e-3 if slot is LawSlot.DEFLECTION else size_of(slot)
+        model, own = model_of(slot, [curve(kind, slot)], size)
+        effects += model.effects
+        values |= own
+    values |= {other.key(q.symbol): q.start for q in other.quantities}
+    in_python = [causal(e) if e.name.startswith("learned_deflection") else e for e in effects]
+    s = rough()
+    expected = Model((of_catalogue.causal(other), *in_python)).force(s, values)
+    found = forces(block_of(Model((other, *effects)), values, s), s)
+    assert np.abs(found - expected).max() < 1e-9 * np.ptp(expected)
 
 
 @pytest.mark.parametrize("slot", [LawSlot.FORCE, LawSlot.DUTY, LawSlot.DEFLECTION])
