@@ -15,6 +15,7 @@ from erdctl.export.c.layout import CMember, paper_members
 from erdctl.export.c.source import CBlock, on_the_vehicle, write_c
 from erdctl.model.composed import Model
 from erdctl.model.parameters import Parameters
+from erdctl.model.slots import SeriesSlot
 
 REAL = """#ifdef ERDCTL_FLOAT
 typedef float PREFIX_real;
@@ -32,6 +33,8 @@ class ModelPart:
     before : text of the header before the emulator's own;  real : declares PREFIX_real
     members : of PREFIX_params;  declared : lines that declare them
     state : file with members of PREFIX_state;  types : of the source;  code : file
+    wanted : file with what is left open in `code`, how a duty is found
+    yielding : where the damper's state has F_ER of Eq. 12
     """
 
     before: str
@@ -41,6 +44,8 @@ class ModelPart:
     state: str
     types: str
     code: str
+    wanted: str = ""
+    yielding: str = ""
     left_out: tuple[str, ...] = ()
 
 
@@ -58,6 +63,7 @@ def model_part(parameters: Parameters, prefix: str) -> ModelPart:
 
 def _observer(parameters: Parameters, prefix: str) -> ModelPart:
     damper: CBlock = write_c(parameters, prefix=f"{prefix}_damper")
+    sprung = any(isinstance(e.slot, SeriesSlot) for e in parameters.model.effects)
     include = f'#include "{damper.prefix}.h"'
     assert damper.source.count(include) == 1
     late = CMember(
@@ -72,6 +78,8 @@ def _observer(parameters: Parameters, prefix: str) -> ModelPart:
         state="observer_state.h",
         types=damper.source.replace(include, '#include "PREFIX.h"'),
         code="observer.c",
+        wanted="told.c" if sprung else "asked.c",
+        yielding="spring[0].yielding" if sprung else "yielding",
         left_out=damper.left_out,
     )
 

@@ -72,6 +72,8 @@ def write_emulator(
         "@GUARD@": f"{prefix.upper()}_H",
         "@REAL@": model.real,
         "@MEMBERS@": "\n".join((*model.declared, *map(declared, own))),
+        "@WANTED@": part(model.wanted) if model.wanted else "",
+        "@YIELDING@": model.yielding,
         "@OBSERVED@": part(model.state).rstrip(),
         "@DEFAULTS@": "\n".join(f"    p->{m.path} = {literal(m.value)};" for m in members),
         "@USABLE@": "\n".join(

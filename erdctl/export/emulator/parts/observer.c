@@ -1,11 +1,6 @@
 
-/* The exported damper itself, with all its effects: three of it run along, and a copy of the real
-   one is asked which duty brings its force to the faulty one's at the next moment at which the duty
-   can change. */
-
-#define TRIES 3            /* duties that are tried between none and the highest */
-#define MET K(2e-3)        /* of the force that a duty can make up: near enough */
-#define SHOWS K(0.05)      /* of the most that was seen: where a duty shows less, it stays */
+/* The exported damper itself, with all its effects: three of it run along, and copies of them tell
+   what force comes next. */
 
 static void observe(Emulator *s, real dt, real x, real xdot, real duty)
 {
@@ -40,18 +35,6 @@ typedef struct {
     real held;            /* [s] over which a duty that is tried is held, h or more */
 } Outlook;
 
-/* Force [N] that the real damper will have with a duty. */
-static real force_with(const Emulator *s, const Outlook *o, real duty)
-{
-    PREFIX_damper_state copy = s->made;
-    const real now = PREFIX_damper_step(&copy, o->dt, s->x, s->xdot, duty);
-    if (!(o->h > K(0.0)))
-        return now;
-    if (o->late > K(0.0))
-        PREFIX_damper_step(&copy, o->late, o->x_1, o->xdot_1, duty);
-    return PREFIX_damper_step(&copy, o->held, o->x_2, o->xdot_2, duty);
-}
-
 /* Force [N] that the faulty one will have. */
 static real force_wanted(const Emulator *s, const Outlook *o)
 {
@@ -81,48 +64,43 @@ static Outlook outlook(const Emulator *s, real dt, real top)
     return o;
 }
 
-/* The duty for the part w of the force that duties can make up, if that follows a power law. */
-static real duty_of(real w, real top, real beta)
+/* The law of Eq. 12 in the direction of the end. */
+typedef struct {
+    real sigma, beta, gone;
+    real way; /* 1 compression, -1 release */
+} Law;
+
+static Law law_at_the_end(const Emulator *s, const Outlook *o)
 {
-    return top * POW(w, K(1.0) / beta);
+    const PREFIX_damper_params *p = &s->p.damper;
+    const real xdot = o->h > K(0.0) ? o->xdot_2 : s->xdot;
+    const int up = xdot > K(0.0) || (xdot == K(0.0) && s->made.up);
+    const real T = up ? p->compression_T_d : p->release_T_d;
+    Law law;
+    law.sigma = up ? p->compression_sigma : p->release_sigma;
+    law.beta = up ? p->compression_beta : p->release_beta;
+    law.gone = o->h > K(0.0) && T > K(0.0) ? -EXPM1(-o->held / T) : K(1.0);
+    law.way = up ? K(1.0) : K(-1.0);
+    return law;
 }
 
-static real wanted_duty(Emulator *s, real dt, real top)
+/* By Eq. 12 alone, from the yield force that is missing beside all other forces. */
+static real duty_by_yield_force(const Emulator *s, const Outlook *o, const Law *law, real goal)
 {
-    const Outlook o = outlook(s, dt, top);
-    const real none = force_with(s, &o, K(0.0)), span = force_with(s, &o, top) - none;
-    const real shows = FABS(span);
-    const real beta = (o.h > K(0.0) ? o.xdot_2 : s->xdot) > K(0.0) ? s->p.damper.compression_beta
-                                                                    : s->p.damper.release_beta;
-    real low = K(0.0), high = K(1.0), goal, w, short_of, miss_low, miss_high;
-    int i;
-    s->shown = shows > s->shown ? shows : s->shown;
-    if (!(shows > SHOWS * s->shown))
-        return s->wanted;
-    goal = (force_wanted(s, &o) - none) / span;
-    if (!(goal > K(0.0)))
-        return s->wanted = K(0.0);
-    if (goal >= K(1.0))
-        return s->wanted = goal > K(1.0) ? K(2.0) : top;
-    miss_low = -goal;
-    miss_high = K(1.0) - goal;
-    w = goal;
-    for (i = 0; i < TRIES; i++) {
-        short_of = (force_with(s, &o, duty_of(w, top, beta)) - none) / span - goal;
-        if (FABS(short_of) < MET)
-            break;
-        if (short_of < K(0.0)) {
-            low = w;
-            miss_low = short_of;
-        } else {
-            high = w;
-            miss_high = short_of;
-        }
-        w = low - miss_low * (high - low) / (miss_high - miss_low);
+    PREFIX_damper_state copy = s->idle;
+    real rest = s->unfielded, steady;
+    if (o->h > K(0.0)) {
+        if (o->late > K(0.0))
+            PREFIX_damper_step(&copy, o->late, o->x_1, o->xdot_1, K(0.0));
+        rest = PREFIX_damper_step(&copy, o->h, o->x_2, o->xdot_2, K(0.0));
     }
-    return s->wanted = duty_of(w, top, beta);
+    steady = (law->way * (goal - rest) - (K(1.0) - law->gone) * s->made.@YIELDING@) / law->gone;
+    if (!(steady > K(0.0)) || !(law->sigma > K(0.0)))
+        return K(0.0);
+    return steady > law->sigma ? K(2.0) : POW(steady / law->sigma, K(1.0) / law->beta);
 }
 
+@WANTED@
 static void renew(Emulator *s)
 {
     if (memcmp(&s->p.damper, &s->made.p, sizeof s->p.damper) == 0)

@@ -1,5 +1,3 @@
     PREFIX_damper_state faulty, made, idle; /* the faulty damper under the controller's duty, the
                                        real one under duty_out, and that with no field at all */
     PREFIX_real ideal, unfielded;   /* [N] force of the first and of the last */
-    PREFIX_real shown;              /* [N] how much of the force a duty can make up, at most */
-    PREFIX_real wanted;             /* [1] before any limit */

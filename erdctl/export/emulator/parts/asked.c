@@ -1,0 +1,63 @@
+/* A copy of the real damper is asked which duty brings its force to the faulty one's at the next
+   moment at which the duty can change. */
+
+#define TRIES 3            /* duties that are tried between none and the highest */
+#define MET K(2e-3)        /* of the force that a duty can make up: near enough */
+#define HIDDEN K(0.3)      /* of what Eq. 12 lets a duty show: below, the force says nothing of it, */
+#define PLAIN K(0.6)       /* and from here on all */
+
+/* Force [N] that the real damper will have with a duty. */
+static real force_with(const Emulator *s, const Outlook *o, real duty)
+{
+    PREFIX_damper_state copy = s->made;
+    const real now = PREFIX_damper_step(&copy, o->dt, s->x, s->xdot, duty);
+    if (!(o->h > K(0.0)))
+        return now;
+    if (o->late > K(0.0))
+        PREFIX_damper_step(&copy, o->late, o->x_1, o->xdot_1, duty);
+    return PREFIX_damper_step(&copy, o->held, o->x_2, o->xdot_2, duty);
+}
+
+/* By asking the damper: none and span are its force without a duty, and what the highest adds. */
+static real duty_by_force(const Emulator *s, const Outlook *o, real beta, real top, real goal,
+                          real none, real span)
+{
+    const real part = (goal - none) / span;
+    real low = K(0.0), high = K(1.0), miss_low = -part, miss_high = K(1.0) - part, w = part, miss;
+    int i;
+    if (!(part > K(0.0)))
+        return K(0.0);
+    if (part >= K(1.0))
+        return part > K(1.0) ? K(2.0) : top;
+    for (i = 0; i < TRIES; i++) {
+        miss = (force_with(s, o, top * POW(w, K(1.0) / beta)) - none) / span - part;
+        if (FABS(miss) < MET)
+            break;
+        if (miss < K(0.0)) {
+            low = w;
+            miss_low = miss;
+        } else {
+            high = w;
+            miss_high = miss;
+        }
+        w = low - miss_low * (high - low) / (miss_high - miss_low);
+    }
+    return top * POW(w, K(1.0) / beta);
+}
+
+static real wanted_duty(const Emulator *s, real dt, real top)
+{
+    const Outlook o = outlook(s, dt, top);
+    const Law law = law_at_the_end(s, &o);
+    const real none = force_with(s, &o, K(0.0)), span = force_with(s, &o, top) - none;
+    const real most = law.gone * law.sigma * POW(top, law.beta);
+    const real shown = law.way * span / (most > K(0.0) ? most : K(1.0));
+    const real trust = clamped((shown - HIDDEN) / (PLAIN - HIDDEN), K(0.0), K(1.0));
+    const real goal = force_wanted(s, &o);
+    real out = K(0.0);
+    if (trust > K(0.0))
+        out += trust * duty_by_force(s, &o, law.beta, top, goal, none, span);
+    if (trust < K(1.0))
+        out += (K(1.0) - trust) * duty_by_yield_force(s, &o, &law, goal);
+    return out;
+}
