@@ -19,6 +19,7 @@ from erdctl.export.fmu.version import TWO, Version
 Builder = Callable[[Mapping[str, str]], Compiled]  # of the text of all sources by name
 
 _EARLIEST = (1980, 1, 1, 0, 0, 0)  # of a zip file: the same content gives the same bytes
+_UNIX = 3  # the system whose modes a zip file states: anybody may read
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,5 +89,7 @@ def _zip(files: Mapping[str, bytes]) -> bytes:
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, data in files.items():
-            archive.writestr(zipfile.ZipInfo(name, _EARLIEST), data, zipfile.ZIP_DEFLATED)
+            info = zipfile.ZipInfo(name, _EARLIEST)
+            info.create_system, info.external_attr = _UNIX, 0o644 << 16
+            archive.writestr(info, data, zipfile.ZIP_DEFLATED)
     return stream.getvalue()
