@@ -10,6 +10,7 @@ from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import causal as of_catalogue
 import numpy as np
@@ -34,6 +35,7 @@ from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.effects import get
 from erdctl.export.c.source import CBlock, write_c
+from erdctl.io.effect_file import effect_source
 from erdctl.io.parameters import parse_parameters, to_document
 from erdctl.model.composed import Model
 from erdctl.model.learned.coordinates import KINDS, Memory, along
@@ -357,3 +359,17 @@ def test_a_law_of_a_parameter_file_is_exported() -> None:
     arrived = parse_parameters(json.dumps(to_builtins(sent)).encode(), "laws.json")
     block = write_c(arrived, prefix="damper")
     assert block.source == block_of(model, values).source
+
+
+def test_an_effect_written_from_a_learned_law_has_the_same_c() -> None:
+    for slot in (LawSlot.GAS, LawSlot.FORCE, LawSlot.DEFLECTION):
+        model, values = model_of(slot, [curve("late_duty", slot)], 1e-3)
+        (found,) = model.effects
+        assert isinstance(found, LearnedEffect)
+        namespace: dict[str, Any] = {"__name__": "of_lab"}
+        exec(effect_source("of_lab", found, values, "a log"), namespace)
+        written = namespace["EFFECT"].with_c()
+        assert written.c == found.with_c().c
+        own = {written.key(q.symbol): values[found.key(q.symbol)] for q in written.quantities}
+        s, again = smooth(), block_of(Model((written,)), {**TRUTH, **own})
+        assert np.array_equal(forces(again, s), forces(block_of(model, values), s))
