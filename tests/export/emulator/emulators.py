@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 
 from erdctl.export.emulator.source import EmulatorBlock
 
@@ -36,6 +37,54 @@ void run(PREFIX_state *s, size_t n, const PREFIX_real *in, PREFIX_real *out)
         out[2] = (PREFIX_real)s->limited;
         out[3] = (PREFIX_real)s->out_of_reach;
     }
+}
+"""
+
+# Bad and good inputs at random, so that the sanitizers see every branch.
+NONSENSE = """
+#include "PREFIX.h"
+#include <math.h>
+#include <stdio.h>
+static unsigned long seed = 1;
+static PREFIX_real pick(PREFIX_real low, PREFIX_real high)
+{
+    seed = (seed * 1103515245UL + 12345UL) % 2147483648UL;
+    switch (seed / 65536UL % 40UL) {
+    case 0: return (PREFIX_real)NAN;
+    case 1: return (PREFIX_real)INFINITY;
+    case 2: return (PREFIX_real)-INFINITY;
+    case 3: return (PREFIX_real)0;
+    case 4: return (PREFIX_real)1e30;
+    default:
+        return low
+            + (high - low) * (PREFIX_real)(seed / 65536UL % 32768UL) / (PREFIX_real)32768;
+    }
+}
+int main(void)
+{
+    PREFIX_state s;
+    PREFIX_params p;
+    int run, i;
+    for (run = 0; run < 200; run++) {
+        PREFIX_defaults(&p);
+        if (run % 2) {
+            p.slew = pick(0, 20);
+            p.resolution = pick(0, (PREFIX_real)0.05);
+            p.update_period = pick(0, (PREFIX_real)0.02);
+        }
+        PREFIX_init(&s, run % 3 ? &p : 0);
+        for (i = 0; i < 500; i++) {
+            PREFIX_real out;
+            if (i % 100 == 0)
+                PREFIX_faults(&s, pick(0, 1), pick(0, 1), pick(0, 1));
+            out = PREFIX_step(&s, pick(0, (PREFIX_real)0.005), pick(-1, 1), pick(-1, 1), pick(0, 1),
+                              pick(0, 70));
+            if (!(out >= 0 && out <= 1))
+                return 1;
+        }
+    }
+    puts("ok");
+    return 0;
 }
 """
 
@@ -113,3 +162,18 @@ def rows(
     """(n, 8) inputs from columns or numbers; the first step is 0 and of no weight."""
     columns = (np.diff(t, prepend=t[0]), x, xdot, duty, temperature, oil, electrical, deformation)
     return np.stack([np.broadcast_to(c, len(t)) for c in columns], axis=1)
+
+
+def sanitized(
+    compiler: str, folder: Path, real: tuple[str, ...] = ()
+) -> subprocess.CompletedProcess[str]:
+    """e.c and main.c, built and run under the sanitizers; skips where they are not installed."""
+    built = subprocess.run(
+        [compiler, "-std=c99", "-g", "-O1", "-fsanitize=address,undefined",
+         "-fno-sanitize-recover=all", *real, "e.c", "main.c", "-o", "main", "-lm"],
+        cwd=folder, capture_output=True, text=True,
+    )  # fmt: skip
+    if "cannot find" in built.stderr:
+        pytest.skip("the sanitizers' libraries are not installed")
+    assert built.returncode == 0, built.stderr
+    return subprocess.run(["./main"], cwd=folder, capture_output=True, text=True)

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from emulators import COMPILERS, STRICT, Compiled, rows, write
+from emulators import COMPILERS, NONSENSE, STRICT, Compiled, rows, sanitized, write
 from places import FIXTURES
 from roads import factors_over, road
 
@@ -108,6 +108,14 @@ def test_nonsense_stays_within_the_limits(name: str, tmp_path: Path) -> None:
     out = emulator.run(emulator.state(), given)
     assert np.isfinite(out.duty).all()
     assert ((out.duty >= 0.0) & (out.duty <= 0.45)).all()
+
+
+@pytest.mark.parametrize("name", ["input_delay", "mount_compliance"])
+def test_sanitizers_find_nothing(name: str, tmp_path: Path) -> None:
+    write(write_emulator(with_effect(name), prefix="e"), tmp_path)
+    (tmp_path / "main.c").write_text(NONSENSE.replace("PREFIX", "e"))
+    ran = sanitized(COMPILERS[0], tmp_path)
+    assert (ran.returncode, ran.stdout.strip()) == (0, "ok"), ran.stderr
 
 
 def test_parameters_of_effects_are_members_too() -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from emulators import COMPILERS, DRIVER, STRICT, write
+from emulators import COMPILERS, DRIVER, NONSENSE, STRICT, sanitized, write
 from places import FIXTURES
 
 from erdctl.core.errors import UsageProblem
@@ -20,54 +20,6 @@ from erdctl.model.amplifier import Amplifier
 
 TABLE_2 = parse_parameters((FIXTURES / "table_2.json").read_bytes(), "table_2.json")
 compiled = pytest.mark.skipif(not COMPILERS, reason="no C compiler")
-
-# Bad and good inputs at random, so that the sanitizers see every branch.
-NONSENSE = """
-#include "PREFIX.h"
-#include <math.h>
-#include <stdio.h>
-static unsigned long seed = 1;
-static PREFIX_real pick(PREFIX_real low, PREFIX_real high)
-{
-    seed = (seed * 1103515245UL + 12345UL) % 2147483648UL;
-    switch (seed / 65536UL % 40UL) {
-    case 0: return (PREFIX_real)NAN;
-    case 1: return (PREFIX_real)INFINITY;
-    case 2: return (PREFIX_real)-INFINITY;
-    case 3: return (PREFIX_real)0;
-    case 4: return (PREFIX_real)1e30;
-    default:
-        return low
-            + (high - low) * (PREFIX_real)(seed / 65536UL % 32768UL) / (PREFIX_real)32768;
-    }
-}
-int main(void)
-{
-    PREFIX_state s;
-    PREFIX_params p;
-    int run, i;
-    for (run = 0; run < 200; run++) {
-        PREFIX_defaults(&p);
-        if (run % 2) {
-            p.slew = pick(0, 20);
-            p.resolution = pick(0, (PREFIX_real)0.05);
-            p.update_period = pick(0, (PREFIX_real)0.02);
-        }
-        PREFIX_init(&s, run % 3 ? &p : 0);
-        for (i = 0; i < 500; i++) {
-            PREFIX_real out;
-            if (i % 100 == 0)
-                PREFIX_faults(&s, pick(0, 1), pick(0, 1), pick(0, 1));
-            out = PREFIX_step(&s, pick(0, (PREFIX_real)0.005), pick(-1, 1), pick(-1, 1), pick(0, 1),
-                              pick(0, 70));
-            if (!(out >= 0 && out <= 1))
-                return 1;
-        }
-    }
-    puts("ok");
-    return 0;
-}
-"""
 
 
 @compiled
@@ -87,15 +39,7 @@ def test_sanitizers_find_nothing(compiler: str, real: tuple[str, ...], tmp_path:
     block = write_emulator(TABLE_2, prefix="e")
     write(block, tmp_path)
     (tmp_path / "main.c").write_text(NONSENSE.replace("PREFIX", "e"))
-    built = subprocess.run(
-        [compiler, "-std=c99", "-g", "-O1", "-fsanitize=address,undefined",
-         "-fno-sanitize-recover=all", *real, "e.c", "main.c", "-o", "main", "-lm"],
-        cwd=tmp_path, capture_output=True, text=True,
-    )  # fmt: skip
-    if "cannot find" in built.stderr:
-        pytest.skip("the sanitizers' libraries are not installed")
-    assert built.returncode == 0, built.stderr
-    ran = subprocess.run(["./main"], cwd=tmp_path, capture_output=True, text=True)
+    ran = sanitized(compiler, tmp_path, real)
     assert (ran.returncode, ran.stdout.strip()) == (0, "ok"), ran.stderr
 
 

@@ -25,10 +25,14 @@ static void take_motion(Emulator *s, real gap, real x, real xdot)
     s->strayed_xdot = xdot == s->xdot ? s->strayed_xdot + moved - told : K(0.0);
 }
 
+/* How far ahead the parabola is drawn [s]; a hopping wheel turns round in a little more. */
+#define FARTHEST K(0.016)
+
 /* xdot [m/s] at a time h [s] from now. */
 static real speed_ahead(const Emulator *s, real h)
 {
-    return s->speed + h * (s->slope + K(0.5) * TRUSTED * h * s->bend);
+    const real ahead = h < FARTHEST ? h : FARTHEST;
+    return s->speed + ahead * (s->slope + K(0.5) * TRUSTED * ahead * s->bend);
 }
 
 static int stuck(const Emulator *s)
