@@ -40,7 +40,10 @@ def files(folder: Path) -> set[str]:
 
 @pytest.mark.parametrize(
     ("name", "beside"),
-    [("d.dpr", []), ("d.csv", []), ("d.mat", []), ("d.c", ["d.h"]), ("D.CSV", []), ("x y.c", ["x y.h"])],
+    [
+        ("d.dpr", []), ("d.csv", []), ("d.mat", []), ("d.c", ["d.h"]), ("D.CSV", []),
+        ("x y.c", ["x y.h"]),
+    ],
 )  # fmt: skip
 def test_each_suffix_makes_its_file(name: str, beside: list[str], folder: Path) -> None:
     done = CliRunner().invoke(APP, ["export", "damper.json", "-o", name])
@@ -72,7 +75,7 @@ def test_each_suffix_makes_its_file(name: str, beside: list[str], folder: Path) 
         ("-o d.c --slew 3", "add --emulate"),
         ("-o d.c --emulate oil --duty-max 2", "highest duty"),
         ("-o d.c --emulate oil --max-temperature nan", "temperature"),
-        ("-o d.dpr --fmi 3", "fmi"),
+        ("-o d.dpr --fmi 3", "only for .fmu"),
         ("-o nowhere/d.csv", "make it first"),
         ("-o nowhere/d.c", "make it first"),
     ],

@@ -19,10 +19,10 @@ from erdctl.export.c.layout import (
 from erdctl.export.c.names import helpers, identifier, part
 from erdctl.export.c.provenance import about
 from erdctl.export.c.told import told, told_by, told_heads
+from erdctl.export.damper_alone import of_the_bench
 from erdctl.model.c_law import Told
-from erdctl.model.effect import Effect, Stage
+from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
-from erdctl.model.slots import ChannelSlot
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ def on_the_vehicle(effects: tuple[Effect, ...]) -> tuple[tuple[Effect, ...], tup
     """The effects that belong to the damper, and what is left out because it belongs to a bench."""
     kept, left_out = [], []
     for effect in effects:
-        if effect.stage is Stage.SENSOR or isinstance(effect.slot, ChannelSlot):
+        if of_the_bench(effect):
             left_out.append(f"{effect.name}: {effect.title}; belongs to the bench")
         else:
             kept.append(effect.with_c())
