@@ -11,6 +11,8 @@ Valid for a joint without damping of its own, with a clamp much stiffer than the
 With a compliance in series the joint is its: after a reversal the spring unloads, then the play is
 crossed without force, then it loads again (`erdctl.model.series_compliance`).
 The play is followed along the integral of xdot: noise in x does not open the joint.
+In C, which does not know what comes, contact that falls less than a tenth of a step behind a sample
+sets in at the next one.
 Check: x = 0, 1, 2, 1, 0 mm from the lower flank, g = 2 mm gives x_p - x_p0 = 0, 1, 2, 2, 2 mm.
 >>> t = np.linspace(0.0, 4.0, 4001)
 >>> s = signals(np.where(t < 2.0, 1e-3, -1e-3), x=2e-3 - 1e-3 * abs(t - 2.0), t=t)

@@ -9,6 +9,7 @@ g : void left by a metre of compression [1];  lambda : part of the force that is
 e : part of x_v over which the force returns [1], 0..1; all of it as the mean over the travel of one
 sample, so that it is continuous in x_v also at e = 0
 Valid for a void that forms and is taken up whatever the speed.
+In C, which does not know what comes, the travel of a sample is its speed times the step before it.
 Check: x_v = 2 mm, g = 100, lambda = 0.8, e = 0: 1 mm and 3 mm after full compression 0.2 and 1 of
 both forces; g = 0.5, after 2 mm of compression: 0.5 mm and 1.5 mm into release 0.2 and 1.
 >>> xdot = np.array([0.0, 1.0, 1.0, 0.0, -1.0, -1.0])  # 2 mm up, 0.5 and 1.5 mm down

@@ -7,6 +7,7 @@ m : mass [kg], m >= 0, off at 0; that of the fluid in a duct counts with the squ
 of piston to duct area
 Valid below about 20 Hz, where the window passes the acceleration (99.9 % at 7 Hz). At one frequency
 m cannot be distinguished from k_nom, as then d2x/dt2 = -omega^2 x.
+In C, which does not know what comes, the slope of xdot over the last step, half a step late.
 Check: m = 2 kg, xdot = 0.5 t m/s gives 1 N.
 >>> (2.0 * fluid_inertia(signals([0.0, 0.05, 0.10, 0.15], step=0.1), {})[0]).round(9).tolist()
 [1.0, 1.0, 1.0, 1.0]
