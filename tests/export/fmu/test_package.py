@@ -225,7 +225,7 @@ def test_what_blocks_call_is_linked_for_windows() -> None:
     for room in ("c", "emulator"):
         for path in (ROOT / "erdctl" / "export" / room / "parts").iterdir():
             called |= set(re.findall(r"#define [A-Z0-9]+ ([a-z0-9]+)\n", path.read_text()))
-    plain = {name for name in called if name.removesuffix("f") not in called}
+    plain = {name for name in called if not (name[-1] == "f" and name[:-1] in called)}
     assert {"exp", "expm1", "pow"} <= plain
     assert plain <= set(compiling._FUNCTIONS.split())
 
