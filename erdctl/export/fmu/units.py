@@ -27,7 +27,7 @@ def base_units(unit: str) -> Mapping[str, float] | None:
 
     unit : factors with whole powers, and after one "/" those that divide: "N s^2/m^2"
 
-    Check: N s/m is kg m/s^2 s/m = kg/s.
+    Check: N s/m is kg m/s^2 s/m = kg/s, the powers 1 and -1; half a power has none.
     >>> base_units("N s/m")
     {'kg': 1, 's': -1}
     >>> base_units("m^0.5") is None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -16,7 +17,7 @@ import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
 from fmu_built import NUMBERS, Instance, driven, folder, table_2
-from places import FIXTURES
+from places import FIXTURES, ROOT
 
 from erdctl.cli.app import run
 from erdctl.export.c.source import write_c
@@ -216,6 +217,17 @@ def test_a_universal_binary_holds_both_as_they_are() -> None:
         assert row[2] % 16384 == 0
         assert made[row[2] : row[2] + row[3]] == part
     assert universal(parts[:1]) == parts[0]
+
+
+def test_what_blocks_call_is_linked_for_windows() -> None:
+    """Functions are called by macros in capitals, defined in the fixed parts of either block."""
+    called = set()
+    for room in ("c", "emulator"):
+        for path in (ROOT / "erdctl" / "export" / room / "parts").iterdir():
+            called |= set(re.findall(r"#define [A-Z0-9]+ ([a-z0-9]+)\n", path.read_text()))
+    plain = {name for name in called if not (name[-1] == "f" and name[:-1] in called)}
+    assert {"exp", "expm1", "pow"} <= plain
+    assert plain <= set(compiling._FUNCTIONS.split())
 
 
 def test_targets_are_those_of_the_issue() -> None:
