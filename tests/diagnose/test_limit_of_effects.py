@@ -36,6 +36,6 @@ def test_names_do_not_change_with_the_limit(log: Recording) -> None:
 
 
 def test_fewer_than_the_data_ask_for_explain_nothing(log: Recording) -> None:
-    found = diagnose(log, [*map(get, CANDIDATES)], most=1)
+    found = diagnose(log, [*map(get, CANDIDATES)], most=1, learning=False)
     assert len(found.findings) <= 1
     assert found.verdict is Verdict.UNEXPLAINED
