@@ -13,6 +13,29 @@ sys.path.insert(0, str(FIXTURES))  # the oracle is a script's module, not part o
 # The processes are the parallelism.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+# Diagnoses of minutes: to trace each line costs them half again, and others run the same lines.
+UNTRACED = (
+    "prove/test_coverage.py",
+    "prove/test_prove_nulls.py",
+    "prove/test_prove_on_log.py",
+    "prove/test_small_proof.py",
+    "diagnose/learning/test_laws_over_two.py",
+    "diagnose/test_earned_names.py",
+    "diagnose/test_fault_onsets.py",
+    "diagnose/test_few_records.py",
+    "diagnose/test_limit_of_effects.py",
+    "diagnose/test_real_data.py",
+    "diagnose/test_samples_of_search.py",
+)
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    if config.getoption("no_cov"):
+        return  # there is nothing to pause, and pytest-cov would fail
+    for item in items:
+        if item.path.as_posix().endswith(UNTRACED):
+            item.add_marker(pytest.mark.no_cover)
+
 
 def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", f"{MARK}: reads real recordings, see tests/real_data.py")
