@@ -69,8 +69,9 @@ def test_the_emulated_force_is_that_of_the_faulty_damper(tmp_path: Path) -> None
 def test_before_the_fault_all_drives_are_alike() -> None:
     """But for the duty, which the emulator gives on at its own rate."""
     loop, fmu = script(), str(damper("2"))
-    healthy = loop.drive(0.5, fmu)
-    assert np.array_equal(healthy.force, loop.drive(0.5, fmu, faulty=True).force)
-    assert np.array_equal(healthy.force, loop.drive(0.5, fmu).force)
-    driven = loop.drive(0.5, fmu, emulator=str(emulator()))
-    assert np.std(driven.force - healthy.force) < 0.03 * np.ptp(healthy.force)
+    healthy = loop.drive(1.0, fmu)
+    assert np.array_equal(healthy.force, loop.drive(1.0, fmu, faulty=True).force)
+    driven = loop.drive(1.0, fmu, emulator=str(emulator()))
+    # Not of the force: where the damper stands still on its yield force, it jumps in both.
+    assert np.std(driven.body - healthy.body) < 0.03 * np.std(healthy.body)
+    assert not driven.beyond.any()
