@@ -109,16 +109,20 @@ def examples(help_text: str) -> list[str]:
 
 
 def workplace(folder: Path) -> Path:
-    """A folder like the project's own, with `fixtures`, `../shared` and `erdctl` of this source."""
+    """A folder like the project's own, with `fixtures`, `../shared`, and `erdctl` and `python`.
+
+    Both are of this source.
+    """
     work, programs = folder / "work", folder / "bin"
     work.mkdir()
     programs.mkdir()
     (work / "fixtures").symlink_to(FIXTURES)
     if SHARED.exists():
         (folder / "shared").symlink_to(SHARED.parent)
-    program = programs / "erdctl"
-    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m erdctl "$@"\n')
-    program.chmod(0o755)
+    for name, words in (("erdctl", "-m erdctl "), ("python", "")):
+        program = programs / name
+        program.write_text(f'#!/bin/sh\nexec "{sys.executable}" {words}"$@"\n')
+        program.chmod(0o755)
     return work
 
 
@@ -127,6 +131,8 @@ def run(command: str, work: Path) -> subprocess.CompletedProcess[str]:
     place(work, command)
     # Test workers are told of 80 columns; a document shows what a pipe gets, which has no width.
     world = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
+    # The cross-compiler builds what it needs itself only once, not for every new home.
+    world.setdefault("ZIG_GLOBAL_CACHE_DIR", str(Path.home() / ".cache" / "zig"))
     path = f"{work.parent / 'bin'}{os.pathsep}{os.environ['PATH']}"
     # The shell stays: completion is installed for the shell that erdctl was started from.
     script = command.replace("/tmp/", f"{work}/") + "\n:"
