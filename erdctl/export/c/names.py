@@ -19,14 +19,15 @@ KEYWORDS = frozenset(_RESERVED.split())
 
 
 def identifier(name: str) -> str:
-    """A name as C takes it; the same for the same name.
+    """A name as C takes it; the same for the same name. It begins with a letter: what begins with
+    an underscore is the compiler's own.
 
-    >>> identifier("front left.2"), identifier("2nd"), identifier("double")
-    ('front_left_2', '_2nd', 'double_')
+    >>> identifier("front left.2"), identifier("2nd"), identifier("double"), identifier("é")
+    ('front_left_2', 'n2nd', 'double_', 'n')
     """
-    plain = re.sub(r"[^A-Za-z0-9_]", "_", name) or "_"
-    if plain[0].isdigit():
-        plain = f"_{plain}"
+    plain = re.sub(r"[^A-Za-z0-9_]", "_", name).lstrip("_")
+    if not plain[:1].isalpha():
+        plain = f"n{plain}"
     return f"{plain}_" if plain in KEYWORDS else plain
 
 
