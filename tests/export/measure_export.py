@@ -14,7 +14,7 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
-from c_built import FLOAT, block_of, forces
+from c_built import FLOAT, block_of, forces, parameters_of
 from c_motion import bench, random_motion, record
 from causal import causal
 from measured import show, summed, tables
@@ -124,13 +124,15 @@ def every(s: Signals, n: int) -> Signals:
     return Signals(t=t, x=x, xdot=xdot, duty=duty, step=step, starts=np.array([0, len(t)]))
 
 
-def steps() -> None:
+def steps(*names: str) -> None:
     print(f"Difference to steps of {NOMINAL / FINE * 1e3:g} ms over the range, rough road of 8 s")
     grids = {f"{1e3 * NOMINAL * k:g} ms": round(FINE * k) for k in (0.5, 1.0, 2.0)}
     show("", *(f"{g} {w}" for g in grids for w in ("rms", "max")))
     coarsest = max(grids.values())
     all_rows = []
     for effect in (None, *ON_CAR):
+        if names and (effect is None or effect.name not in names):
+            continue
         found = Model(() if effect is None else (effect,))
         values = PAPER if effect is None else acting(effect)
         block = block_of(found, values, rough())
@@ -147,11 +149,11 @@ def steps() -> None:
         summed(f"largest at {grid}", (r[2 * i + 1] for r in all_rows), 0.1)
 
 
-def fmu() -> None:
+def fmu(*names: str) -> None:
     from fmpy.validation import validate_fmu
     from fmu_built import Instance, damper, driven
     from fmu_built import built as built_fmu
-    from test_corrected_fmu import begun, parameters_of
+    from test_corrected_fmu import begun
 
     from erdctl.export.c.source import write_c
     from erdctl.export.fmu.damper import damper_block
@@ -173,11 +175,13 @@ def fmu() -> None:
             len(validate_fmu(str(damper(number)))),
         )
     s = record(motion(), *motion().starts[:2].tolist())
+    ranges = {"xdot": [0.0, float(np.abs(s.xdot).max())]}
     cases = [(e.name, Model((e,)), acting(e)) for e in ON_CAR]
     cases += [(f"model {seed}", *model(seed)) for seed in range(MODELS)]
+    cases = [case for case in cases if not names or {e.name for e in case[1].effects} & {*names}]
     offs, findings = [], 0
     for i, (name, found, values) in enumerate(cases):
-        p = parameters_of(found, {k: values[k] for k in found.quantities})
+        p = parameters_of(found, values, ranges=ranges)
         number = "23"[i % 2]
         path = built_fmu(damper_block(write_c(p, prefix=f"f{i}"), p), number)
         n = len(validate_fmu(str(path)))
