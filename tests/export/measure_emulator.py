@@ -61,9 +61,12 @@ def roads() -> None:
                 worst = max(mine, key=lambda f: f.online / f.offline)
                 name = f"{fault}{', leaping' if switched else ''}: worst of {len(mine)}"
                 line(name, worst)
-                found += mine
-        summed("online to offline, roads", (f.online / f.offline for f in found), 1.3)
-        summed("online to static, roads", (f.online / f.static for f in found), 1.0)
+                found += [
+                    (f"{fault}{', leaping' if switched else ''}, {seed}", f)
+                    for seed, f in zip(FRESH, mine, strict=True)
+                ]
+        summed("online to offline, roads", ((n, f.online / f.offline) for n, f in found), 1.3)
+        summed("online to static, roads", ((n, f.online / f.static) for n, f in found), 1.0)
         for rate in (200.0, 100.0, 50.0, 30.0):
             mine = [
                 compared(
@@ -82,9 +85,9 @@ def corrected(*names: str) -> None:
     for name in names or [e.name for e in ON_CAR]:
         with TemporaryDirectory() as folder:
             e = errors(name, Path(folder))
-        ratios.append(e["online"] / e["offline"])
+        ratios.append((name, e["online"] / e["offline"]))
         show(name, *(f"{e[k]:.5f}" for k in ("online", "offline", "static", "by the paper")),
-             f"{ratios[-1]:.2f}")  # fmt: skip
+             f"{ratios[-1][1]:.2f}")  # fmt: skip
     summed("online to offline", ratios, 1.3)
 
 
@@ -156,7 +159,7 @@ def clock(*names: str) -> None:
             damper = Model(() if effect is None else (effect,))
             values = PAPER if effect is None else acting(effect)
             a, b = of_damper(damper, values, s), of_emulator(name, s, Path(folder))
-            found.append((a, b))
+            found.append((name or "paper", a, b))
             show(
                 name or "the paper's model",
                 f"{a:.0f}",
@@ -164,8 +167,8 @@ def clock(*names: str) -> None:
                 f"{b:.0f}",
                 f"{b / one:.0f}",
             )
-    summed("damper, ns", (a for a, _ in found), 2000.0)
-    summed("emulator, ns", (b for _, b in found), 2000.0)
+    summed("damper, ns", ((name, a) for name, a, _ in found), 2000.0)
+    summed("emulator, ns", ((name, b) for name, _, b in found), 2000.0)
 
 
 if __name__ == "__main__":

@@ -59,12 +59,14 @@ def far(found: Array, expected: Array) -> float:
 
 
 def differences(found: Model, values: dict[str, float]) -> list[float]:
-    """Double and float against Python's causal form, and double against Python as it is."""
+    """Double and float against the causal Python; double against Python as it is, and the rms."""
     s = motion()
     block = block_of(found, values, s)
     past = past_alone(found).force(s, values)
     double, single = forces(block, s), forces(block, s, FLOAT)
-    return [far(double, past), far(single, past), far(double, found.force(s, values))]
+    whole = found.force(s, values)
+    rms = float(np.sqrt(np.mean((double - whole) ** 2)) / np.ptp(whole))
+    return [far(double, past), far(single, past), far(double, whole), rms]
 
 
 def past_alone(found: Model) -> Model:
@@ -94,17 +96,19 @@ def force(*names: str) -> None:
         found, values = model(seed)
         cases.append((f"{seed}: " + " + ".join(e.name for e in found.effects), found, values))
     cases = [case for case in cases if not names or {e.name for e in case[1].effects} & {*names}]
-    show("", "double", "float", "looking ahead")
-    rows_ = []
+    show("", "double", "float", "looks ahead", "rms")
+    exact, single, ahead = [], [], []
     for name, found, values in cases:
         row = differences(found, values)
-        rows_.append((found, row))
-        ahead = f"{row[2]:.1e}" if looks_ahead(found) else "-"
-        show(name[:46], f"{row[0]:.1e}", f"{row[1]:.1e}", ahead)
-    summed("double, knowing the past alone", (r[0] for _, r in rows_), 1e-9)
-    summed("float, knowing the past alone", (r[1] for _, r in rows_), 1e-5)
-    summed("double, that look ahead in Python", (r[2] for m, r in rows_ if looks_ahead(m)), 1e-9)
-    summed("double, all others", (r[2] for m, r in rows_ if not looks_ahead(m)), 1e-9)
+        looks = looks_ahead(found)
+        show(name[:46], *(f"{v:.1e}" for v in (row if looks else row[:2])))
+        exact.append((name, row[0]))
+        single.append((name, row[1]))
+        if looks:
+            ahead.append((name, row[3]))
+    summed("double", exact, 1e-9)
+    summed("float", single, 1e-5)
+    summed("rms of looking ahead", ahead, 0.01)
 
 
 @cache
@@ -142,11 +146,12 @@ def steps(*names: str) -> None:
             off = forces(block, every(rough(), n))[:: coarsest // n] - exact
             row += [float(np.sqrt(np.mean(off**2))), float(np.abs(off).max())]
         row = [v / np.ptp(exact) for v in row]
-        all_rows.append(row)
-        show("the paper's model" if effect is None else effect.name, *(f"{v:.1e}" for v in row))
+        name = "the paper's model" if effect is None else effect.name
+        all_rows.append((name, row))
+        show(name, *(f"{v:.1e}" for v in row))
     for i, grid in enumerate(grids):
-        summed(f"rms at {grid}", (r[2 * i] for r in all_rows), 0.01)
-        summed(f"largest at {grid}", (r[2 * i + 1] for r in all_rows), 0.1)
+        summed(f"rms at {grid}", ((name, r[2 * i]) for name, r in all_rows), 0.01)
+        summed(f"largest at {grid}", ((name, r[2 * i + 1]) for name, r in all_rows), 0.1)
 
 
 def fmu(*names: str) -> None:
@@ -185,9 +190,9 @@ def fmu(*names: str) -> None:
         number = "23"[i % 2]
         path = built_fmu(damper_block(write_c(p, prefix=f"f{i}"), p), number)
         n = len(validate_fmu(str(path)))
-        offs.append(difference(path, s, past_alone(found).force(s, values)))
+        offs.append((name, difference(path, s, past_alone(found).force(s, values))))
         findings += n
-        show(f"{name}, FMI {number}", f"{offs[-1]:.1e}", n)
+        show(f"{name}, FMI {number}", f"{offs[-1][1]:.1e}", n)
     summed("all", offs, 1e-9)
     print(f"  findings: {findings}")
 

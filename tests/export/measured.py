@@ -12,12 +12,16 @@ def show(head: str, *columns: object) -> None:
     print(f"{head:46}" + "".join(f"{c:>13}" for c in columns), flush=True)
 
 
-def summed(name: str, values: Iterable[float], target: float) -> None:
-    """Median and largest of a column, and how many miss the target."""
-    v = np.array([*values])
-    over = np.count_nonzero(v > target)
-    print(f"  {name:44} median {np.median(v):.2e}, largest {v.max():.2e},"
-          f" over {target:g}: {over} of {len(v)}")  # fmt: skip
+def summed(name: str, found: Iterable[tuple[str, float]], target: float) -> None:
+    """Median and largest of a column, and what misses the target."""
+    rows = [*found]
+    v = np.array([value for _, value in rows])
+    over = [what for what, value in rows if value > target]
+    print(
+        f"  {name:40} median {np.median(v):.2e}, largest {v.max():.2e},",
+        f"over {target:g}: {len(over)} of {len(v)}{': ' if over else ''}{'; '.join(over)}",
+        flush=True,
+    )
 
 
 def tables(known: Mapping[str, Callable[..., None]]) -> None:
