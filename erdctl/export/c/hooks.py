@@ -36,7 +36,9 @@ def hooks(effects: Sequence[Effect], *, plays: bool) -> str:
 
     scales = of(ScaleSlot)
     fields = [call("law", e, "value", "way", state="[way]") for e in of(FieldSlot)]
+    remembers = any(law_of(e).state for e in of(FieldSlot))
     return "\n\n".join([
+        f"enum {{ FIELD_REMEMBERS = {int(remembers)} }};  /* a law of the field has a past */",
         _hook("void motion", ["Motion *m"], _moved(of(MotionSlot), plays=plays)),
         _through("control", "duty", [call("law", e, "duty") for e in of(ControlSlot)]),
         _through("field", "value", fields, "int way"),

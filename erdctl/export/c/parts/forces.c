@@ -14,8 +14,10 @@ static void form(State *st, const Sample *s)
     real u[2], T[2], y, span, lag;
     int leg, legs, way;
 
-    u[0] = steady(st, s, 0);
-    u[1] = steady(st, s, 1);
+    /* Powers cost: a direction that takes no part is left out, if nothing has to remember it. */
+    for (way = 0; way < 2; way++)
+        u[way] = FIELD_REMEMBERS || way == (s->up ? 0 : 1) || (s->turned && way == (s->up0 ? 0 : 1))
+                     ? steady(st, s, way) : K(0.0);
     T[0] = st->p.compression_T_d;
     T[1] = st->p.release_T_d;
     if (!(T[0] > K(0.0)) && !(T[1] > K(0.0))) {
