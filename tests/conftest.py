@@ -16,6 +16,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 # Diagnoses of minutes: to trace each line costs them half again, and others run the same lines.
 UNTRACED = (
     "prove/test_coverage.py",
+    "prove/test_prove_command.py",
     "prove/test_prove_nulls.py",
     "prove/test_prove_on_log.py",
     "prove/test_small_proof.py",
@@ -23,6 +24,8 @@ UNTRACED = (
     "diagnose/test_earned_names.py",
     "diagnose/test_fault_onsets.py",
     "diagnose/test_few_records.py",
+    "diagnose/test_guo_loop.py",
+    "diagnose/test_invariance.py",
     "diagnose/test_limit_of_effects.py",
     "diagnose/test_real_data.py",
     "diagnose/test_samples_of_search.py",

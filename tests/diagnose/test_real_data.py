@@ -53,7 +53,8 @@ def split(name: str, text: str) -> tuple[Recording, Recording]:
 @cache
 def diagnosis(name: str, text: str) -> Diagnosis:
     """What is found on the records without a text in their names."""
-    return diagnose(thinned(split(name, text)[0], MOST), catalogue(), most=EFFECTS, learning=False)
+    log = thinned(split(name, text)[0], MOST)
+    return diagnose(log, catalogue(), most=EFFECTS, limits=False, learning=False)
 
 
 def errors(what: str, hypothesis: Hypothesis, r: Recording) -> tuple[float, float]:
