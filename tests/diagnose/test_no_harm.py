@@ -136,7 +136,7 @@ def test_an_effect_of_which_nothing_is_left_between_samples_is_no_finding(
         return replace(last, values={**last.values, **off}), effects
 
     monkeypatch.setattr(module, "fit_errors", none_left)
-    found = diagnose(log, catalogue)
+    found = diagnose(log, catalogue, limits=False)
     assert [f.effect.name for f in found.findings] == ["coulomb_friction"]
     assert found.corrected.overall.nrmse > 0.0
 

@@ -46,7 +46,7 @@ def test_the_smoothing_is_found_beside_a_damper() -> None:
         [recording(f, a, duty) for f, a in ((0.5, 0.02), (1.2, 0.012), (3.0, 0.006))
          for duty in (0.0, 0.2, 0.5)]
     )  # fmt: skip
-    found = diagnose(noisy(log, seed=7, rms=NOISE), catalogue())
+    found = diagnose(noisy(log, seed=7, rms=NOISE), catalogue(), limits=False)
     for f in found.findings:
         print(f.effect.name, f.equivalent, f.gain, f.before, f.after)
     assert found.verdict is Verdict.EXPLAINED

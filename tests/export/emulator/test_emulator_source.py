@@ -83,7 +83,7 @@ def test_members_have_values_and_units() -> None:
 
 
 def test_a_prefix_becomes_a_name_of_c() -> None:
-    assert "_9_lives_step(" in write_emulator(TABLE_2, prefix="9 lives").header
+    assert "n9_lives_step(" in write_emulator(TABLE_2, prefix="9 lives").header
 
 
 def test_without_any_fault_there_is_nothing_to_emulate() -> None:
