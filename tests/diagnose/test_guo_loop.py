@@ -100,6 +100,7 @@ def names(finding: Finding) -> set[str]:
     return {finding.effect.name, *finding.equivalent}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("correlation", [0.9], ids=["coloured"])
 def test_what_the_earlier_paper_left_out(correlation: float) -> None:
     """One test, as under xdist every process with one of several would repeat the diagnosis."""

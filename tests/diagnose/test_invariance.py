@@ -63,6 +63,7 @@ def half_the_rate_and_a_copy(r: Recording) -> Recording:
     return with_a_copy(half_the_rate(r))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("change", [shuffled_and_larger, half_the_rate_and_a_copy])
 def test_the_finding_is_the_same(change: Callable[[Recording], Recording]) -> None:
     before, after = reference(), diagnose(change(original()), catalogue(), limits=False)

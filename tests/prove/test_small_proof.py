@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from erdctl.prove.case import Wish
 from erdctl.prove.document import proof_of
 from erdctl.prove.run import prove
@@ -49,6 +51,7 @@ def figures(s: Summary) -> dict[str, float | None]:
     }
 
 
+@pytest.mark.long
 def test_six_cases(tmp_path: Path) -> None:
     """One test for all figures, as under xdist every process with one would run all the cases."""
     outcomes = prove(Wish(), SEEDS, tmp_path, jobs=2, on_outcome=lambda o: print(line(o)))
