@@ -40,13 +40,17 @@ def whole(text: str) -> str:
 
 def lines(parameters: Parameters, origin: Origin) -> list[str]:
     """erdctl's version, hashes of parameters and logs, ranges that were seen, noise."""
-    p = parameters.provenance
-    out = [
+    return [
         f"written by erdctl {__version__}",
         f"parameters: {plain(origin.name)}, SHA-256 {origin.sha256}",
+        *identified(parameters),
     ]
-    if "erdctl" in p:
-        out.append(f"identified by erdctl {plain(str(p['erdctl']))}")
+
+
+def identified(parameters: Parameters) -> list[str]:
+    """By which erdctl, from which logs, on which ranges; of a file that may hold anything there."""
+    p = parameters.provenance
+    out = [f"identified by erdctl {plain(str(p['erdctl']))}"] if "erdctl" in p else []
     logs = p.get("logs")
     for log in logs if isinstance(logs, list) else []:
         if isinstance(log, dict):

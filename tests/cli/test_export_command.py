@@ -201,3 +201,14 @@ def test_every_suffix_is_in_the_help() -> None:
         assert suffix in said
     for place in ("dSPACE", "Simulink", "Adams Car", "multibody"):
         assert place in said, place
+
+
+@pytest.mark.parametrize("logs", [5, [3], [{"name": "a*/ b\n"}]])
+@pytest.mark.parametrize("words", ["-o d.c", "-o e.c --emulate oil", "-o d.dpr", "-o d.csv"])
+def test_a_provenance_of_any_kind_does_no_harm(folder: Path, logs: object, words: str) -> None:
+    document = json.loads((FIXTURES / "table_2.json").read_text())
+    (folder / "odd.json").write_text(json.dumps(document | {"provenance": {"logs": logs}}))
+    done = run(f"export odd.json {words}")
+    assert done.exit_code == 0, done.output
+    for source in folder.glob("*.c"):
+        assert "a*/" not in source.read_text()

@@ -8,10 +8,9 @@ from collections.abc import Sequence
 
 from erdctl.core.version import __version__
 from erdctl.export.c.names import comment
+from erdctl.export.origin import identified
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
-
-UNITS = {"x": "m", "xdot": "m/s", "duty": "1"}
 
 
 def hash_of(parameters: Parameters) -> str:
@@ -22,23 +21,16 @@ def hash_of(parameters: Parameters) -> str:
 
 def about(parameters: Parameters, effects: Sequence[Effect], left_out: Sequence[str]) -> str:
     """The comment block."""
-    known = parameters.provenance
     lines = [
         "PREFIX: force of an electro-rheological damper from its motion and control.",
         "",
         "    F = k_nom x + c_vis xdot + F_ER sign(xdot),  T_d dF_ER/dt + F_ER = sigma v^beta",
         "",
         *(f"with {e.name}: {e.equation}" for e in effects),
-        f"Written by erdctl {__version__}; parameters identified by erdctl"
-        f" {known.get('erdctl', '(version not stated)')}.",
+        f"Written by erdctl {__version__}",
         f"SHA-256 of the parameters: {hash_of(parameters)}",
+        *(f"{line[0].upper()}{line[1:]}" for line in identified(parameters)),
     ]
-    for source in known.get("logs", ()):
-        lines.append(f"Log {source.get('name', '')}, SHA-256 {source.get('sha256', 'not stated')}")
-    for name, ends in dict(known.get("ranges", {})).items():
-        if name in UNITS:
-            low, high = (float(e) for e in ends)
-            lines.append(f"Seen in the logs: {name} from {low:.6g} to {high:.6g} {UNITS[name]}")
     lines += [f"Left out: {what}" for what in left_out]
     lines += [f"{e.name}, in C: {e.c.note}" for e in effects if e.c is not None and e.c.note]
     lines += [f"Note: {caveat}" for caveat in parameters.caveats()]

@@ -19,6 +19,7 @@ from erdctl.export.c.provenance import hash_of
 from erdctl.export.c.source import on_the_vehicle
 from erdctl.export.emulator.limits import EmulatorLimits
 from erdctl.export.emulator.model_part import declared, model_part
+from erdctl.export.origin import identified
 from erdctl.model.faults import FaultKind
 from erdctl.model.parameters import Parameters
 
@@ -129,7 +130,6 @@ def filled(text: str, places: dict[str, str], prefix: str) -> str:
 
 def about(parameters: Parameters, chosen: Collection[FaultKind], remarks: Collection[str]) -> str:
     """The comment on top: what it is, where it comes from, what it has not."""
-    known = parameters.provenance
     effects = on_the_vehicle(parameters.model.effects)[0]
     lines = [
         "PREFIX: online fault emulator of an electro-rheological damper (Eqs. 12, 13, 24-35): the"
@@ -137,13 +137,9 @@ def about(parameters: Parameters, chosen: Collection[FaultKind], remarks: Collec
         " so far alone.",
         f"Faults: {', '.join(k.short for k in chosen)}.",
         *([f"The damper has {', '.join(e.name for e in effects)}."] if effects else []),
-        f"Written by erdctl {__version__}; parameters identified by erdctl"
-        f" {known.get('erdctl', '(version not stated)')}.",
+        f"Written by erdctl {__version__}",
         f"SHA-256 of the parameters: {hash_of(parameters)}",
-        *(
-            f"Log {log.get('name', '')}, SHA-256 {log.get('sha256', 'not stated')}"
-            for log in known.get("logs", ())
-        ),
+        *(f"{line[0].upper()}{line[1:]}" for line in identified(parameters)),
         *(f"Left out: {what}" for what in remarks),
         "C99; needs <math.h> only. -DERDCTL_FLOAT takes float in place of double. Not with"
         " -ffast-math: it would take NaN for a number.",

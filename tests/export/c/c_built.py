@@ -10,7 +10,7 @@ import tempfile
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from c_motion import record
@@ -182,11 +182,11 @@ def run(
     return Ran(force, status)
 
 
-def forces(block: CBlock, s: Signals, *options: str, **given: object) -> Array:
+def forces(block: CBlock, s: Signals, *options: str, **given: Any) -> Array:
     """(n,) force over all records, each from its own beginning."""
     out = np.empty(len(s))
     for a, b in zip(s.starts[:-1], s.starts[1:], strict=True):
         one = record(s, int(a), int(b))
         begin = (float(one.t[0]), int(one.compressing[0]), int(one.rests[0]))
-        out[a:b] = run(block, rows_of(one), *options, begin=begin, **given).force  # type: ignore[arg-type]
+        out[a:b] = run(block, rows_of(one), *options, begin=begin, **given).force
     return out

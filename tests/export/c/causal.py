@@ -35,7 +35,9 @@ def acceleration(s: Signals, p: Values) -> Array:
 
 
 def joint(s: Signals, p: Values) -> Signals:
-    moved = get("backlash").slot(s, p)  # type: ignore[operator]
+    slot = get("backlash").slot
+    assert isinstance(slot, MotionSlot)
+    moved = slot(s, p)
     if moved.engaged is None:
         return s
     # Below a half: contact behind the sample, which only the next one shows.

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -62,8 +63,8 @@ def read(text: str) -> tuple[dict[str, OrbitBlock], list[str]]:
     return blocks, comments
 
 
-def written(path: Path, parameters: object, **asked: object) -> str:
-    write_table(parameters, str(path), Asked(**asked), ORIGIN)  # type: ignore[arg-type]
+def written(path: Path, parameters: Any, **asked: Any) -> str:
+    write_table(parameters, str(path), Asked(**asked), ORIGIN)
     text = path.read_bytes().decode("ascii")
     assert text.endswith("\n")
     assert "\r" not in text

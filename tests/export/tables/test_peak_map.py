@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -23,9 +24,9 @@ from erdctl.model.parameters import Estimate, Parameters
 from erdctl.model.simulate import simulate
 
 
-def table(parameters: Parameters, **asked: object) -> PeakMap:
+def table(parameters: Parameters, **asked: Any) -> PeakMap:
     given = {"points": 5, **asked}
-    return peak_map(parameters, grid(parameters, Asked(**given)))  # type: ignore[arg-type]
+    return peak_map(parameters, grid(parameters, Asked(**given)))
 
 
 def sine(speed: float, duty: float, amplitude: float, cycles: int, fs: int) -> Recording:
@@ -151,10 +152,10 @@ def test_an_error_larger_than_the_way_to_a_bound_counts_whole() -> None:
 
 
 @pytest.mark.parametrize("effect", catalogue(), ids=lambda e: e.name)
-def test_every_effect_has_a_table_or_is_left_out(effect: object) -> None:
-    name = effect.name  # type: ignore[attr-defined]
+def test_every_effect_has_a_table_or_is_left_out(effect: Any) -> None:
+    name = effect.name
     damped, left_out = damper_alone(damper(name))
-    assert [e.name for e in left_out] == ([name] if of_the_bench(effect) else [])  # type: ignore[arg-type]
+    assert [e.name for e in left_out] == ([name] if of_the_bench(effect) else [])
     found = table(set_in(damped), points=3, duty=(0.0, 0.3))
     assert np.isfinite(found.force).all()
     if left_out:
