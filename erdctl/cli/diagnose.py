@@ -103,8 +103,9 @@ def command(
     A lack-of-fit test of the residual then decides the verdict. adequate: the model given is
     enough. explained: with the effects found, the residual is noise. unexplained: a misfit is left
     that no effect of the catalogue explains; the diagnosis says where it is and what it resembles.
-    So is a log of one duty and one speed in which effects were found, since others would do as well
-    there; the drives that would tell them apart are named.
+    So is a log of one duty and one speed in which an effect was found, or of two duties and two
+    kinds of motion at most in which several were, since others would do as well there; the drives
+    that would tell them apart are named.
     Look-alikes, which these data cannot tell apart, are listed with a drive on which they differ.
 
     The JSON holds the corrected parameter file under corrected.params (schema: erdctl schema

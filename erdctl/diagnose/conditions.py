@@ -7,6 +7,7 @@ import numpy as np
 from erdctl.bench.strokes import strokes
 from erdctl.core.recording import Recording
 from erdctl.diagnose import thresholds
+from erdctl.diagnose.kinds_of_excitation import motions
 
 
 def one_condition(recording: Recording) -> bool:
@@ -22,3 +23,16 @@ def one_condition(recording: Recording) -> bool:
         return True
     speed = found.highest(np.abs(recording.xdot))
     return float(np.ptp(speed)) < thresholds.ONE_SPEED * float(speed.max())
+
+
+def few_conditions(recording: Recording) -> bool:
+    """Whether a log has no more duties and no more kinds of motion than a law has parameters.
+
+    Two levels of duty test no law of the duty and two motions none of the motion: what one effect
+    leaves because its form differs a little from the true one, a second then takes, beyond any
+    scatter.
+    """
+    apart = np.diff(np.sort(recording.duty)) >= thresholds.ONE_DUTY
+    return bool(
+        apart.sum() < thresholds.FEW_DUTIES and motions(recording) <= thresholds.FEW_MOTIONS
+    )

@@ -7,16 +7,13 @@ from erdctl.estimate.covariance import estimates
 from erdctl.estimate.finer import MOST_SAMPLES
 from erdctl.model.parameters import Estimate, Parameters, provenance
 
-ONE_CONDITION = (
-    "at one duty and one speed other effects, with other values, explain the log as well"
-)
-
 
 def parameters(found: Diagnosis) -> Parameters:
     """The corrected model's parameters, with errors."""
-    # At one duty and one speed an interval holds in the model that is named, which may be another.
+    # Under few conditions an interval holds in the model that is named, which may be another.
     best = (found.learned or found).selection.best
-    reasons = dict.fromkeys(found.fit.values, ONE_CONDITION) if found.cannot_tell else {}
+    few = f"at {found.cannot_tell} other effects, with other values, explain the log as well"
+    reasons = dict.fromkeys(found.fit.values, few) if found.cannot_tell else {}
     reasons |= {name: lack.reason for name, lack in best.problem.needs.items()}
     return Parameters(
         model=found.fit.model,

@@ -16,7 +16,7 @@ from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Recording
 from erdctl.diagnose import scores, thresholds
-from erdctl.diagnose.conditions import one_condition
+from erdctl.diagnose.conditions import few_conditions, one_condition
 from erdctl.diagnose.detectable import Detectable, detectable
 from erdctl.diagnose.executor import Executor, executor
 from erdctl.diagnose.findings import Finding, earned, findings, part_taken
@@ -58,8 +58,9 @@ class Verdict(StrEnum):
 class Diagnosis:
     """What was found; see the contract for the meaning of the verdicts.
 
-    cannot_tell : whether something is left out, but at one duty and one speed, where several
-        effects, and other values of the paper's parameters, would explain it alike
+    cannot_tell : under which conditions something is left out that several effects, and other
+        values of the paper's parameters, would explain alike: one duty and one speed, or several
+        effects at two duties and two kinds of motion at most; "" where the log can tell
     baseline : scores of the given parameters as they are, or else of the paper's model refitted
     refitted : scores of that model fitted to this recording
     corrected, carried : scores of the best model without and with the record effects, which
@@ -76,7 +77,7 @@ class Diagnosis:
     """
 
     verdict: Verdict
-    cannot_tell: bool
+    cannot_tell: str
     noise_rms: float
     problem: Problem
     selection: Selection
@@ -185,17 +186,19 @@ def diagnose(
                 lack_of_fit = _left(selection, seed)
                 fit, record_effects = fit_errors(problem, selection.best)
         left = _matters(problem, selection, lack_of_fit)
-        cannot_tell = bool(selection.named) and one_condition(recording)
+        untold = "one duty and one speed" if selection.named and one_condition(recording) else ""
         more: Learned | None = None
-        if learning and left and not (rig.blocking or cannot_tell):
+        if learning and left and not (rig.blocking or untold):
             start = searched.base, _on_thin(thin, searched.best, selection.best)
             unfitted = problem.of(aside) if aside else None
             more = learned(
                 (thin, seen, problem), unfitted, kept, start, testable, lack_of_fit, workers, seed
             )
+    if not left and not untold and len(selection.named) > 1 and few_conditions(recording):
+        untold = "two duties and two kinds of motion at most"
     named = selection.best
     noise = lack_of_fit.noise_rms
-    if left or rig.blocking or cannot_tell:
+    if left or rig.blocking or untold:
         verdict = Verdict.UNEXPLAINED
     else:
         verdict = Verdict.EXPLAINED if selection.named else Verdict.ADEQUATE
@@ -222,7 +225,7 @@ def diagnose(
         undetected = _undetected(thin, searched.best, named, candidates, missing, progress)
     return Diagnosis(
         verdict=verdict,
-        cannot_tell=cannot_tell,
+        cannot_tell=untold,
         noise_rms=noise,
         problem=problem,
         selection=selection,

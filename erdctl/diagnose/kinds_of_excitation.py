@@ -38,14 +38,27 @@ def kinds_of_motion(recording: Recording, *, coarse: bool = False) -> Index | No
     at = excitation(recording)[:, :2]
     if len(at) < 2:
         return None
-    apart = np.log(thresholds.KIND_FACTOR)
-    tree = linkage(at, "single", "chebyshev")
-    found = fcluster(tree, apart, "distance")
+    found = _joined(at)
     if found.max() > thresholds.MOST_KINDS:
         found = fcluster(linkage(at, "complete", "chebyshev"), thresholds.MOST_KINDS, "maxclust")
     if coarse and found.max() == len(at):
         found = fcluster(linkage(at, "complete", "chebyshev"), thresholds.COARSE_KINDS, "maxclust")
     return _along(recording, np.asarray(found - 1, dtype=np.intp), thresholds.MOTION_KINDS)
+
+
+def motions(recording: Recording) -> int:
+    """Number of kinds of motion, as `kinds_of_motion` joins records to kinds."""
+    at = excitation(recording)[:, :2]
+    return 1 if len(at) < 2 else int(_joined(at).max())
+
+
+def _joined(at: Array) -> Index:
+    """(r,) kind of motion of each record, from 1."""
+    from scipy.cluster.hierarchy import fcluster, linkage
+
+    apart = np.log(thresholds.KIND_FACTOR)
+    found = fcluster(linkage(at, "single", "chebyshev"), apart, "distance")
+    return np.asarray(found, dtype=np.intp)
 
 
 def levels_of_duty(recording: Recording) -> Index | None:

@@ -87,6 +87,12 @@ LEAST_RECORDS = 3
 # Origin: the step of a duty that `bench.identifiability` asks for; a speed that a bench holds.
 ONE_DUTY, ONE_SPEED = 0.02, 0.1
 
+# Levels of duty and kinds of motion up to which a log cannot tell several effects.
+# Decides: whether two names or more may be `explained`.
+# Origin: the parameters of a law of the duty (k, beta) and of one of the motion (amount, scale),
+# which so many conditions fit whatever the law.
+FEW_DUTIES, FEW_MOTIONS = 2, 2
+
 # --- doubtful samples ---------------------------------------------------------------------------
 
 # Standard deviations of the velocity noise within which the direction of motion is uncertain.

@@ -62,8 +62,8 @@ def remaining_text(found: Diagnosis) -> str:
     if found.cannot_tell:
         bench = Bench.of(Survey(found.problem.recording, found.problem.block.signals))
         return (
-            "the log has one duty and one speed, at which other effects, and other values of the"
-            " paper's parameters, explain the misfit as well: what is named is one of them; to tell"
+            f"the log has {found.cannot_tell}, at which other effects, and other values of the"
+            " paper's parameters, explain the misfit as well: what is named is one answer; to tell"
             f" them apart, record --drive {bench.sweep}, --drive {bench.levels} and --drive"
             f" {bench.steps}{_hum(left)}"
         )

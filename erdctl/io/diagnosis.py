@@ -36,7 +36,7 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
     return {
         "schema": SCHEMA,
         "verdict": found.verdict.value,
-        "cannot_tell": found.cannot_tell,
+        "cannot_tell": bool(found.cannot_tell),
         "noise_rms": found.noise_rms,
         "baseline": {
             **_scores(found.baseline),

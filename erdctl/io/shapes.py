@@ -206,7 +206,7 @@ class LeftOut(TypedDict):
 class DiagnosisFile(TypedDict):
     """A diagnosis; verdict : adequate, explained or unexplained.
 
-    cannot_tell : whether it is unexplained because one duty and one speed cannot tell what it is
+    cannot_tell : whether it is unexplained because so few duties and motions cannot tell what it is
     """
 
     schema: str

@@ -1,4 +1,4 @@
-"""What is named, and what is not: few places, a hum, one duty and one speed."""
+"""What is named, and what is not: few places, a hum, few duties and few motions."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import trajectories
 from rig import campaign, noisy, recording
 
 from erdctl.core.recording import Recording, concatenate
-from erdctl.diagnose.conditions import one_condition
+from erdctl.diagnose.conditions import few_conditions, one_condition
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Verdict, diagnose
 from erdctl.diagnose.wording import remaining_text
@@ -95,3 +95,31 @@ def test_what_is_more_than_one_condition() -> None:
     assert not one_condition(concatenate([slow, fast]))
     assert not one_condition(concatenate([slow, field]))
     assert not one_condition(sine(0.8, 0.015, None, "steps"))
+
+
+def test_two_duties_and_two_motions_tell_one_effect_and_not_two() -> None:
+    motions = ((0.8, 0.015, 0.0), (0.8, 0.015, 0.3), (2.4, 0.008, 0.0), (2.4, 0.008, 0.3))
+    r = concatenate([sine(f, a, d, f"r{i}") for i, (f, a, d) in enumerate(motions)])
+    catalogue = few("coulomb_friction", "gas_preload", "preyield_viscosity")
+    one = diagnose(noisy(plus(r, 1.5 * np.sign(r.xdot)), seed=2, rms=NOISE), catalogue)
+    assert one.verdict is Verdict.EXPLAINED
+    assert [f.effect.name for f in one.findings] == ["coulomb_friction"]
+
+    both = noisy(plus(r, 1.5 * np.sign(r.xdot) + 2.0), seed=2, rms=NOISE)
+    found = diagnose(both, catalogue)
+    assert {f.effect.name for f in found.findings} == {"coulomb_friction", "gas_preload"}
+    assert found.verdict is Verdict.UNEXPLAINED
+    assert to_json(found)["cannot_tell"]
+    assert not [n for n, e in parameters(found).estimates.items() if e.identified]
+    said = remaining_text(found)
+    assert "two duties and two kinds of motion at most" in said
+    assert "--drive sweep:" in said
+
+
+def test_what_is_more_than_few_conditions() -> None:
+    a, b, c = (sine(f, x, 0.0, "r") for f, x in ((0.8, 0.015), (1.6, 0.015), (1.6, 0.005)))
+    on, high = (sine(0.8, 0.015, d, "r") for d in (0.3, 0.45))
+    assert few_conditions(concatenate([a, b, on]))
+    assert not few_conditions(concatenate([a, b, c]))
+    assert not few_conditions(concatenate([a, on, high]))
+    assert not few_conditions(sine(0.8, 0.015, None, "steps"))

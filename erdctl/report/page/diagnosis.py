@@ -138,7 +138,9 @@ def _answers(doc: Json, name: str, peak: float) -> Json:
         case "explained":
             head = f"{start} does not hold; {joined(named)} {many} what it misses."
         case _ if doc.get("cannot_tell"):
-            head = f"{start} does not hold, but one duty and one speed cannot tell what it misses."
+            head = (
+                f"{start} does not hold, but the log has too few conditions to tell what it misses."
+            )
         case _ if named:
             head = (
                 f"{start} does not hold; {joined(named)} {many} part of what it misses,"
