@@ -24,7 +24,7 @@ SCHEMA = pa.schema(
         pa.field("command", pa.string()),  # identify or diagnose: whose parameter it is
         pa.field(
             "parameter", pa.string()
-        ),  # as in the parameter file: compression.k_nom, backlash.g
+        ),  # as in parameter files: backlash.g
         pa.field("unit", pa.string()),
         pa.field("value", pa.float64()),
         pa.field("stderr", pa.float64()),
