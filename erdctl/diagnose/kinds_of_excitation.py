@@ -33,17 +33,13 @@ def kinds_of_motion(recording: Recording, *, coarse: bool = False) -> Index | No
 
     coarse : records that are each of their own kind are of COARSE_KINDS, each as narrow as can be
     """
-    from scipy.cluster.hierarchy import fcluster, linkage
-
     at = excitation(recording)[:, :2]
     if len(at) < 2:
         return None
-    found = _joined(at)
-    if found.max() > thresholds.MOST_KINDS:
-        found = fcluster(linkage(at, "complete", "chebyshev"), thresholds.MOST_KINDS, "maxclust")
+    found = _of_most(at)
     if coarse and found.max() == len(at):
-        found = fcluster(linkage(at, "complete", "chebyshev"), thresholds.COARSE_KINDS, "maxclust")
-    return _along(recording, np.asarray(found - 1, dtype=np.intp), thresholds.MOTION_KINDS)
+        found = _of_most(at, thresholds.COARSE_KINDS)
+    return _along(recording, found - 1, thresholds.MOTION_KINDS)
 
 
 def motions(recording: Recording) -> int:
@@ -52,12 +48,51 @@ def motions(recording: Recording) -> int:
     return 1 if len(at) < 2 else int(_joined(at).max())
 
 
+def strokes_and_speeds(recording: Recording) -> list[Index]:
+    """(n,) stroke of each sample's record, numbered, and its speed, of COARSE_KINDS at most.
+
+    Without those of which all records have the same, each its own, or that part the records as
+    `kinds_of_motion` does. Where a stroke is left out at whatever speed, a law has to hold beyond
+    the travel that it was seen at.
+    """
+    at = excitation(recording)[:, :2]
+    if len(at) < 2:
+        return []
+    found = [_narrow(at[:, [i]]) - 1 for i in range(2)]
+    parted = [_along(recording, kinds, thresholds.MOTION_KINDS) for kinds in found]
+    other = kinds_of_motion(recording, coarse=True)
+    return [k for k in parted if k is not None and not (other is not None and _same(k, other))]
+
+
+def _same(a: Index, b: Index) -> bool:
+    """Whether two numberings part samples alike."""
+    both = len(np.unique(np.stack([a, b]), axis=1).T)
+    return both == len(np.unique(a)) == len(np.unique(b))
+
+
 def _joined(at: Array) -> Index:
-    """(r,) kind of motion of each record, from 1."""
+    """(r,) kind of each record, from 1: those nearer than KIND_FACTOR, or joined by others."""
     from scipy.cluster.hierarchy import fcluster, linkage
 
     apart = np.log(thresholds.KIND_FACTOR)
     found = fcluster(linkage(at, "single", "chebyshev"), apart, "distance")
+    return np.asarray(found, dtype=np.intp)
+
+
+def _of_most(at: Array, most: int = thresholds.MOST_KINDS) -> Index:
+    """(r,) kind of each record as `_joined`; where that makes more than so many, so many."""
+    found = _joined(at)
+    return found if found.max() <= most else _narrow(at, most)
+
+
+def _narrow(at: Array, most: int = thresholds.COARSE_KINDS) -> Index:
+    """(r,) kind of each record, from 1: no two of a kind as far apart as KIND_FACTOR, but for the
+    sake of so few kinds."""
+    from scipy.cluster.hierarchy import fcluster, linkage
+
+    tree = linkage(at, "complete", "chebyshev")
+    found = fcluster(tree, np.log(thresholds.KIND_FACTOR), "distance")
+    found = found if found.max() <= most else fcluster(tree, most, "maxclust")
     return np.asarray(found, dtype=np.intp)
 
 
