@@ -35,6 +35,7 @@ class Comparison:
         that of the worse one
     scatter : standard error of a mean square from as many groups, over itself
     apart : mean square of what the two fits differ by, over that of what the better one leaves
+    few : whether the log has fewer records than can be left out whole
     """
 
     gain: float
@@ -47,6 +48,7 @@ class Comparison:
     settling: float
     scatter: float
     apart: float
+    few: bool = False
 
     @property
     def significant(self) -> bool:
@@ -82,13 +84,15 @@ class Comparison:
         """Whether the two cannot be told apart: neither by places, nor by energy, nor by size.
 
         Nor can two fits that are one force on this log, whatever either loses where it is left out.
-        Where they differ in a single place that may be anything which happened there.
+        Where they differ in a single place that may be anything which happened there. In a record
+        or two the scatter over places is too small where the noise has a long memory: no records
+        show it, and more than twice that is asked.
         """
         if min(self.gain, self.apart) < thresholds.LEAST_GAIN:
             return True
         several = self.energy.groups.places >= thresholds.LEAST_PLACES
-        differ = self.t_stretches > thresholds.T_TIE
-        differ = differ or (several and self.energy.z > thresholds.T_TIE)
+        beyond = thresholds.Z_ENERGY if self.few else thresholds.T_TIE
+        differ = self.t_stretches > beyond or (several and self.energy.z > beyond)
         return not (differ or self.gain > self.scatter)
 
 
@@ -108,7 +112,7 @@ def compare(problem: Problem, worse: Hypothesis, better: Hypothesis) -> Comparis
     apart, rest = (float(np.dot(weight, m)) for m in missed)
     return Comparison(
         gain, t_stretches, t_groups, energy, size, before, after, settling, scatter,
-        apart / max(rest, 1e-300),
+        apart / max(rest, 1e-300), len(problem.recording.names) < thresholds.LEAST_RECORDS,
     )  # fmt: skip
 
 
