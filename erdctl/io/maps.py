@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping as Mapping_
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from erdctl.core.errors import InputProblem, UsageProblem
-from erdctl.io.spelling import name_and_unit, stated
-from erdctl.io.units import RECORD, TARGETS, Conversion, conversion, listed
+from erdctl.io.spelling import name_and_unit, stated, unit_spelt
+from erdctl.io.units import (
+    RECORD,
+    TARGETS,
+    UNITS,
+    Conversion,
+    WrongUnit,
+    between,
+    conversion,
+    listed,
+)
 
 
 @dataclass(frozen=True)
@@ -33,12 +43,30 @@ class Mapping:
         """The unit that the option gives, if it gives one."""
         return name_and_unit(self.source)[1]
 
-    def is_in(self, columns: Sequence[str]) -> bool:
-        """Whether `find` would find it; that there was no control needs no column."""
+    def is_in(self, columns: Sequence[str], units: Mapping_[str, str]) -> bool:
+        """Whether a log has the column, and states no other unit for it than this does.
+
+        units : as the log states them for columns, apart from those in names
+        """
         if self.target == "duty" and self.source == "0":
-            return True
+            return True  # that there was no control needs no column
         bare = self.source[1:].strip() if self.source.startswith("-") else ""
-        return any(name and _find(name, columns) is not None for name in (self.source, bare))
+        for name in (self.source, bare):
+            found = _find(name, columns) if name else None
+            if found is not None:
+                return self._agrees(units.get(found[0]) or stated(found[0])[1])
+        return False
+
+    def _agrees(self, unit: str | None) -> bool:
+        if unit is None or self.unit is None or self.target == RECORD:
+            return True
+        own, other = (unit_spelt(u) or u.strip() for u in (self.unit, unit))
+        if own == other:
+            return True
+        try:
+            return between(own, UNITS[self.target]) == between(other, UNITS[self.target])
+        except WrongUnit:
+            return False
 
     def find(self, columns: Sequence[str], file: str) -> tuple[str, Conversion]:
         """The log's column, and how its values become SI.

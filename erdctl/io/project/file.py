@@ -61,8 +61,8 @@ def parse_project(data: bytes, path: str) -> Project:
         message, key = where_of(str(error), raw)
         raise _problem(message, name, text, key) from None
     project = Project(
-        name=name, folder=str(Path(path).resolve().parent), sha256=hashlib.sha256(data).hexdigest(),
-        content=content,
+        name=name, folder=str(Path(path).resolve().parent), source=text,
+        sha256=hashlib.sha256(data).hexdigest(), content=content,
     )  # fmt: skip
     for message, key in _wrong(project):
         raise _problem(message, name, text, key)
@@ -100,6 +100,11 @@ def _parsed(data: bytes, name: str) -> tuple[str, dict[str, Any]]:
         ) from None
 
 
+def problem_of(project: Project, key: tuple[str, ...], message: str) -> ProjectProblem:
+    """What is wrong with a value of a project that has been read."""
+    return _problem(message, project.name, project.source, key)
+
+
 def _problem(message: str, name: str, text: str, key: tuple[str, ...]) -> ProjectProblem:
     return ProjectProblem(message, file=name, key=".".join(key), line=line_of(text, key))
 
@@ -116,8 +121,7 @@ def _wrong(project: Project) -> Iterator[Wrong]:
         except re.error:
             yield f"'{glob}' is no pattern; write it like raw/**/*.csv", ("logs",)
     yield from _wrong_labels(project)
-    for where, section in project.sections():
-        at = tuple(where.split(".", 1)) if where else ()
+    for at, section in project.sections():
         for message, key in (*_wrong_columns(section, bool(content.logs)), *_wrong_values(section)):
             yield message, (*at, *key)
 

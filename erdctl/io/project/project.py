@@ -12,23 +12,24 @@ from erdctl.io.project.labels import Labels, groups, labels_of_groups, relative
 from erdctl.io.project.patterns import pattern_of
 from erdctl.io.project.shape import AmplifierLimits, ProjectFile, Section
 
-GENERAL = ""  # where a value is from that is said of all
+At = tuple[str, ...]
+GENERAL: At = ()  # where that stands which is said of all
 
 
 @dataclass(frozen=True)
 class Said:
-    """A value and where it stands: "" for what holds of all, else `corner.fl` or `damper.A07`."""
+    """A value and the table that it stands in: () for what holds of all, `("damper", "A07")`."""
 
     value: Any
-    where: str
+    at: At
 
-    def key(self, name: str) -> str:
-        """Its place in the file.
+    def key(self, *names: str) -> str:
+        """Its place in the file, in dots.
 
-        >>> Said(0.4, "damper.A07").key("amplifier.duty_max")
+        >>> Said(0.4, ("damper", "A07")).key("amplifier", "duty_max")
         'damper.A07.amplifier.duty_max'
         """
-        return f"{self.where}.{name}" if self.where else name
+        return ".".join((*self.at, *names))
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,12 +37,14 @@ class Project:
     """What a project file says. What is said of a damper wins over what is said of a corner, and
     that over what is said of all; values win one by one, not table by table.
 
-    name : for messages;  folder : absolute, in which the file lies;  sha256 : of its bytes
+    name : for messages;  folder : absolute, in which the file lies;  source : its text
+    sha256 : of its bytes
     """
 
     name: str
     folder: str
     sha256: str
+    source: str
     content: ProjectFile
 
     def labels(self, path: str, columns: Mapping[str, str] | None = None) -> Labels:
@@ -57,8 +60,8 @@ class Project:
 
     def columns(self, labels: Labels) -> dict[str, Said]:
         """Contract column -> NAME[UNIT], as `--map` has it."""
-        return {k: s for where, section in self._sections(labels)
-                for k, v in section.columns.items() for s in (Said(v, where),)}  # fmt: skip
+        return {k: Said(v, at) for at, section in self._sections(labels)
+                for k, v in section.columns.items()}  # fmt: skip
 
     def mapping(self, labels: Labels) -> tuple[str, ...]:
         """The same as options `--map`."""
@@ -66,24 +69,24 @@ class Project:
 
     def text(self, labels: Labels) -> dict[str, Said]:
         """Key -> value, as `--text` has them."""
-        return {k: Said(v, where) for where, section in self._sections(labels)
+        return {k: Said(v, at) for at, section in self._sections(labels)
                 for k, v in section.text.items()}  # fmt: skip
 
     def where(self, labels: Labels) -> dict[str, Said]:
         """Column -> list of values, as `--where` has them."""
-        return {k: Said([v] if isinstance(v, str) else v, where)
-                for where, section in self._sections(labels)
+        return {k: Said([v] if isinstance(v, str) else v, at)
+                for at, section in self._sections(labels)
                 for k, v in section.where.items()}  # fmt: skip
 
     def limits(self, labels: Labels) -> dict[str, Said]:
         """`amplifier.duty_max`, `rig.accept` and so on -> value, of those that are given."""
         out = {}
-        for where, section in self._sections(labels):
+        for at, section in self._sections(labels):
             for table in ("amplifier", "rig"):
                 part = getattr(section, table)
                 for name in part.__struct_fields__:
                     if (value := getattr(part, name)) is not None:
-                        out[f"{table}.{name}"] = Said(value, where)
+                        out[f"{table}.{name}"] = Said(value, at)
         return out
 
     def options(self, command: str, labels: Labels) -> dict[str, Said]:
@@ -92,12 +95,12 @@ class Project:
         The names are those of all commands: what a command does not have is left to the caller.
         """
         out = {}
-        for where, section in self._sections(labels):
+        for at, section in self._sections(labels):
             own = section.options.get(command)
             plain = {k: v for k, v in section.options.items() if not isinstance(v, dict)}
-            for key, values in (("options", plain), (f"options.{command}", own)):
+            for keys, values in ((("options",), plain), (("options", command), own)):
                 for name, value in values.items() if isinstance(values, dict) else ():
-                    out[name] = Said(value, f"{where}.{key}" if where else key)
+                    out[name] = Said(value, (*at, *keys))
         return out
 
     def reads(self, path: str) -> bool:
@@ -107,24 +110,24 @@ class Project:
         here = "" if path == "-" else relative(path, self.folder)
         return any(p.fullmatch(here) for p in self._globs)
 
-    def with_limits_of_their_own(self) -> list[str]:
+    def with_limits_of_their_own(self) -> list[At]:
         """Dampers and corners for which the amplifier's or the rig's limits are said apart."""
         return [
-            where for where, section in self.sections()
-            if where != GENERAL
+            at for at, section in self.sections()
+            if at != GENERAL
             and (section.amplifier != AmplifierLimits() or section.rig.max_temperature is not None)
         ]  # fmt: skip
 
-    def sections(self) -> Iterator[tuple[str, Section]]:
-        """All of them, and what they are called in the file."""
+    def sections(self) -> Iterator[tuple[At, Section]]:
+        """All of them, and where they stand; the one that wins last."""
         yield GENERAL, self.content
-        yield from ((f"corner.{name}", s) for name, s in self.content.corner.items())
-        yield from ((f"damper.{name}", s) for name, s in self.content.damper.items())
+        yield from ((("corner", name), s) for name, s in self.content.corner.items())
+        yield from ((("damper", name), s) for name, s in self.content.damper.items())
 
-    def _sections(self, labels: Labels) -> Iterator[tuple[str, Section]]:
-        """Those that hold, the one that wins last."""
-        here = {GENERAL, f"corner.{labels.corner}", f"damper.{labels.damper}"}
-        return ((where, section) for where, section in self.sections() if where in here)
+    def _sections(self, labels: Labels) -> Iterator[tuple[At, Section]]:
+        """Those that hold."""
+        here = {GENERAL, ("corner", labels.corner), ("damper", labels.damper)}
+        return ((at, section) for at, section in self.sections() if at in here)
 
     @cached_property
     def _pattern(self) -> re.Pattern[str] | None:

@@ -8,6 +8,7 @@ otherwise be taken as 0.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -87,8 +88,7 @@ class ProjectReading:
         columns = self.project.columns(labels)
         taken = {m.target for m in given}
         own = [self._mapping(t, s) for t, s in columns.items() if t not in taken]
-        names = (*source.columns, *source.clocks)
-        found = [m for m in own if m.is_in(names)]
+        found = [m for m in own if _is_in(m, source)]
         of_lab = bool(self.project.content.logs) or any(m.source not in TARGETS for m in found)
         if of_lab:
             self._missing([m for m in own if m not in found], source, needed, say)
@@ -138,10 +138,16 @@ class ProjectReading:
         corners = self.project.content.corner
         if labels.corner is not None or not corners or {"t", "x"} <= set(source.columns):
             return labels
-        names = (*source.columns, *source.clocks)
+        # Columns of their own: a time is there for all.
+        uses = Counter(
+            v for _, section in self.project.sections() for v in set(section.columns.values())
+        )
         here = [
             name for name, section in corners.items()
-            if any(self._mapping(t, Said(s, "")).is_in(names) for t, s in section.columns.items())
+            if any(
+                uses[v] == 1 and _is_in(self._mapping(t, Said(v, ())), source)
+                for t, v in section.columns.items()
+            )
         ]  # fmt: skip
         if len(here) > 1 and needed:
             raise InputProblem(
@@ -174,6 +180,10 @@ class ProjectReading:
     def _use(self, what: str, names: Sequence[str]) -> None:
         if names:
             self.used(f"{what} {', '.join(names)}".strip())
+
+
+def _is_in(mapping: ColumnMapping, source: TableSource) -> bool:
+    return mapping.is_in((*source.columns, *source.clocks), source.units)
 
 
 def read_labels(project: Project, path: str) -> Labels:
