@@ -120,8 +120,8 @@ def test_text_is_for_what_is_no_plain_csv(
     read = reads('[text]\nseparator = "semicolon"\ndecimal = "comma"\n')
     assert np.array_equal(read(write(PLAIN)).recording.t, T)
     assert read.used == []
-    rows = [f"{t:.3f};{x:.6f};0,3;{f:.4f}".replace(".", ",") for t, x, f in zip(T, X, FORCE,
-                                                                               strict=True)]  # fmt: skip
+    samples = zip(T, X, FORCE, strict=True)
+    rows = [f"{t:.3f};{x:.6f};0,3;{f:.4f}".replace(".", ",") for t, x, f in samples]
     lab = tmp_path / "lab.txt"
     lab.write_text("\n".join(["t;x;duty;force", *rows]))
     assert np.allclose(read(str(lab)).recording.t, T)
@@ -147,7 +147,7 @@ def test_a_car_is_read_by_corner(reads: Callable[..., Reads], write: Write) -> N
     log = reads(CORNERS, corner="fr")(path)
     assert np.array_equal(log.recording.force, 2.0 * FORCE)
     assert log.recording.labels == {"corner": "fr"}
-    with pytest.raises(InputProblem, match="corners fl, fr.*choose one: --corner fl"):
+    with pytest.raises(InputProblem, match=r"corners fl, fr.*choose one: --corner fl"):
         reads(CORNERS)(path)
     # A log of one corner needs no choice.
     one = write({k: v for k, v in CAR.items() if "_fr" not in k}, "fl.parquet")
