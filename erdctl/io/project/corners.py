@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from erdctl.io.project.shape import CORNERS
@@ -34,20 +35,22 @@ class Corner:
         return next((column for column, bare in self.own.items() if bare == seen), seen)
 
 
-def corners_of(source: TableSource) -> list[Corner]:
+def corners_of(columns: Sequence[str]) -> list[Corner]:
     """The corners that names of columns tell; none where their names would be the same as others.
 
     Check: of F_fl, F_fr and t there are two corners, of which t is in neither.
+    >>> [(c.name, c.own) for c in corners_of(["t", "F_fl", "F_fr"])]
+    [('fl', {'F_fl': 'F'}), ('fr', {'F_fr': 'F'})]
     """
     found: dict[str, dict[str, str]] = {}
-    for column in source.columns:
+    for column in columns:
         token = _TOKEN.findall(column.replace("_", " "))
         if len(token) == 1:
             plain = _TOKEN.sub("", column.replace("_", " "), count=1)
             bare = " ".join(_EDGES.sub("", plain).split())
             found.setdefault(token[0].casefold(), {})[column] = bare or column
     everything = {c for own in found.values() for c in own}
-    shared = [c for c in source.columns if c not in everything]
+    shared = [c for c in columns if c not in everything]
     if any(len({*own.values(), *shared}) < len(own) + len(shared) for own in found.values()):
         return []
     return [

@@ -27,7 +27,7 @@ def line_of(text: str, key: tuple[str, ...]) -> int | None:
     """The line in which a key is complete, from 1; None where that cannot be said.
 
     It is the first to which the file can be read with the key in it.
-    Check: the second key of a table in line 2.
+    Check: the second key of a table in line 1 stands in line 3.
     >>> line_of("[rig]\\nstrict = true\\naccept = 3", ("rig", "accept"))
     3
     """

@@ -55,7 +55,7 @@ def project_text(paths: Sequence[str], folder: str, *, text: TextSpec, say: Say)
         if lost := [c for c in sources[0].columns if c not in source.columns]:
             say(f"{source.name}: without {', '.join(lost[:8])}, which {sources[0].name} has")
     sample = sources[0]
-    corners = corners_of(sample)
+    corners = corners_of(sample.columns)
     general = _columns(sample, corners, None, say)
     ambiguous = any(_is_bare(line) for line in general.lines)
     parts = [
