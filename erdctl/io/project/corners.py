@@ -14,7 +14,7 @@ _EDGES = re.compile(r"^[\s_.\-:]+|[\s_.\-:]+$")
 
 
 @dataclass(frozen=True)
-class Corner:
+class CarCorner:
     """One corner of a log.
 
     own : its columns -> what they would be called without the corner;  others : of other corners
@@ -35,7 +35,7 @@ class Corner:
         return next((column for column, bare in self.own.items() if bare == seen), seen)
 
 
-def corners_of(columns: Sequence[str]) -> list[Corner]:
+def corners_of(columns: Sequence[str]) -> list[CarCorner]:
     """The corners that names of columns tell; none where their names would be the same as others.
 
     Check: of F_fl, F_fr and t there are two corners, of which t is in neither.
@@ -54,6 +54,6 @@ def corners_of(columns: Sequence[str]) -> list[Corner]:
     if any(len({*own.values(), *shared}) < len(own) + len(shared) for own in found.values()):
         return []
     return [
-        Corner(name, found[name], frozenset(everything - set(found[name])))
+        CarCorner(name, found[name], frozenset(everything - set(found[name])))
         for name in CORNERS if name in found
     ]  # fmt: skip

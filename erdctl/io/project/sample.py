@@ -14,7 +14,7 @@ from erdctl.core.messages import shown
 from erdctl.io.maps import parse_maps
 from erdctl.io.meaning import Meant, meant, unit_of_column
 from erdctl.io.plan import plan_columns
-from erdctl.io.project.corners import Corner, corners_of
+from erdctl.io.project.corners import CarCorner, corners_of
 from erdctl.io.project.names import label_lines
 from erdctl.io.sources import TableSource, open_source
 from erdctl.io.spelling import name_and_unit, stated
@@ -111,7 +111,7 @@ _LIMITS = """
 
 
 def _columns(
-    source: TableSource, corners: Sequence[Corner], corner: Corner | None, say: Say
+    source: TableSource, corners: Sequence[CarCorner], corner: CarCorner | None, say: Say
 ) -> Columns:
     """The columns of one corner, or all others: what the reader recognises, and its doubts."""
     out = Columns()
