@@ -15,7 +15,8 @@ What may stand in it:
   [rig]                        max_temperature, accept, strict
   [options]                    robust = true, of every command that has --robust
   [options.diagnose]           of one command
-  [labels]                     path, date, columns: how damper, corner, date and conditions are read
+  [labels]                     path, date, columns, damper: how damper, corner, date and
+                               conditions are read
   [corner.fl.columns]          of one corner (fl, fr, rl, rr): all tables above but [labels]
   [damper.A07.amplifier]       of one damper, likewise
 

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 # By the names of parameters: what belongs to one run, or has a table of its own in the file.
 ELSEWHERE = {
+    "damper": "[labels]", "date": "[labels]",
     "maps": "[columns]", "text": "[text]", "where": "[where]",
     **dict.fromkeys(("duty_max", "resolution", "slew", "update_rate", "carrier", "full_scale"),
                     "[amplifier]"),

@@ -56,6 +56,7 @@ class Project:
         """
         found = {} if path == "-" else groups(self._pattern, relative(path, self.folder))
         rules = self.content.labels
+        found = {"damper": rules.damper, **{k: v for k, v in found.items() if v}}
         return labels_of_groups({**found, **(columns or {})}, rules.date, path)
 
     def columns(self, labels: Labels) -> dict[str, Said]:

@@ -61,11 +61,13 @@ class LabelRules(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
         folders, from the folder of the project file on
     date : its format, as strptime has it; without, ISO 8601
     columns : damper, corner, date or a condition = the log's column that holds it
+    damper : the one of all logs whose path and columns name none
     """
 
     path: Annotated[str, Meta(min_length=1, max_length=1000)] | None = None
     date: Annotated[str, Meta(min_length=1, max_length=100)] | None = None
     columns: dict[Name, Name] = {}
+    damper: Name | None = None
 
 
 class ProjectFile(Section, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -35,6 +35,13 @@ def test_folders_below_the_project_count_and_those_above_do_not() -> None:
     assert p.labels("/lab/x/A07/2024-05-01.csv") == Labels()
 
 
+def test_a_damper_of_all_logs_that_name_none() -> None:
+    p = project(f"path = '{PATTERN}'\ndamper = 'B1'")
+    assert [p.labels(q).damper for q in ("-", "x.csv", "A07_20240501_25C.csv")] == [
+        "B1", "B1", "A07",
+    ]  # fmt: skip
+
+
 def test_a_column_wins_over_the_path() -> None:
     p = project()
     found = p.labels("/lab/A07_20240501_25C.csv", {"damper": "B2", "rig": "3"})
