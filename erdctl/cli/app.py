@@ -18,6 +18,7 @@ from typer.core import TyperCommand, TyperGroup, TyperOption
 # cores: on 10 million rows they made `identify` ten times slower. NumPy reads this when it loads.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+from erdctl.cli import in_force
 from erdctl.cli.options import EXIT_CODES
 from erdctl.cli.streams import open_streams
 from erdctl.core.errors import ErdctlError, ExitCode, InputProblem
@@ -37,17 +38,36 @@ class Command(TyperCommand):
     def __init__(self, *arguments: Any, **options: Any) -> None:
         super().__init__(*arguments, **options)
         self.params.append(quiet_option())
+        self.params.extend(in_force.options(self.params))
 
     def invoke(self, ctx: Any) -> Any:
         from erdctl.cli import files
         from erdctl.io.atomic import together
 
+        project = _project(ctx)
         names = files.names(self.params, ctx.params)
-        with together(names):
+        with in_force.force(project), together([*in_force.names(project), *names]):
             try:
                 return super().invoke(ctx)
             except InputProblem as problem:
                 raise files.placed(problem, names) from None
+
+
+def _project(ctx: Any) -> in_force.InForce | None:
+    """The project file that a command is under; those that are about it take it as they like."""
+    if ctx.parent is not None and ctx.parent.info_name == "project":
+        return None
+    if in_force.file_of(ctx) is None and "duty_max" not in ctx.params:
+        return None  # what most calls have to do
+    from erdctl.cli.project_options import applied
+
+    return applied(ctx, all_commands)
+
+
+def all_commands() -> dict[str, Any]:
+    """Every command by its name, as Typer builds it."""
+    commands: dict[str, Any] = typer.main.get_command(build()).commands  # type: ignore[attr-defined]  # a group
+    return commands
 
 
 def quiet_option() -> TyperOption:
@@ -126,7 +146,7 @@ def _full(error: OSError) -> typer.Exit:
 
 COMMANDS = (
     "inspect", "identify", "simulate", "validate", "diagnose", "prove", "mimic", "export", "plot",
-    "convert", "derive", "effects", "schema",
+    "convert", "derive", "effects", "project", "schema",
 )  # fmt: skip
 
 
@@ -165,9 +185,14 @@ def build(names: Sequence[str] = COMMANDS) -> typer.Typer:
     )
     app.callback()(root)
     for name in names:
-        app.command(name, cls=Command, epilog=EXIT_CODES)(
-            import_module(f"erdctl.cli.{name}").command
-        )
+        module = import_module(f"erdctl.cli.{name}")
+        under, functions = app, getattr(module, "COMMANDS", None)
+        if functions is not None:  # several under one word
+            under = typer.Typer(rich_markup_mode=None)
+            app.add_typer(under, name=name, help=module.__doc__, epilog=EXIT_CODES,
+                          no_args_is_help=True)  # fmt: skip
+        for word, function in (functions or {name: module.command}).items():
+            under.command(word, cls=Command, epilog=EXIT_CODES)(function)
     return app
 
 

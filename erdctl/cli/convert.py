@@ -50,17 +50,23 @@ def command(
       erdctl convert bench.csv bench.mat
       erdctl convert lab.txt out.parquet --text decimal=comma --map "force=Load (N)[0.98 N]"
     """
+    from erdctl.cli.in_force import IN_FORCE
     from erdctl.core.progress import part_of
     from erdctl.io.convert import read_converted
     from erdctl.io.tables import output_format, write_table
     from erdctl.report.text import progress, say
 
-    wanted = format and format.value
+    wanted, project = format and format.value, IN_FORCE.get()
     output_format(output, wanted)  # a wrong suffix shows before a long reading
     with progress() as step:
         step("reading", part_of(log, 1, 2))
         table = read_converted(
-            log, maps=maps, text=text, say=say, warn=lambda line: say(line, "warning")
+            log,
+            maps=maps,
+            text=text,
+            project=None if project is None else project.reading,
+            say=say,
+            warn=lambda line: say(line, "warning"),
         )
         step("writing", part_of(output, 2, 2))
         write_table(table, output, wanted)

@@ -98,6 +98,7 @@ def command(
         with progress() as step:
             modelled = simulate(parameters, log.recording, progress=step)
     log = labelled(log, labels)
+    labels = dict(log.recording.labels)
     rig = look(log.recording, modelled).accept(accept)
     show(rig)
     found = validate(log.recording, modelled, Normalise(normalise))

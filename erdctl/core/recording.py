@@ -39,7 +39,7 @@ class Recording:
     names : (r,) names of the records
     xdot_note : how xdot was obtained
     excluded : (n,) samples that fits and scores leave out, None for none
-    labels : date, damper and operator of the test, as far as somebody said
+    labels : date, damper and operator of the test and the like, as far as somebody said
     """
 
     t: Array

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pyarrow as pa
@@ -18,12 +19,16 @@ from erdctl.io.stored import si, units_apart, with_unit
 from erdctl.io.text.options import TextOptions, TextSpec, parse_text_options
 from erdctl.io.units import RECORD, Conversion
 
+if TYPE_CHECKING:
+    from erdctl.io.project.reading import ProjectReading
+
 
 def read_converted(
     path: str,
     *,
     maps: Sequence[str] = (),
     text: TextSpec = None,
+    project: ProjectReading | None = None,
     say: Callable[[str], None],
     warn: Callable[[str], None] | None = None,
 ) -> pa.Table:
@@ -31,18 +36,25 @@ def read_converted(
 
     Nothing is required of it: it need not be a whole log. But where it has a time or records, they
     must be in order, as every other command demands.
-    maps, text : options `--map` and `--text`;  say : takes a line for all that was assumed
+    maps, text : options `--map` and `--text`;  project : what a project file says besides
+    say : takes a line for all that was assumed
     warn : takes a line for every column with values that no other command would accept; by default
         that is said like the rest
     Raises UsageProblem, InputProblem as `read_logs` does.
     """
     mappings = parse_maps(maps)
     written = parse_text_options(text)
-    source = open_source(path, text=None if written == TextOptions() else written)
+    explicit = None if written == TextOptions() else written
+    assumed = None
+    if project is not None:
+        explicit, assumed = project.text(path, text)
+    source = open_source(path, text=explicit, assumed=assumed)
 
     def note(line: str) -> None:
         say(f"{source.name}: {line}")
 
+    if project is not None:
+        mappings = project.of_log(source, mappings, (), needed=(), say=note).mappings
     plan = plan_columns(source, mappings, needed=(), say=note)
     check_fits(source, len(source.columns))
     table, plan, _ = read_planned(source, plan, mappings, source.columns, say=note)

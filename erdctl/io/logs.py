@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pyarrow as pa
@@ -24,12 +24,17 @@ from erdctl.io.joins import runs
 from erdctl.io.maps import Mapping as ColumnMapping
 from erdctl.io.maps import parse_maps
 from erdctl.io.memory import check_fits
+from erdctl.io.names_of_logs import names_of, qualified, refuse_repeated, stem
 from erdctl.io.plan import ColumnPlan, Report, in_contract_names, plan_columns, read_planned
 from erdctl.io.problems import Problems
 from erdctl.io.sources import STDIN, TableSource, open_source
 from erdctl.io.stored import si, with_unit
 from erdctl.io.text.options import TextOptions, TextSpec, parse_text_options
 from erdctl.io.units import RECORD, Conversion
+
+if TYPE_CHECKING:
+    from erdctl.io.project.labels import Labels
+    from erdctl.io.project.reading import ProjectReading
 
 Held = Mapping[str, bytearray]
 
@@ -56,6 +61,7 @@ class Log:
     channels : what was read, and from which columns;  unread : columns that were not
     others : (n,) further columns that were asked for and are there
     units : as the file states them for columns, apart from those in names like `x [mm]`
+    labels : what the log is of by the project file, of several logs what all are of
     """
 
     recording: Recording
@@ -65,6 +71,7 @@ class Log:
     unread: tuple[str, ...] = ()
     others: dict[str, Array] = field(default_factory=dict)
     units: Mapping[str, str] = field(default_factory=dict)
+    labels: Labels | None = None
 
 
 def read_logs(
@@ -79,6 +86,7 @@ def read_logs(
     want_hash: bool = False,
     others: Sequence[str] = (),
     held: Held = MappingProxyType({}),
+    project: ProjectReading | None = None,
     report: Report,
     progress: Progress = lambda stage, what: None,
 ) -> Log:
@@ -89,6 +97,7 @@ def read_logs(
     keep_table : keep all columns, for a single log;  want_hash : SHA-256 of each log
     others : columns of numbers to read where they are there, of a single log
     held : bytes of logs that are in memory, by what `paths` calls them
+    project : what a project file says, where the options do not
     report : takes a line for everything that was assumed or derived
     progress : called with what is being read
 
@@ -101,7 +110,7 @@ def read_logs(
     if keep_table and len(paths) > 1:
         raise ValueError("keep_table is for a single log")
     mappings, chosen, written = parse_maps(maps), parse_where(where), parse_text_options(text)
-    _refuse_repeated(paths)
+    refuse_repeated(paths)
     logs = [
         _read(
             path,
@@ -114,6 +123,8 @@ def read_logs(
             want_hash=want_hash,
             others=others if len(paths) == 1 else (),
             held=held,
+            project=project,
+            spec=text,
             report=report,
         )
         for path in told(paths, progress, "reading")
@@ -121,8 +132,8 @@ def read_logs(
     if len(logs) == 1:
         return logs[0]
     recordings = [
-        replace(log.recording, names=_qualified(log.recording.names, label))
-        for log, label in zip(logs, _labels(paths), strict=True)
+        replace(log.recording, names=qualified(log.recording.names, label))
+        for log, label in zip(logs, names_of(paths), strict=True)
     ]
     pooled = ", ".join(p if p != STDIN else "stdin" for p in paths[:8])
     more = "" if len(paths) <= 8 else f" and {len(paths) - 8} more"
@@ -130,12 +141,15 @@ def read_logs(
     if len({r.temperature is None for r in recordings}) > 1:
         report("not all logs have a column temperature; it is left out")
     models = [log.force_model for log in logs if log.force_model is not None]
+    together = None if project is None else project.of_all([log.labels for log in logs], report)
+    pool = concatenate(recordings)
     return Log(
-        concatenate(recordings),
+        pool if together is None else replace(pool, labels=together.texts()),
         force_model=np.concatenate(models) if len(models) == len(logs) else None,
         channels=tuple(dict.fromkeys(c for log in logs for c in log.channels)),
         unread=tuple(dict.fromkeys(name for log in logs for name in log.unread)),
         units={name: unit for log in logs for name, unit in log.units.items()},
+        labels=together,
     )
 
 
@@ -151,17 +165,27 @@ def _read(
     want_hash: bool,
     others: Sequence[str],
     held: Held,
+    project: ProjectReading | None,
+    spec: TextSpec,
     report: Report,
 ) -> Log:
-    source = open_source(path, held.get(path), text=text)
+    assumed = None
+    if project is not None:
+        text, assumed = project.text(path, spec)
+    source = open_source(path, held.get(path), text=text, assumed=assumed)
 
     def say(line: str) -> None:
         report(f"{source.name}: {line}")
 
+    needed = ["t", "x", "force"] if need_force else ["t", "x"]
+    labels = None
+    if project is not None:
+        told = project.of_log(source, mappings, where, needed=needed, say=say)
+        mappings, where, labels = told.mappings, told.where, told.labels
     plan = plan_columns(
         source,
         mappings,
-        needed=["t", "x", "force"] if need_force else ["t", "x"],
+        needed=needed,
         left=() if want_force else FORCES,
         say=say,
     )
@@ -203,12 +227,13 @@ def _read(
         channels[target] = values
     problems.settle()
     if RECORD not in plan:
-        starts, names = runs(channels["t"], channels["x"], starts, _stem(path), place, say)
+        starts, names = runs(channels["t"], channels["x"], starts, stem(path), place, say)
     recording = _recording(channels, starts, names, place, plan, narrow=narrow, say=say)
     recording = replace(
         recording,
-        names=names or (_stem(path),),
+        names=names or (stem(path),),
         sources=(Source(as_text(path), digest, rows),),
+        labels={} if labels is None else labels.texts(),
     )
     return Log(
         recording,
@@ -221,6 +246,7 @@ def _read(
         unread=tuple(c for c in source.columns if c not in {column for column, _ in plan.values()}),
         others=found,
         units=dict(source.units),
+        labels=labels,
     )
 
 
@@ -292,26 +318,3 @@ def _with_own_label(
         return table
     text = runs_of_text(names, np.diff(starts), field.type)
     return table.set_column(index, field, text)
-
-
-def _refuse_repeated(paths: Sequence[str]) -> None:
-    seen: set[str] = set()
-    for path in paths:
-        real = path if path == STDIN else os.path.realpath(path)
-        if real in seen:
-            raise UsageProblem(f"'{path}' is given twice; its samples would count twice")
-        seen.add(real)
-
-
-def _stem(path: str) -> str:
-    return "stdin" if path == STDIN else as_text(os.path.splitext(os.path.basename(path))[0])
-
-
-def _labels(paths: Sequence[str]) -> list[str]:
-    stems = [_stem(p) for p in paths]
-    # Logs of the same name in several directories are distinguished by their paths.
-    return [s if stems.count(s) == 1 else p for s, p in zip(stems, paths, strict=True)]
-
-
-def _qualified(names: Sequence[str], label: str) -> tuple[str, ...]:
-    return tuple(n if n.split(":")[0] == label else f"{label}:{n}" for n in names)

@@ -2,27 +2,71 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping as Mapping_
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from erdctl.core.errors import InputProblem, UsageProblem
-from erdctl.io.spelling import name_and_unit, stated
-from erdctl.io.units import RECORD, TARGETS, Conversion, conversion, listed
+from erdctl.io.spelling import name_and_unit, stated, unit_spelt
+from erdctl.io.units import (
+    RECORD,
+    TARGETS,
+    UNITS,
+    Conversion,
+    WrongUnit,
+    between,
+    conversion,
+    listed,
+)
 
 
 @dataclass(frozen=True)
 class Mapping:
-    """One `--map`: which of the log's columns a contract column is, and in what unit."""
+    """One `--map`: which of the log's columns a contract column is, and in what unit.
+
+    spec : as it was written;  said : where, for messages
+    """
 
     target: str
     source: str
     spec: str
+    said: str = "--map"
+
+    @property
+    def quoted(self) -> str:
+        """As messages quote it: `--map "x=Defl FL[mm]"`."""
+        return f'{self.said} "{self.spec}"'
 
     @property
     def unit(self) -> str | None:
         """The unit that the option gives, if it gives one."""
         return name_and_unit(self.source)[1]
+
+    def is_in(self, columns: Sequence[str], units: Mapping_[str, str]) -> bool:
+        """Whether a log has the column, and states no other unit for it than this does.
+
+        units : as the log states them for columns, apart from those in names
+        """
+        if self.target == "duty" and self.source == "0":
+            return True  # that there was no control needs no column
+        bare = self.source[1:].strip() if self.source.startswith("-") else ""
+        for name in (self.source, bare):
+            found = _find(name, columns) if name else None
+            if found is not None:
+                return self._agrees(units.get(found[0]) or stated(found[0])[1])
+        return False
+
+    def _agrees(self, unit: str | None) -> bool:
+        if unit is None or self.unit is None or self.target == RECORD:
+            return True
+        own, other = (unit_spelt(u) or u.strip() for u in (self.unit, unit))
+        if own == other:
+            return True
+        try:
+            return between(own, UNITS[self.target]) == between(other, UNITS[self.target])
+        except WrongUnit:
+            return False
 
     def find(self, columns: Sequence[str], file: str) -> tuple[str, Conversion]:
         """The log's column, and how its values become SI.
@@ -43,7 +87,7 @@ class Mapping:
     def _conversion(self, unit: str | None, sign: Fraction) -> Conversion:
         if self.target == RECORD:
             return Conversion()
-        plain = Conversion() if unit is None else conversion(unit, self.target, self.spec)
+        plain = Conversion() if unit is None else conversion(unit, self.target, self.quoted)
         return plain.signed(sign)
 
     def _missing(self, columns: Sequence[str], file: str) -> InputProblem:
@@ -54,22 +98,24 @@ class Mapping:
         close = [by_lower[c] for c in get_close_matches(name.lower(), by_lower, 3, 0.6)]
         hint = f"; close to it: {', '.join(close)}" if close else ""
         return InputProblem(
-            f"--map \"{self.spec}\": the log has no column '{name}'{hint}; it has"
-            f" {listed(columns)}",
+            f"{self.quoted}: the log has no column '{name}'{hint}; it has {listed(columns)}",
             file=file,
         )
 
 
-def parse_maps(specs: Sequence[str]) -> tuple[Mapping, ...]:
+def parse_maps(
+    specs: Sequence[str], said: str = "--map", before: Sequence[Mapping] = ()
+) -> tuple[Mapping, ...]:
     """The `--map` options, checked as far as possible without a log.
 
+    said : where they stand, for messages;  before : mappings that hold already
     Raises UsageProblem for unknown or repeated columns and for wrong units.
     """
     out: list[Mapping] = []
     wrong: list[str] = []
     for spec in specs:
         try:
-            out.append(_parsed(spec, out))
+            out.append(_parsed(spec, (*before, *out), said))
         except UsageProblem as error:
             wrong.append(str(error))
     if wrong:
@@ -77,28 +123,28 @@ def parse_maps(specs: Sequence[str]) -> tuple[Mapping, ...]:
     return tuple(out)
 
 
-def _parsed(spec: str, before: Sequence[Mapping]) -> Mapping:
+def _parsed(spec: str, before: Sequence[Mapping], said: str) -> Mapping:
     target, equals, source = (part.strip() for part in spec.partition("="))
     if not (target and equals and source):
-        raise UsageProblem(f'--map "{spec}": write COLUMN=NAME[UNIT], e.g. --map "force=F_fl[N]"')
+        raise UsageProblem(f'{said} "{spec}": write COLUMN=NAME[UNIT], e.g. --map "force=F_fl[N]"')
     if target not in TARGETS:
         from difflib import get_close_matches
 
         close = get_close_matches(target, TARGETS, 1, 0.4)
         hint = f"did you mean '{close[0]}'? " if close else ""
         raise UsageProblem(
-            f"--map \"{spec}\": unknown column '{target}'; {hint}Columns are {', '.join(TARGETS)}"
+            f"{said} \"{spec}\": unknown column '{target}'; {hint}Columns are {', '.join(TARGETS)}"
         )
     for other in before:
         if other.target == target:
-            raise UsageProblem(f"--map: '{target}' is mapped twice, keep one of the two")
+            raise UsageProblem(f"{said}: '{target}' is mapped twice, keep one of the two")
         if other.source == source:
             raise UsageProblem(
-                f"--map: '{source}' is mapped to both '{other.target}' and '{target}'"
+                f"{said}: '{source}' is mapped to both '{other.target}' and '{target}'"
             )
-    mapping = Mapping(target, source, spec)
+    mapping = Mapping(target, source, spec, said)
     if mapping.unit is not None and target != RECORD:
-        conversion(mapping.unit, target, spec)
+        conversion(mapping.unit, target, mapping.quoted)
     return mapping
 
 

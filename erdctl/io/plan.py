@@ -113,7 +113,7 @@ class _Stated:
             return column, convert
         if source.text is not None and column in source.text.forms:
             raise UsageProblem(
-                f"--map \"{mapping.spec}\": '{column}' holds dates or times, which need no unit"
+                f"{mapping.quoted}: '{column}' holds dates or times, which need no unit"
             )
         if stored is not None:
             self.compare(mapping, column, stored, convert)
@@ -131,8 +131,8 @@ class _Stated:
             same = None
         if same != convert:
             self.say(
-                f"the unit of '{column}' is {stored} in the file and {mapping.unit} by --map;"
-                " --map holds"
+                f"the unit of '{column}' is {stored} in the file and {mapping.unit} by"
+                f" {mapping.said}; {mapping.said} holds"
             )
 
     def conversion(self, target: str, column: str) -> Conversion:

@@ -15,6 +15,7 @@ from erdctl.io import geometry, inspection, parameters
 from erdctl.io.labels import LabelsDocument
 from erdctl.io.manifest import PwmManifest
 from erdctl.io.parameters import ParameterFile
+from erdctl.io.project import shape as project
 from erdctl.io.rig import RigFaultDocument
 from erdctl.io.undetected import Limit, UndetectedDocument
 
@@ -281,4 +282,5 @@ SCHEMAS: dict[str, Callable[[], dict[str, Any]]] = {
     "validation": _of(ValidationFile),
     "diagnosis": _of(DiagnosisFile),
     "pwm": _of(PwmManifest),
+    "project": project.json_schema,
 }

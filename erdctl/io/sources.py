@@ -74,12 +74,17 @@ class TableSource:
 
 
 def open_source(
-    path: str, held: Data | None = None, *, text: TextOptions | None = None
+    path: str,
+    held: Data | None = None,
+    *,
+    text: TextOptions | None = None,
+    assumed: TextOptions | None = None,
 ) -> TableSource:
     """Look at a file, or take all of standard input for `-`; samples are not read yet.
 
     held : the bytes of the file where they are in memory; `path` is then only what it is called
     text : what is given of how a text file is written
+    assumed : the same where it is not written as the contract has it
     Raises UsageProblem if it cannot be opened, InputProblem if it is no table.
     """
     name = "stdin" if path == STDIN else path
@@ -102,7 +107,8 @@ def open_source(
         from erdctl.io import csv_in
         from erdctl.io.plain import is_plain
 
-        written = None if text is None and is_plain(data) else _recognised(data, name, text)
+        plain = text is None and is_plain(data)
+        written = None if plain else _recognised(data, name, text or assumed)
         if written is not None:
             columns, units = list(written.columns), written.units
         else:

@@ -108,9 +108,10 @@ class Conversion:
         return self if sign > 0 else Conversion(-self.factor, -self.offset)
 
 
-def conversion(unit: str, target: str, spec: str) -> Conversion:
+def conversion(unit: str, target: str, said: str) -> Conversion:
     """From a unit as the user wrote it to the SI unit of a contract column.
 
+    said : where, for messages, e.g. `--map "x=Defl FL[mm]"`
     Raises UsageProblem if it is no unit, or a unit of something else.
     """
     wanted = UNITS[target]
@@ -118,8 +119,7 @@ def conversion(unit: str, target: str, spec: str) -> Conversion:
         return between(unit, wanted)
     except WrongUnit as error:
         raise UsageProblem(
-            f"--map \"{spec}\": '{target}' mapped with {error}; expected something like"
-            f" {examples(target)}"
+            f"{said}: '{target}' mapped with {error}; expected something like {examples(target)}"
         ) from None
 
 

@@ -38,8 +38,9 @@ def about(recording: Recording) -> str:
     more = len(recording.sources) - 3
     if more > 0:
         logs += f" and {more} more"
+    shown = [text for name, text in recording.labels.items() if name != "project"]
     size = f"{logs}: {len(recording):,} samples" if logs else f"{len(recording):,} samples"
-    return ", ".join([size, *recording.labels.values()])
+    return ", ".join([size, *shown])
 
 
 def of_diagnosis(found: Diagnosis, parameters: Parameters) -> Subject:

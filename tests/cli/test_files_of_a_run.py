@@ -44,13 +44,16 @@ CALLS = {
     "plot": "plot {logs} --params {params} --before {before} -o {output}",
     "convert": "convert {log} {output}",
     "derive": "derive {geometry} -o {output}",
+    "project": "project init {logs} -o {output}",
     "effects": "effects new bore_wear --from {source} -o {output}",
 }
 SUFFIX = {"report": ".html", "plot": ".png"}
 
 
 def parameters(command: str) -> dict[str, Any]:
-    return {p.name: p for p in GROUP.commands[command].params}
+    """Options and arguments; of several commands under one word those of all."""
+    found = GROUP.commands[command]
+    return {p.name: p for c in (found, *getattr(found, "commands", {}).values()) for p in c.params}
 
 
 def fields(command: str) -> list[str]:

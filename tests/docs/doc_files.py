@@ -84,7 +84,28 @@ def learned(path: Path) -> None:
     path.write_text(json.dumps(document))
 
 
+def in_mm(path: Path) -> None:
+    """A log as a lab names it, in a folder of its own: units in names, percent and mm."""
+    path.parent.mkdir(exist_ok=True)
+    log = pd.read_csv(FIXTURES / "foreign.csv")[["Time", "Defl FL", "F_fl", "PWM"]]
+    log.columns = ["Time (ms)", "Deflection (mm)", "Load (N)", "PWM (%)"]
+    log.to_csv(path, index=False)
+
+
+def car(path: Path) -> None:
+    """A log of four dampers beside one another."""
+    log = pd.read_parquet(FIXTURES / "healthy_campaign.parquet")
+    log = log[log["record"].isin(["sine_2Hz_11mm_pwm0", "steps_1", "steps_3"])].iloc[::4]
+    columns = {"Time [s]": log["t"], "record": log["record"]}
+    for corner in ("fl", "fr", "rl", "rr"):
+        columns |= {f"x_{corner} [mm]": 1e3 * log["x"], f"F_{corner} [N]": log["force"]}
+        columns[f"duty_{corner} [%]"] = 100 * log["duty"]
+    pd.DataFrame(columns).to_parquet(path, index=False)
+
+
 FILES: dict[str, Make] = {
+    "raw/A07_20240501_25C.csv": in_mm,
+    "car.parquet": car,
     "bench.csv": bench("sine_2Hz_11mm_pwm0", "steps_1", "steps_3"),
     "bench.parquet": bench("sine_2Hz_11mm_pwm0", "steps_1", "steps_3"),
     "bench.mf4": converted,

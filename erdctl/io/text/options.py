@@ -45,7 +45,7 @@ def parse_text_options(given: TextSpec) -> TextOptions:
     Raises UsageProblem for unknown keys and values, with those there are.
     """
     out = TextOptions()
-    for key, value in _pairs(given):
+    for key, value in pairs_of(given):
         if key in ("separator", "decimal", "thousands"):
             known = {"separator": SEPARATORS, "decimal": DECIMALS, "thousands": THOUSANDS}[key]
             changes: dict[str, Any] = {key: _sign(key, value, known)}
@@ -71,7 +71,8 @@ def parse_text_options(given: TextSpec) -> TextOptions:
     return out
 
 
-def _pairs(given: TextSpec) -> list[tuple[str, str]]:
+def pairs_of(given: TextSpec) -> list[tuple[str, str]]:
+    """Keys and values as they are given."""
     if given is None:
         return []
     if isinstance(given, Mapping):
