@@ -19,7 +19,7 @@ from erdctl.io.tables import table_of, write_table
 
 
 def run(*words: str | Path) -> Result:
-    return CliRunner().invoke(build(), [str(w) for w in words])
+    return CliRunner().invoke(build([str(words[0])]), [str(w) for w in words])
 
 
 def spoiled(name: str, folder: Path, most: int = 12_000) -> Path:
