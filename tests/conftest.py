@@ -44,6 +44,7 @@ UNTRACED = (
     "export/c/test_learned_in_c.py",
     "export/c/test_models_in_c.py",
     "interface/test_calls_equal_commands.py",
+    "mimic/test_random_plans.py",
     "prove/test_coverage.py",
     "prove/test_prove_command.py",
     "prove/test_prove_nulls.py",
