@@ -45,6 +45,8 @@ UNTRACED = (
     "export/c/test_models_in_c.py",
     "interface/test_calls_equal_commands.py",
     "mimic/test_random_plans.py",
+    "plant/test_plant_asked.py",
+    "plant/test_plant_leak.py",
     "prove/test_coverage.py",
     "prove/test_prove_command.py",
     "prove/test_prove_nulls.py",
