@@ -8,6 +8,7 @@ from collections.abc import Generator
 from functools import cache
 
 import pytest
+import quick_approx
 import typer.testing
 from places import FIXTURES, ROOT, SHARED
 from real_data import MARK, RealData
@@ -15,6 +16,7 @@ from real_data import MARK, RealData
 sys.path.insert(0, str(FIXTURES))  # the oracle is a script's module, not part of the package
 # The processes are the parallelism.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+quick_approx.install()
 # Typer makes Click's commands of an app anew at each call, which takes longer than most calls do.
 typer.testing._get_command = cache(typer.testing._get_command)  # type: ignore[attr-defined]  # its own
 
