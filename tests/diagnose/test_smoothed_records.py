@@ -16,7 +16,7 @@ from erdctl.diagnose.diagnosis import Verdict, diagnose
 from erdctl.effects import catalogue
 from erdctl.score.nrmse import nrmse
 
-FINE, EVERY = 20_000, 100  # Hz of the force; one sample in so many is logged
+FINE, EVERY = 20_000, 40  # Hz of the force; one sample in so many is logged
 K, C, S, BETA, F_C = 200.0, 70.0, 22.0, 0.6, 2.5  # N/m, N s/m, N, 1, N
 PART = 0.13  # of a cycle
 NOISE = 0.2  # N
