@@ -4,16 +4,24 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Generator
+from functools import cache
 
 import pytest
+import quick_approx
+import typer.testing
 from places import FIXTURES, ROOT, SHARED
 from real_data import MARK, RealData
 
 sys.path.insert(0, str(FIXTURES))  # the oracle is a script's module, not part of the package
 # The processes are the parallelism.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+quick_approx.install()
+# Typer makes Click's commands of an app anew at each call, which takes longer than most calls do.
+typer.testing._get_command = cache(typer.testing._get_command)  # type: ignore[attr-defined]  # its own
 
-# Diagnoses of minutes: to trace each line costs them half again, and others run the same lines.
+# Diagnoses of minutes, and what runs nothing of erdctl: tracing costs them half again to twice as
+# much again, and others run the same lines. Single tests of that kind have the mark `untraced`.
 UNTRACED = (
     "diagnose/learning/test_laws_over_two.py",
     "diagnose/test_detectable.py",
@@ -38,20 +46,32 @@ UNTRACED = (
     "export/c/test_learned_in_c.py",
     "export/c/test_models_in_c.py",
     "interface/test_calls_equal_commands.py",
+    "mimic/test_random_plans.py",
+    "plant/test_plant_asked.py",
+    "plant/test_plant_leak.py",
     "prove/test_coverage.py",
     "prove/test_prove_command.py",
     "prove/test_prove_nulls.py",
     "prove/test_prove_on_log.py",
     "prove/test_small_proof.py",
+    "tests/test_architecture.py",
 )
 
 
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    if config.getoption("no_cov"):
-        return  # there is nothing to pause, and pytest-cov would fail
-    for item in items:
-        if item.path.as_posix().endswith(UNTRACED):
-            item.add_marker(pytest.mark.no_cover)
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
+    """From the set-up on, where fixtures diagnose; pytest-cov's `no_cover` is of the call alone."""
+    plugin = item.config.pluginmanager.get_plugin("_cov")
+    control = plugin.cov_controller if plugin is not None else None
+    if control is None or not (
+        item.path.as_posix().endswith(UNTRACED) or item.get_closest_marker("untraced")
+    ):
+        return (yield)
+    control.pause()
+    try:
+        return (yield)
+    finally:
+        control.resume()
 
 
 def pytest_configure(config: pytest.Config) -> None:

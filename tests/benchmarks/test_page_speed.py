@@ -20,7 +20,8 @@ def test_page_of_a_long_log(tmp_path: Path) -> None:
     read = [*python("import pyarrow.parquet as pq, sys; pq.read_table(sys.argv[1])"), str(log)]
     plain = [*ERDCTL, "validate", PARAMS, str(log)]
     paged = [*plain, "--report", str(page)]
-    seconds(read), seconds(plain), seconds(paged)
+    if PAIRS > 3:
+        seconds(read), seconds(plain), seconds(paged)  # a median of three leaves out a first run
     rounds = [(seconds(paged), seconds(plain), seconds(read)) for _ in range(PAIRS)]
     columns = zip(*rounds, strict=True)
     page_time, plain_time, read_time = (sorted(times)[PAIRS // 2] for times in columns)

@@ -19,6 +19,7 @@ pytestmark = pytest.mark.benchmark
 
 ROWS = 10_000_000
 TARGET = 3.0
+FEW = PAIRS if PAIRS > 3 else 2  # of which one takes half a minute for all kinds
 ROOM = 2 * 2**30  # bytes free, of which the log takes an eighth
 READ = "import pyarrow.parquet as pq, sys; pq.read_table(sys.argv[1])"
 REPORT: list[tuple[str, float, float]] = []
@@ -29,7 +30,10 @@ def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("plot")
     if shutil.disk_usage(folder).free < ROOM:
         pytest.skip(f"less than {ROOM >> 30} GiB are free in {folder}")
-    return make_log(folder / "long.parquet", ROWS)
+    path = make_log(folder / "long.parquet", ROWS)
+    # What compiles and what finds fonts does so once, and the file is in memory.
+    seconds([*ERDCTL, "plot", str(path), "--params", PARAMS, "-o", str(folder / "out.png")])
+    return path
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -56,8 +60,7 @@ def test_plot_long(log: Path, options: tuple[str, ...]) -> None:
     picture = log.with_name("out.png")
     ours = [*ERDCTL, "plot", str(log), *options, "-o", str(picture)]
     base = [*python(READ), str(log)]
-    seconds(ours), seconds(base)
-    ratio = statistics.median(seconds(ours) / seconds(base) for _ in range(PAIRS))
+    ratio = statistics.median(seconds(ours) / seconds(base) for _ in range(FEW))
     said = " ".join(o.rsplit("/", 1)[-1] for o in ("plot", *options))
     REPORT.append((said, ratio, TARGET))
     assert picture.stat().st_size < 2**20

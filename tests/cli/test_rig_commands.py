@@ -19,7 +19,13 @@ from erdctl.io.tables import table_of, write_table
 
 
 def run(*words: str | Path) -> Result:
-    return CliRunner().invoke(build(), [str(w) for w in words])
+    return CliRunner().invoke(build([str(words[0])]), [str(w) for w in words])
+
+
+# Effects that would take a reversed force or a late record for themselves.
+TEMPTING = (
+    "time_skew", "input_delay", "mount_compliance", "backlash", "coulomb_friction", "force_offset",
+)  # fmt: skip
 
 
 def spoiled(name: str, folder: Path, most: int = 12_000) -> Path:
@@ -65,7 +71,8 @@ def test_accept_knows_its_codes(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["force reversed", "one record late"])
 def test_diagnose_names_no_physics_for_it(name: str, tmp_path: Path) -> None:
     log, out = spoiled(name, tmp_path, 8_000), tmp_path / "d.json"
-    result = run("diagnose", log, "-o", out, "--strict", "--report", tmp_path / "d.html")
+    words = ["--effects", ",".join(TEMPTING), "--strict", "--report", tmp_path / "d.html"]
+    result = run("diagnose", log, "-o", out, *words)
     assert result.exit_code == 1, result.output
     found = json.loads(out.read_text())
     assert {f["code"] for f in found["rig"]} == set(ERRORS[name].codes)

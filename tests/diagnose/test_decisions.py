@@ -50,7 +50,7 @@ def test_a_stop_that_one_record_of_seven_reaches() -> None:
     stiffness = 1.5 * NOISE / np.sqrt(np.mean(own**2))
     log = noisy(plus(r, stiffness * touched), seed=1, rms=NOISE)
     names = ("end_stop", "coulomb_friction", "quadratic_damping", "gas_preload", "gas_polytropic")
-    found = diagnose(log, few(*names))
+    found = diagnose(log, few(*names), limits=False)
     assert found.verdict is Verdict.EXPLAINED
     assert [f.effect.name for f in found.findings] == ["end_stop"]
     assert found.selection.best.values["end_stop.k_c"] == pytest.approx(stiffness, rel=0.2)
@@ -61,7 +61,7 @@ def test_a_stop_that_one_record_of_seven_reaches() -> None:
 def test_hum_is_a_line_of_the_force_channel(line: float) -> None:
     r = noisy(campaign(), seed=3, rms=NOISE)
     hum = 2.6 * NOISE * np.sqrt(2.0) * np.sin(2 * np.pi * line * r.t + 1.0)
-    found = diagnose(plus(r, hum), few("coulomb_friction", "preyield_viscosity"))
+    found = diagnose(plus(r, hum), few("coulomb_friction", "preyield_viscosity"), limits=False)
     assert found.findings == ()
     assert found.verdict is Verdict.ADEQUATE
     assert f"a line of {line:.0f} Hz in the force channel" in remaining_text(found)
@@ -70,7 +70,9 @@ def test_hum_is_a_line_of_the_force_channel(line: float) -> None:
 
 
 def test_no_hum_no_word() -> None:
-    found = diagnose(noisy(campaign(), seed=8, correlation=0.9), few("coulomb_friction"))
+    found = diagnose(
+        noisy(campaign(), seed=8, correlation=0.9), few("coulomb_friction"), limits=False
+    )
     assert "line of" not in remaining_text(found)
     assert found.lack_of_fit.hum is None
 
@@ -101,7 +103,8 @@ def test_two_duties_and_two_motions_tell_one_effect_and_not_two() -> None:
     motions = ((0.8, 0.015, 0.0), (0.8, 0.015, 0.3), (2.4, 0.008, 0.0), (2.4, 0.008, 0.3))
     r = concatenate([sine(f, a, d, f"r{i}") for i, (f, a, d) in enumerate(motions)])
     catalogue = few("coulomb_friction", "gas_preload", "preyield_viscosity")
-    one = diagnose(noisy(plus(r, 1.5 * np.sign(r.xdot)), seed=2, rms=NOISE), catalogue)
+    single = noisy(plus(r, 1.5 * np.sign(r.xdot)), seed=2, rms=NOISE)
+    one = diagnose(single, catalogue, limits=False)
     assert one.verdict is Verdict.EXPLAINED
     assert [f.effect.name for f in one.findings] == ["coulomb_friction"]
 

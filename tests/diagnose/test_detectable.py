@@ -20,6 +20,7 @@ from erdctl.model.composed import Model
 from erdctl.model.parameters import Estimate, Parameters
 
 FEW = ("coulomb_friction", "backlash", "input_delay", "mount_compliance")
+SHORT = {"limits": False, "learning": False}  # no name rests on either
 
 
 @pytest.fixture(scope="module")
@@ -52,9 +53,10 @@ def with_effect(found: Diagnosis, name: str, times: float) -> Recording:
 
 @pytest.mark.parametrize("name", FEW)
 def test_that_size_is_named_and_a_tenth_is_not(healthy: Diagnosis, name: str) -> None:
-    named = diagnose(with_effect(healthy, name, 1.0), [get(name)], most=1)
+    named = diagnose(with_effect(healthy, name, 1.0), [get(name)], most=1, **SHORT)
     assert [f.effect.name for f in named.findings] == [name]
-    assert diagnose(with_effect(healthy, name, 0.1), [get(name)], most=1).findings == ()
+    tenth = diagnose(with_effect(healthy, name, 0.1), [get(name)], most=1, **SHORT)
+    assert tenth.findings == ()
 
 
 def test_every_effect_that_was_not_named_is_told(healthy: Diagnosis) -> None:
@@ -103,7 +105,7 @@ def test_two_springs_cannot_act_together() -> None:
     stiff = get("mount_compliance")
     soft = Model((stiff,)).force(block.signals, {**TRUTH, stiff.key("s_m"): 2e-4})
     found = diagnose(
-        replace(r, force=soft + (r.force - campaign(100.0, 8.0).force)), [stiff], most=1
+        replace(r, force=soft + (r.force - campaign(100.0, 8.0).force)), [stiff], most=1, **SHORT
     )
     assert [f.effect.name for f in found.findings] == [stiff.name]
     injection = Injection(found.problem, found.selection.best)

@@ -44,7 +44,7 @@ def rubbing() -> Diagnosis:
 
 @pytest.mark.parametrize("correlation", [0.0, 0.95])
 def test_nothing_missing_is_adequate(correlation: float) -> None:
-    found = diagnose(noisy(campaign(), seed=9, correlation=correlation), few())
+    found = diagnose(noisy(campaign(), seed=9, correlation=correlation), few(), limits=False)
     assert found.verdict is Verdict.ADEQUATE
     assert found.findings == ()
     assert found.mismatch == ()
@@ -77,7 +77,7 @@ def test_something_outside_the_catalogue_is_unexplained() -> None:
     """A ripple that no damper physics makes: there, but without a name."""
     r = noisy(campaign(), seed=6)
     log = plus(r, 2.0 * np.sin(2 * np.pi * r.x / 0.002))
-    found = diagnose(log, few(), learning=False)  # which would take two minutes for it
+    found = diagnose(log, few(), limits=False, learning=False)  # which takes minutes
     assert found.verdict is Verdict.UNEXPLAINED
     assert found.findings == ()
     best = found.selection.best

@@ -17,8 +17,11 @@ NOISE = 0.3
 
 
 def found(part: float, *, learning: bool = True) -> Diagnosis:
-    """A groove that no candidate knows, and a quadratic damping that is this part of the square."""
-    r = campaign()
+    """A groove that no candidate knows, and a quadratic damping that is this part of the square.
+
+    A short log where a law is learned, which takes a minute of a long one.
+    """
+    r = campaign(100.0, 6.0) if learning else campaign()
     assert r.force is not None
     up = r.xdot > 0
     own = np.column_stack([v * side for v in (r.x, r.xdot, r.xdot != 0) for side in (up, ~up)])
@@ -43,7 +46,6 @@ def test_what_leaves_more_than_it_takes_is_not_named() -> None:
     assert to_json(it)["withdrawn"] == names
 
 
-@pytest.mark.long
 def test_once_a_law_takes_the_rest_the_effect_has_its_name() -> None:
     it = found(0.15)
     assert it.verdict is Verdict.UNEXPLAINED

@@ -43,7 +43,8 @@ def concealed(effect: str | None) -> plant.Case:
 
 @cache
 def diagnosed(effect: str | None, free: Varying) -> Diagnosis:
-    return diagnose(recording(concealed(effect)), [get(n) for n in FEW], free=free, learning=False)
+    log, few = recording(concealed(effect)), [get(n) for n in FEW]
+    return diagnose(log, few, free=free, limits=False, learning=False)
 
 
 def true_gains(case: plant.Case) -> np.ndarray:
@@ -100,7 +101,7 @@ def test_offsets_come_out_and_the_common_one_is_a_finding() -> None:
     assert r.force is not None
     force = r.force + np.repeat(shifts + 5.0, np.diff(r.starts))
     candidates = [get(n) for n in ("gas_preload", "coulomb_friction")]
-    found = diagnose(replace(r, force=force), candidates, free=Varying(offset=True))
+    found = diagnose(replace(r, force=force), candidates, free=Varying(offset=True), limits=False)
     assert [f.effect.name for f in found.findings] == ["gas_preload"]
     assert found.verdict is Verdict.EXPLAINED
     assert found.fit.values["gas_preload.F_0"] == pytest.approx(5.0, abs=0.1)
@@ -113,7 +114,7 @@ def test_offsets_come_out_and_the_common_one_is_a_finding() -> None:
 def test_without_scatter_values_stay_at_the_mean() -> None:
     found = diagnose(
         noisy(campaign(100.0, 6.0), seed=9), [get("coulomb_friction")],
-        free=Varying(gain=True, offset=True),
+        free=Varying(gain=True, offset=True), limits=False,
     )  # fmt: skip
     assert found.verdict is Verdict.ADEQUATE
     assert found.record_effects is not None
@@ -146,4 +147,4 @@ def test_the_same_for_any_number_of_jobs() -> None:
     r = recording(concealed(EFFECT))
     few = [get(n) for n in FEW]
     one = documents.encode(to_json(diagnosed(EFFECT, GAINS)))
-    assert documents.encode(to_json(diagnose(r, few, free=GAINS, jobs=2))) == one
+    assert documents.encode(to_json(diagnose(r, few, free=GAINS, jobs=2, limits=False))) == one

@@ -36,11 +36,12 @@ from typer.testing import CliRunner
 from erdctl.cli.app import COMMANDS, build
 
 SHELL = re.compile(r"[|<>$;&*]|--install-completion")  # a shell's work
+APP = build()
 README, TUTORIAL, PROOF = ROOT / "README.md", FIXTURES / "TUTORIAL.md", FIXTURES / "PROOF.md"
 
 
 def all_examples() -> list[str]:
-    group = typer.main.get_command(build())
+    group = typer.main.get_command(APP)
     texts = [group.help, *(c.help for c in group.commands.values())]  # type: ignore[attr-defined]  # a group
     return list(dict.fromkeys(e for text in texts for e in examples(text or "")))
 
@@ -79,7 +80,7 @@ def test_examples_run(command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     # In this process, which has the libraries loaded that most of the time would go into.
     place(work, command)
     monkeypatch.chdir(work)
-    done = CliRunner().invoke(build(), shlex.split(shortened(command))[1:], catch_exceptions=False)
+    done = CliRunner().invoke(APP, shlex.split(shortened(command))[1:], catch_exceptions=False)
     assert done.exit_code == 0, done.stderr
 
 
@@ -134,6 +135,7 @@ def test_the_tutorial(tmp_path: Path) -> None:
             assert missing_lines(block.output, output) == [], f"line {block.line}:\n{output}"
 
 
+@pytest.mark.untraced
 def test_the_tutorial_in_python(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(workplace(tmp_path))
     found = blocks(TUTORIAL, "python")

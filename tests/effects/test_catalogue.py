@@ -114,6 +114,7 @@ def inside(q: Quantity, part: float) -> float:
     return q.low + part * (q.high - q.low)
 
 
+@pytest.mark.untraced
 @settings(deadline=None, max_examples=25)
 @given(
     parts=st.lists(st.sampled_from([0.0, 1.0]) | st.floats(0.0, 1.0), min_size=6, max_size=6),
@@ -145,37 +146,47 @@ def test_columns_times_amplitudes_is_the_force(effect: Effect, log: Log) -> None
     assert amplitudes @ model.columns(s, values) == pytest.approx(model.force(s, values), abs=1e-9)
 
 
-def refusal(model: Model, values: dict[str, float]) -> str:
-    """Why a model cannot be computed; empty if it can."""
+@cache
+def short() -> Signals:
+    """A record each of null control, a held level and control steps: there are many pairs."""
+    return Signals.of(campaign(200.0, 6.0).select([0, 4, 8]))
+
+
+@cache
+def alone(effect: Effect) -> Array:
+    return Model((effect,)).force(short(), acting(effect))
+
+
+def force_or_refusal(model: Model, values: dict[str, float]) -> Array | str:
+    """The force, or why it cannot be computed."""
     try:
-        model.force(clean(), values)
+        return model.force(short(), values)
     except IncompatibleEffects as error:
         return str(error)
-    return ""
 
 
+@pytest.mark.untraced
 def test_any_two_act_together_or_are_refused() -> None:
     for pair in combinations(CATALOGUE, 2):
         model = Model(pair)
         values = TRUTH | acting(pair[0]) | acting(pair[1])
         names = [e.name for e in pair]
-        why = refusal(model, values)
-        if why:
-            assert re.search("only one|cannot act behind a spring", why), names
+        force = force_or_refusal(model, values)
+        if isinstance(force, str):
+            assert re.search("only one|cannot act behind a spring", force), names
             continue
-        force = model.force(clean(), values)
         assert np.isfinite(force).all(), names
         off = TRUTH | acting(pair[0]) | pair[1].off
-        alone = Model(pair[:1]).force(clean(), acting(pair[0]))
-        assert np.array_equal(model.force(clean(), off), alone), names
+        assert np.array_equal(model.force(short(), off), alone(pair[0])), names
         if model.separable:
             amplitudes = np.array([values[name] for name in model.linear])
-            assert amplitudes @ model.columns(clean(), values) == pytest.approx(force, abs=1e-9)
+            assert amplitudes @ model.columns(short(), values) == pytest.approx(force, abs=1e-9)
 
 
 SHAPES = [(e, q) for e in CATALOGUE for q in e.quantities if not q.linear]
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize(("effect", "q"), SHAPES, ids=[e.key(q.symbol) for e, q in SHAPES])
 def test_small_steps_add_up_to_large_ones(effect: Effect, q: Quantity) -> None:
     """The integral of finite differences is the change: no jump hides between them."""
@@ -213,6 +224,7 @@ def force_exponent(unit: str) -> int:
     return bool(re.search(units, above)) - bool(re.search(units, below))
 
 
+@pytest.mark.untraced
 @every
 @pytest.mark.parametrize("factor", [10.0, 400.0])
 def test_a_larger_damper_is_the_same_damper(effect: Effect, factor: float) -> None:

@@ -53,6 +53,7 @@ def between(q: Quantity, part: float) -> float:
 parts = st.sampled_from([0.0, 1.0]) | st.floats(0.0, 1.0)
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("chosen", CHOICES, ids=lambda c: "+".join(e.name for e in c))
 @settings(deadline=None, max_examples=60)
 @given(

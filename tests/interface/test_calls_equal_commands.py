@@ -125,10 +125,10 @@ def test_diagnose_given_parameters_with_free_records(tmp_path: Path) -> None:
     log = str(tmp_path / "log.parquet")
     pd.read_parquet(LATE).iloc[::4].to_parquet(log, index=False)
     called = erdctl.diagnose(
-        log, parameters=TABLE_2, effects="coulomb_friction", record_gains=True, seed=3
+        log, parameters=TABLE_2, effects="input_delay", record_gains=True, seed=3
     )
     expected = command(
-        "diagnose", log, "--params", TABLE_2, "--effects", "coulomb_friction", "--record-gains",
+        "diagnose", log, "--params", TABLE_2, "--effects", "input_delay", "--record-gains",
         "--seed", "3", "--jobs", "1",
     )  # fmt: skip
     assert called.to_dict() == expected

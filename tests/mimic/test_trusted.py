@@ -24,7 +24,7 @@ def test_mimic_with_them(record: str | None, refused: bool, tmp_path: Path) -> N
     params.write_text(json.dumps(document))
     log = FIXTURES / "schedule_60s.csv"
     words = ["mimic", str(params), str(log), "--fault", "oil=0.5@15:31", "-o", str(out)]
-    result = CliRunner().invoke(build(), words)
+    result = CliRunner().invoke(build([words[0]]), words)
     assert (result.exit_code == 3) is refused, result.output
     assert out.exists() is not refused
     if refused:

@@ -39,6 +39,7 @@ def test_every_effect_is_in_it(effect: Effect) -> None:
     assert "<code" not in "".join(str(flowing(line)) for line in lines)
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize(
     "pair", list(combinations(CATALOGUE, 2)), ids=lambda p: f"{p[0].name}-{p[1].name}"
 )

@@ -50,5 +50,5 @@ def test_one_log_is_coloured_by_level() -> None:
 
 def test_the_command(tmp_path: Path) -> None:
     out = tmp_path / "both.png"
-    assert CliRunner().invoke(build(), ["plot", *LOGS, "-o", str(out)]).exit_code == 0
+    assert CliRunner().invoke(build(["plot"]), ["plot", *LOGS, "-o", str(out)]).exit_code == 0
     assert out.stat().st_size > 10_000

@@ -19,7 +19,7 @@ def verdict(log: Path, folder: Path) -> str:
         ["identify", str(log), "-o", str(params)],
         ["validate", str(params), str(log), "--json", "--report", str(page)],
     ):
-        result = CliRunner().invoke(build(), words)
+        result = CliRunner().invoke(build([words[0]]), words)
         assert result.exit_code == 0, result.output
     text = page.read_text()
     return text[text.index("<h1>") + 4 : text.index("</h1>")]

@@ -49,6 +49,7 @@ def parameters(found: Law, **sizes: float) -> Parameters:
     return Parameters(model=model, estimates=estimates)
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("slot", LawSlot)
 def test_without_size_it_is_absent_bit_for_bit(slot: LawSlot, kind: str) -> None:
