@@ -35,6 +35,7 @@ class ModelPart:
     state : file with members of PREFIX_state;  types : of the source;  code : file
     wanted : file with what is left open in `code`, how a duty is found
     yielding : where the damper's state has F_ER of Eq. 12
+    copied : bytes of the damper's state that a look ahead copies
     """
 
     before: str
@@ -46,6 +47,7 @@ class ModelPart:
     code: str
     wanted: str = ""
     yielding: str = ""
+    copied: str = ""
     left_out: tuple[str, ...] = ()
 
 
@@ -80,6 +82,9 @@ def _observer(parameters: Parameters, prefix: str) -> ModelPart:
         code="observer.c",
         wanted="told.c" if sprung else "asked.c",
         yielding="spring[0].yielding" if sprung else "yielding",
+        copied=(
+            f"offsetof({damper.prefix}_state, {damper.memory})" if damper.memory else "sizeof *copy"
+        ),
         left_out=damper.left_out,
     )
 

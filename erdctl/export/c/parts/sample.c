@@ -3,11 +3,12 @@ static int heading(real xdot, int up)
     return xdot > K(0.0) ? 1 : xdot < K(0.0) ? 0 : up;
 }
 
-static void take(State *st, Sample *s, real dt, real x, real xdot, real duty)
+static void take(State *st, State *keeper, Sample *s, real dt, real x, real xdot, real duty)
 {
     Motion m;
 
     memset(s, 0, sizeof *s);
+    s->keeper = keeper;
     s->first = !st->started;
     s->h = s->first ? K(0.0) : dt + st->waited;
     if (!s->first)

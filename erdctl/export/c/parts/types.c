@@ -1,5 +1,6 @@
 #include <float.h>
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "PREFIX.h"
@@ -42,6 +43,7 @@ typedef PREFIX_state State;
 
 /* Motion and control at a sample, and at the one before; see PREFIX_step. */
 typedef struct Sample {
+    struct PREFIX_state *keeper; /* whose long memories are used: its own, or of whom it is a copy */
     int first;               /* nothing lies before it */
     int ahead;               /* a law is asked for the step that begins here */
     int rests;               /* the first sample begins at rest */

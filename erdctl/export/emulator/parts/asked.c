@@ -7,19 +7,21 @@
 #define PLAIN K(0.6)       /* and from here on all */
 
 /* Force [N] that the real damper will have with a duty. */
-static real force_with(const Emulator *s, const Outlook *o, real duty)
+static real force_with(Emulator *s, const Outlook *o, real duty)
 {
-    PREFIX_damper_state copy = s->made;
-    const real now = PREFIX_damper_step(&copy, o->dt, s->x, s->xdot, duty);
+    PREFIX_damper_state copy;
+    real now;
+    copy_of(&copy, &s->made);
+    now = look(&copy, &s->made, o->dt, s->x, s->xdot, duty);
     if (!(o->h > K(0.0)))
         return now;
     if (o->late > K(0.0))
-        PREFIX_damper_step(&copy, o->late, o->x_1, o->xdot_1, duty);
-    return PREFIX_damper_step(&copy, o->held, o->x_2, o->xdot_2, duty);
+        look(&copy, &s->made, o->late, o->x_1, o->xdot_1, duty);
+    return look(&copy, &s->made, o->held, o->x_2, o->xdot_2, duty);
 }
 
 /* By asking the damper: none and span are its force without a duty, and what the highest adds. */
-static real duty_by_force(const Emulator *s, const Outlook *o, real beta, real top, real goal,
+static real duty_by_force(Emulator *s, const Outlook *o, real beta, real top, real goal,
                           real none, real span)
 {
     const real part = (goal - none) / span;
@@ -45,7 +47,7 @@ static real duty_by_force(const Emulator *s, const Outlook *o, real beta, real t
     return top * POW(w, K(1.0) / beta);
 }
 
-static real wanted_duty(const Emulator *s, real dt, real top)
+static real wanted_duty(Emulator *s, real dt, real top)
 {
     const Outlook o = outlook(s, dt, top);
     const Law law = law_at_the_end(s, &o);

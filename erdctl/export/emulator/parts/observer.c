@@ -2,6 +2,21 @@
 /* The exported damper itself, with all its effects: three of it run along, and copies of them tell
    what force comes next. */
 
+/* A copy to look ahead with, all but its long memories; `look` finds these where they are. */
+static void copy_of(PREFIX_damper_state *copy, const PREFIX_damper_state *of)
+{
+    memcpy(copy, of, @COPIED@);
+}
+
+/* A step of a copy: its force [N]. What diverged has forgotten its past and stays where it is. */
+static real look(PREFIX_damper_state *copy, PREFIX_damper_state *of, real dt, real x, real xdot,
+                 real duty)
+{
+    if (of->started && !copy->started)
+        return copy->force;
+    return step_with(copy, of, dt, x, xdot, duty);
+}
+
 static void observe(Emulator *s, real dt, real x, real xdot, real duty)
 {
     PREFIX_damper_faults(&s->faulty, s->f_oil, s->f_electrical, s->f_deformation);
@@ -36,15 +51,15 @@ typedef struct {
 } Outlook;
 
 /* Force [N] that the faulty one will have. */
-static real force_wanted(const Emulator *s, const Outlook *o)
+static real force_wanted(Emulator *s, const Outlook *o)
 {
     PREFIX_damper_state copy;
     if (!(o->h > K(0.0)))
         return s->ideal;
-    copy = s->faulty;
+    copy_of(&copy, &s->faulty);
     if (o->late > K(0.0))
-        PREFIX_damper_step(&copy, o->late, o->x_1, o->xdot_1, s->duty);
-    return PREFIX_damper_step(&copy, o->h, o->x_2, o->xdot_2, s->duty);
+        look(&copy, &s->faulty, o->late, o->x_1, o->xdot_1, s->duty);
+    return look(&copy, &s->faulty, o->h, o->x_2, o->xdot_2, s->duty);
 }
 
 static Outlook outlook(const Emulator *s, real dt, real top)
@@ -85,14 +100,15 @@ static Law law_at_the_end(const Emulator *s, const Outlook *o)
 }
 
 /* By Eq. 12 alone, from the yield force that is missing beside all other forces. */
-static real duty_by_yield_force(const Emulator *s, const Outlook *o, const Law *law, real goal)
+static real duty_by_yield_force(Emulator *s, const Outlook *o, const Law *law, real goal)
 {
-    PREFIX_damper_state copy = s->idle;
+    PREFIX_damper_state copy;
     real rest = s->unfielded, steady;
     if (o->h > K(0.0)) {
+        copy_of(&copy, &s->idle);
         if (o->late > K(0.0))
-            PREFIX_damper_step(&copy, o->late, o->x_1, o->xdot_1, K(0.0));
-        rest = PREFIX_damper_step(&copy, o->h, o->x_2, o->xdot_2, K(0.0));
+            look(&copy, &s->idle, o->late, o->x_1, o->xdot_1, K(0.0));
+        rest = look(&copy, &s->idle, o->h, o->x_2, o->xdot_2, K(0.0));
     }
     steady = (law->way * (goal - rest) - (K(1.0) - law->gone) * s->made.@YIELDING@) / law->gone;
     if (!(steady > K(0.0)) || !(law->sigma > K(0.0)))

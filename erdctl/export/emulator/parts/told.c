@@ -1,6 +1,6 @@
 /* Behind a spring a duty shows in the force long after it was given, and each question costs many
    steps: the yield force alone is aimed at. */
-static real wanted_duty(const Emulator *s, real dt, real top)
+static real wanted_duty(Emulator *s, real dt, real top)
 {
     const Outlook o = outlook(s, dt, top);
     const Law law = law_at_the_end(s, &o);
