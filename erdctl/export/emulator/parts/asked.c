@@ -3,8 +3,8 @@
 
 #define TRIES 3            /* duties that are tried between none and the highest */
 #define MET K(2e-3)        /* of the force that a duty can make up: near enough */
-#define HIDDEN K(0.3)      /* of what Eq. 12 lets a duty show: below, the force says nothing of it, */
-#define PLAIN K(0.6)       /* and from here on all */
+#define HIDDEN K(0.1)      /* of what Eq. 12 lets a duty show: below, the force says nothing of it, */
+#define PLAIN K(0.3)       /* and from here on all */
 
 /* Force [N] that the real damper will have with a duty. */
 static real force_with(Emulator *s, const Outlook *o, real duty)
@@ -50,16 +50,16 @@ static real duty_by_force(Emulator *s, const Outlook *o, real beta, real top, re
 static real wanted_duty(Emulator *s, real dt, real top)
 {
     const Outlook o = outlook(s, dt, top);
-    const Law law = law_at_the_end(s, &o);
+    const Goal goal = goal_of(s, &o);
+    const Law law = law_at_the_end(s, &o, &goal);
     const real none = force_with(s, &o, K(0.0)), span = force_with(s, &o, top) - none;
     const real most = law.gone * law.sigma * POW(top, law.beta);
     const real shown = law.way * span / (most > K(0.0) ? most : K(1.0));
     const real trust = clamped((shown - HIDDEN) / (PLAIN - HIDDEN), K(0.0), K(1.0));
-    const real goal = force_wanted(s, &o);
     real out = K(0.0);
     if (trust > K(0.0))
-        out += trust * duty_by_force(s, &o, law.beta, top, goal, none, span);
+        out += trust * duty_by_force(s, &o, law.beta, top, goal.force, none, span);
     if (trust < K(1.0))
-        out += (K(1.0) - trust) * duty_by_yield_force(s, &o, &law, goal);
+        out += (K(1.0) - trust) * duty_by_yield_force(s, &law, &goal);
     return out;
 }

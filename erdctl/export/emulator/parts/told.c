@@ -3,6 +3,7 @@
 static real wanted_duty(Emulator *s, real dt, real top)
 {
     const Outlook o = outlook(s, dt, top);
-    const Law law = law_at_the_end(s, &o);
-    return duty_by_yield_force(s, &o, &law, force_wanted(s, &o));
+    const Goal goal = goal_of(s, &o);
+    const Law law = law_at_the_end(s, &o, &goal);
+    return duty_by_yield_force(s, &law, &goal);
 }
