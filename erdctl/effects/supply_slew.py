@@ -57,6 +57,8 @@ EFFECT = Effect(
     c=CLaw(
         state=("reached",),
         code="""
+        /* What a float's rounding leaves of the way is none: v^beta is steep where the duty ends at 0. */
+        const real none = sizeof(real) < sizeof(double) ? K(2.0) * K(FLT_EPSILON) : K(0.0);
         real reach = s->h / p->T_full, off, mean;
 
         if (!(p->T_full > K(0.0)))
@@ -64,8 +66,8 @@ EFFECT = Effect(
         if (s->first && !s->ahead)
             z->reached = duty;
         off = duty - z->reached;
-        if (FABS(off) <= reach) {
-            mean = duty - (reach > K(0.0) ? K(0.5) * off * FABS(off) / reach : K(0.0));
+        if (FABS(off) <= reach + none) {
+            mean = duty - (reach > K(0.0) ? K(0.5) * off * FMIN(FABS(off) / reach, K(1.0)) : K(0.0));
         } else {
             off = off > K(0.0) ? reach : -reach;
             mean = z->reached + K(0.5) * off;

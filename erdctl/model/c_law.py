@@ -35,6 +35,7 @@ Sample:
     first            it is the first since init: nothing lies before it
     h, t, clock      step from the sample before [s]; time since the first; the same in the time of
                      the record as logged, where that is known [s]
+    clock_low        to be taken off a difference to the clock: what its digits do not hold [s]
     x, xdot, duty    motion of the piston [m], [m/s]; duty that acts from now on [1]
     x0, xdot0, duty0 the same at the sample before; duty0 acted over the step
     up, up0          1 where the parameters of compression apply, now and before

@@ -205,8 +205,12 @@ def set_in(kind: FaultKind, s: Signals, p: Mapping[str, float]) -> dict[str, Arr
 
 def set_in_c(kind: FaultKind) -> CLaw:
     """The same in C, by the clock of the record where that was stated."""
-    left = f"K(1.0) - (K(1.0) - p->{AMOUNT}) * onset_weight(s->clock, p->{START}, p->{RAMP}, s->h)"
-    lines = [f"real left = {left};", "", *(f"f->{group} *= left;" for group in kind.groups)]
+    lines = [
+        f"real since = (s->clock - p->{START}) - s->clock_low;",
+        f"real left = K(1.0) - (K(1.0) - p->{AMOUNT}) * onset_weight(since, p->{RAMP}, s->h);",
+        "",
+        *(f"f->{group} *= left;" for group in kind.groups),
+    ]
     return CLaw(code="\n".join(lines), note="sets in over its own step, where steps vary")
 
 

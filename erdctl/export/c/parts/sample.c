@@ -14,7 +14,9 @@ static void take(State *st, State *keeper, Sample *s, real dt, real x, real xdot
     if (!s->first)
         add_to(&st->t, &st->t_low, s->h);
     s->t = st->t;
-    s->clock = st->t + st->clock;
+    s->clock = st->clock;
+    s->clock_low = st->t_low;
+    add_to(&s->clock, &s->clock_low, st->t);
     s->x0 = s->first ? x : st->x;
     s->xdot0 = s->first ? xdot : st->xdot;
     s->x = x;

@@ -50,6 +50,7 @@ typedef struct Sample {
     int up, up0;             /* direction whose parameters apply, now and before */
     int turned;              /* it changed in this step */
     real h, t, clock;        /* [s] step before it, time since the first, time of the record */
+    real clock_low;          /* [s] to be taken off the last, which its digits do not hold */
     real x, xdot, duty;      /* [m], [m/s] of the piston, [1] from now on */
     real x0, xdot0, duty0;   /* at the sample before; duty0 acted over the step */
     real before;             /* [1] part of the step before the turn */
