@@ -20,7 +20,7 @@ from erdctl.core.errors import UsageProblem
 from erdctl.core.recording import Array, Index
 from erdctl.core.signals import Signals
 from erdctl.model.c_law import CLaw
-from erdctl.model.onset import AMOUNT, RAMP, START, onset_weight
+from erdctl.model.onset import AMOUNT, RAMP, START, onset_by_steps, onset_weight
 
 EXAMPLE = "write for instance oil=0.5@15:31 or electrical=0.8@31,ramp=2,channel=fr"
 
@@ -199,6 +199,16 @@ def set_in(kind: FaultKind, s: Signals, p: Mapping[str, float]) -> dict[str, Arr
     if f == 1.0:
         return {}
     weight = onset_weight(s.t, p[START], p[RAMP], s.typical_step)
+    factor: Array = (1.0 - weight) + weight * f
+    return dict.fromkeys(kind.groups, factor)
+
+
+def set_in_by_steps(kind: FaultKind, s: Signals, p: Mapping[str, float]) -> dict[str, Array]:
+    """The same over the step before each sample, where those ahead are not known."""
+    f = p[AMOUNT]
+    if f == 1.0:
+        return {}
+    weight = onset_by_steps(s.t - p[START], p[RAMP], s.step_before)
     factor: Array = (1.0 - weight) + weight * f
     return dict.fromkeys(kind.groups, factor)
 
