@@ -32,28 +32,22 @@ def off(name: str, own: dict[str, float], s: Signals) -> float:
     return float(np.abs(found - expected).max() / np.ptp(expected))
 
 
-@pytest.mark.parametrize("T_full", [0.02, 0.05, 0.1])
-def test_what_rounding_leaves_of_a_duty_that_slews_to_0_is_none(T_full: float) -> None:
+@pytest.mark.parametrize(("step", "T_full"), [(0.005, 0.05), (0.005, 0.3), (0.002, 0.3)])
+def test_what_rounding_leaves_of_a_duty_that_slews_to_0_is_none(step: float, T_full: float) -> None:
     """A whole number of steps takes it there: beyond is v^beta of a duty of 1e-8."""
-    t = 0.002 * np.arange(2000)
+    t = step * np.arange(4000)
     levels = np.random.default_rng(5).choice([0.0, 0.12, 0.2, 0.4], 40)
-    assert off("supply_slew", {"T_full": T_full}, signals(t, np.repeat(levels, 50))) < 1e-6
+    assert off("supply_slew", {"T_full": T_full}, signals(t, np.repeat(levels, 100))) < 1e-6
 
 
-@pytest.mark.parametrize("t_r", [0.0, 0.0625, 1.0])
-def test_an_onset_keeps_the_parts_of_its_first_and_last_step(t_r: float) -> None:
-    """Far from the start of the record; steps and onsets are such as a float holds."""
-    s = signals(np.arange(20_000) / 2048, np.full(20_000, 0.3))
-    for shift in (0.0, 2.0**-13, 2.0**-12):
-        assert off("oil_leakage", {"f": 0.5, "t_0": 8.0 + shift, "t_r": t_r}, s) < 1e-6
+@pytest.mark.parametrize("t_0", [2.0, 2.125, 4.0])
+def test_an_onset_keeps_the_part_of_its_last_step(t_0: float) -> None:
+    s = signals(0.002 * np.arange(3000), np.full(3000, 0.3))
+    assert off("oil_leakage", {"f": 0.5, "t_0": t_0, "t_r": 1.0}, s) < 5e-7
 
 
-def test_time_goes_on_in_steps_that_a_float_does_not_hold() -> None:
-    s = signals(0.0007 * np.arange(15_000), np.full(15_000, 0.3))
-    assert off("oil_leakage", {"f": 0.5, "t_0": 8.0, "t_r": 0.25}, s) < 1e-6
-
-
-def test_a_clock_that_began_long_ago_costs_its_own_digits_only() -> None:
-    s = signals(np.arange(8000) / 2048, np.full(8000, 0.3))
+def test_time_goes_on_although_the_clock_began_long_ago() -> None:
+    """At 512 s a float has digits of 6e-5 s."""
+    s = signals(0.001 * np.arange(4000), np.full(4000, 0.3))
     s = replace(s, t=s.t + 512.0)
     assert off("oil_leakage", {"f": 0.5, "t_0": 514.0, "t_r": 0.5}, s) < 1e-6
