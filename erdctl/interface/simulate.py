@@ -137,14 +137,13 @@ def simulate(
     wanted, described = texts(faults), texts(drive)
     if (log is None) == (not described):
         raise UsageProblem("simulate needs either a log or a drive, e.g. drive='sine:freq=1'")
-    found, left_out = given_parameters(parameters).parameters, []
-    if causal:
-        found, left_out = as_block(found)
+    found = given_parameters(parameters).parameters
+    found, told = as_block(found) if causal else (found, [])
     given = (
         BenchLog(Log(drives(described)))
         if log is None
         else log_of(log, want_force=True, keep_table=True)
     )
-    said = (*given.remarks, *left_out, *remarks(found, given.recording))
+    said = (*given.remarks, *told, *remarks(found, given.recording))
     force = simulated(found, given.recording, wanted)
     return Simulated(found, with_force(given, force), tuple(wanted), said)

@@ -58,7 +58,7 @@ def far(found: Array, expected: Array) -> float:
 
 
 def differences(found: Model, values: dict[str, float]) -> list[float]:
-    """Double and float against Python that knows the past alone; double against Python as it is, and the rms."""
+    """Double and float against `simulate --causal`; double against `simulate`, and the rms."""
     s = motion()
     block = block_of(found, values, s)
     past = found.past_alone().force(s, values)
@@ -166,7 +166,7 @@ def fmu(*names: str) -> None:
         return far(out, expected)
 
     s = Signals.of(schedule())
-    print("FMU by FMPy against Python (`simulate --causal`), over the range; findings of validate_fmu")
+    print("FMU by FMPy against `simulate --causal`, over the range; findings of validate_fmu")
     for number in ("2", "3"):
         off = difference(damper(number), s, Model().force(s, PAPER))
         show(

@@ -84,14 +84,14 @@ def state_structs(effects: Sequence[Effect]) -> str:
 
 def past_structs(effects: Sequence[Effect]) -> str:
     """The last member of the state: long memories, which a look ahead shares and does not copy."""
-    kept = [e for e in effects if e.c is not None and e.c.past]
+    kept = [(e, e.c.past) for e in effects if e.c is not None and e.c.past]
     if not kept:
         return ""
     lines = ["    /* Long memories, behind all else: a look ahead does not copy them. */"]
-    for effect in kept:
+    for effect, past in kept:
         name = identifier(effect.name)
         lines += [f"    struct PREFIX_{name}_past {{"]
-        lines += [f"        PREFIX_real {member};" for member in effect.c.past if effect.c]
+        lines += [f"        PREFIX_real {member};" for member in past]
         lines += [f"    }} {name}_past{'[2]' if isinstance(effect.slot, FieldSlot) else ''};"]
     return "".join(f"{line}\n" for line in lines)
 

@@ -14,8 +14,8 @@ from erdctl.export.c.layout import (
     effect_members,
     first_past,
     paper_members,
-    past_structs,
     parameter_struct,
+    past_structs,
     state_structs,
 )
 from erdctl.export.c.names import helpers, identifier, part
