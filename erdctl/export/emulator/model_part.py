@@ -15,7 +15,7 @@ from erdctl.export.c.layout import CMember, paper_members
 from erdctl.export.c.source import CBlock, on_the_vehicle, write_c
 from erdctl.model.composed import Model
 from erdctl.model.parameters import Parameters
-from erdctl.model.slots import SeriesSlot
+from erdctl.model.slots import ControlSlot, SeriesSlot
 
 REAL = """#ifdef ERDCTL_FLOAT
 typedef float PREFIX_real;
@@ -23,6 +23,7 @@ typedef float PREFIX_real;
 typedef double PREFIX_real;
 #endif"""
 FELT = 0.05  # of a step in force: so much of it is there when it begins to be felt
+SWEPT = 2.0  # s: a slower supply cannot be told how to follow a road
 FINE, LONG = 2e-4, 0.5  # s, of the steps by which that is looked for, and for how long
 
 
@@ -72,11 +73,15 @@ def _observer(parameters: Parameters, prefix: str) -> ModelPart:
         "dead_time", dead_time(parameters), "s",
         "before a duty begins to be felt, beyond what T_d alone makes of it",
     )  # fmt: skip
+    sweep = CMember(
+        "sweep_time", sweep_time(parameters), "s",
+        "from a duty of 0 to 1 behind a supply that slews, 0 where it follows at once",
+    )  # fmt: skip
     return ModelPart(
         before=damper.header + "\n",
         real="typedef PREFIX_damper_real PREFIX_real;",
-        members=(*(m._replace(path=f"damper.{m.path}") for m in damper.parameters), late),
-        declared=("    PREFIX_damper_params damper; /* see there */", declared(late)),
+        members=(*(m._replace(path=f"damper.{m.path}") for m in damper.parameters), late, sweep),
+        declared=("    PREFIX_damper_params damper; /* see there */", *map(declared, (late, sweep))),
         state="observer_state.h",
         types=damper.source.replace(include, '#include "PREFIX.h"'),
         code="observer.c",
@@ -106,6 +111,23 @@ def dead_time(parameters: Parameters) -> float:
     late = [_felt(own, way) - _felt(plain, way) for way in range(len(DIRECTIONS))]
     found = float(np.mean(late))
     return round(found, 4) if found > 2.0 * FINE else 0.0
+
+
+def sweep_time(parameters: Parameters) -> float:
+    """Time [s] in which the duty at the electrodes follows a leap from 0 to 1, SWEPT at most.
+
+    Twice that to its half, of all that stands in between; less than a step is at once.
+    """
+    n = round(SWEPT / FINE)
+    held = Signals(
+        t=FINE * np.arange(float(n)), x=np.zeros(n), xdot=np.full(n, 0.1),
+        duty=np.append(0.0, np.ones(n - 1)), step=np.append(np.full(n - 1, FINE), 0.0),
+        starts=np.array([0, n]),
+    )  # fmt: skip
+    for effect, control in Model(on_the_vehicle(parameters.model.effects)[0]).of(ControlSlot):
+        held = held.with_duty(control(held, effect.local(parameters.values)))
+    half = float(np.argmax(held.duty >= 0.5 * held.duty[-1]) - 1) * FINE
+    return round(2.0 * half, 4) if half > FINE else 0.0
 
 
 def _felt(parameters: Parameters, way: int) -> float:

@@ -42,6 +42,10 @@ static int unreachable(const Emulator *s)
     return (s->ideal - s->unfielded) * s->xdot < K(0.0);
 }
 
+/* Of the time that the damper's own supply takes from no duty to the highest: a force that is to be
+   met sooner sends the duty from one end to the other and back. */
+#define SLEWING K(0.35)
+
 /* What is told of the motion to come. */
 typedef struct {
     real dt;              /* [s] since the sample before, 0 at the first */
@@ -58,6 +62,8 @@ static Outlook outlook(const Emulator *s, real dt, real top)
         const real sweep = s->p.slew > K(0.0) ? SWEEP * top / s->p.slew : K(0.0);
         o.late = s->p.dead_time;
         o.h = until_next(&s->p, dt);
+        if (o.h < SLEWING * s->p.sweep_time * top)
+            o.h = SLEWING * s->p.sweep_time * top;
         o.xdot_1 = speed_ahead(s, o.late);
         o.x_1 = s->x + K(0.5) * o.late * (s->xdot + o.xdot_1);
         o.xdot_2 = speed_ahead(s, o.late + o.h);
@@ -149,6 +155,6 @@ static void begin(Emulator *s)
 
 static int usable_model(const Settings *p)
 {
-    return positive(p->dead_time, K(1.0))
+    return positive(p->dead_time, K(1.0)) && positive(p->sweep_time, K(10.0))
 @USABLE@;
 }
