@@ -22,6 +22,7 @@ typedef float PREFIX_real;
 #else
 typedef double PREFIX_real;
 #endif"""
+SPEEDS, WRONG = (0.005, 0.02, 0.1), 0.02  # m/s; part of the answer that is none
 FELT = 0.05  # of a step in force: so much of it is there when it begins to be felt
 SWEPT = 2.0  # s: a slower supply cannot be told how to follow a road
 FINE, LONG = 2e-4, 0.5  # s, of the steps by which that is looked for, and for how long
@@ -85,7 +86,7 @@ def _observer(parameters: Parameters, prefix: str) -> ModelPart:
         state="observer_state.h",
         types=damper.source.replace(include, '#include "PREFIX.h"'),
         code="observer.c",
-        wanted="told.c" if sprung else "asked.c",
+        wanted="told.c" if sprung or turns_first(parameters) else "asked.c",
         yielding="spring[0].yielding" if sprung else "yielding",
         copied=(
             f"offsetof({damper.prefix}_state, {damper.memory})" if damper.memory else "sizeof *copy"
@@ -130,17 +131,36 @@ def sweep_time(parameters: Parameters) -> float:
     return round(2.0 * half, 4) if half > FINE else 0.0
 
 
+def turns_first(parameters: Parameters) -> bool:
+    """Whether the force answers a rise of the duty by a fall first.
+
+    What is to be reached in one step would then take a leap of the duty, and the next step one back.
+    """
+    kept = on_the_vehicle(parameters.model.effects)[0]
+    own = replace(parameters, model=Model(kept))
+    for speed in (*SPEEDS, *(-v for v in SPEEDS)):
+        rise = _rise(own, speed) * np.sign(speed)
+        if rise.min() < -WRONG * rise.max():
+            return True
+    return False
+
+
 def _felt(parameters: Parameters, way: int) -> float:
+    rise = np.abs(_rise(parameters, 0.1 if way == 0 else -0.1))
+    if not rise[-1] > 0.0:
+        return 0.0
+    return float(np.argmax(rise >= FELT * rise[-1])) * FINE
+
+
+def _rise(parameters: Parameters, speed: float) -> Array:
+    """(n,) what a step of the duty adds to the force at a steady speed [N], from its time on."""
     n = round(LONG / FINE)
     t: Array = FINE * np.arange(2.0 * n)
-    speed = 0.1 if way == 0 else -0.1
     signals = Signals(
         t=t, x=np.zeros(2 * n), xdot=np.full(2 * n, speed), duty=np.where(t < LONG, 0.05, 0.3),
         step=np.append(np.full(2 * n - 1, FINE), 0.0), starts=np.array([0, 2 * n]),
     )  # fmt: skip
     force = parameters.model.force(signals, parameters.values)
     rest = parameters.model.force(signals.with_duty(np.full(2 * n, 0.05)), parameters.values)
-    rise = np.abs(force - rest)[n:]
-    if not rise[-1] > 0.0:
-        return 0.0
-    return float(np.argmax(rise >= FELT * rise[-1])) * FINE
+    out: Array = (force - rest)[n:]
+    return out

@@ -54,7 +54,7 @@ typedef struct {
     real held;            /* [s] over which a duty that is tried is held, h or more */
 } Outlook;
 
-static Outlook outlook(const Emulator *s, real dt, real top)
+static Outlook outlook(const Emulator *s, real dt, real top, real more)
 {
     Outlook o = {0};
     o.dt = dt;
@@ -64,6 +64,7 @@ static Outlook outlook(const Emulator *s, real dt, real top)
         o.h = until_next(&s->p, dt);
         if (o.h < SLEWING * s->p.sweep_time * top)
             o.h = SLEWING * s->p.sweep_time * top;
+        o.h += more;
         o.xdot_1 = speed_ahead(s, o.late);
         o.x_1 = s->x + K(0.5) * o.late * (s->xdot + o.xdot_1);
         o.xdot_2 = speed_ahead(s, o.late + o.h);
