@@ -82,7 +82,10 @@ def _observer(parameters: Parameters, prefix: str) -> ModelPart:
         before=damper.header + "\n",
         real="typedef PREFIX_damper_real PREFIX_real;",
         members=(*(m._replace(path=f"damper.{m.path}") for m in damper.parameters), late, sweep),
-        declared=("    PREFIX_damper_params damper; /* see there */", *map(declared, (late, sweep))),
+        declared=(
+            "    PREFIX_damper_params damper; /* see there */",
+            *map(declared, (late, sweep)),
+        ),
         state="observer_state.h",
         types=damper.source.replace(include, '#include "PREFIX.h"'),
         code="observer.c",
