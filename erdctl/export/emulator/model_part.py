@@ -137,7 +137,7 @@ def sweep_time(parameters: Parameters) -> float:
 def turns_first(parameters: Parameters) -> bool:
     """Whether the force answers a rise of the duty by a fall first.
 
-    What is to be reached in one step would then take a leap of the duty, and the next step one back.
+    What is to be reached in one step would take a leap of the duty, and the next step one back.
     """
     kept = on_the_vehicle(parameters.model.effects)[0]
     own = replace(parameters, model=Model(kept))
