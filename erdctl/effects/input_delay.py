@@ -131,7 +131,7 @@ EFFECT = Effect(
             z->new_value += (field - z->new_value) * (taken / z->new_span);
         } else if (!(newest > K(0.0)) && span > K(0.0) && FABS(value - field) <= K(0.0)) {
             z->old_span += taken;
-        } else if (!(span > K(0.0))) {  /* nothing is left: the step was as long as tau, or longer */
+        } else if (!(span > K(0.0))) {  /* a step of tau, or longer, has left none */
             z->old_span = taken;
             z->old_value = field;
         } else {
