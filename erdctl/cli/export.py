@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from erdctl.cli.options import Params, emulated_faults
-from erdctl.export.targets import ONLINE, served
+from erdctl.export.serves import ONLINE, served
 
 
 class Fmi(StrEnum):

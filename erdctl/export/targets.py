@@ -1,4 +1,7 @@
-"""What can be exported: one line for each suffix. Writers are imported when they are needed."""
+"""What can be exported: one line for each suffix. Writers are imported when they are needed.
+
+Which programs a file is for says `serves.py`.
+"""
 
 from __future__ import annotations
 
@@ -72,54 +75,20 @@ class Exported:
     """One suffix.
 
     title : what it is;  write : gives remarks for the user;  options : that mean something for it
-    serves : what it is and which programs take it, for the help and the pages
     """
 
     title: str
     write: Writer
     options: tuple[str, ...]
-    serves: str
 
-
-_MAP = (
-    "force over speed and duty, with standard errors: any program, MATLAB, a lookup table of"
-    " Simulink"
-)
 
 TARGETS: Mapping[str, Exported] = {
-    ".c": Exported(
-        "C99 source, and its header beside it", _sources, EMULATOR,
-        "C99, with its header beside it: dSPACE and any other C target, an S-Function; init,"
-        " step(dt, x, xdot, duty) -> force, no allocation",
-    ),
-    ".fmu": Exported(
-        "FMU for co-simulation", _fmu, (*EMULATOR, "--fmi"),
-        "FMI 2.0 (--fmi 3: 3.0) for co-simulation: Simulink, Dymola, OpenModelica, a multibody"
-        " program, FMPy; tunable parameters, sources, and binaries for Linux, Windows and macOS"
-        " with 'erdctl[fmu]', else for this machine",
-    ),
-    ".dpr": Exported(
-        "damper property file", _table, (*TABLE, "--positive"),
-        "force over speed at one duty: damper property file of Adams Car and other multibody"
-        " programs (MotionView, SIMPACK)",
-    ),
-    ".csv": Exported("force over speed and duty", _table, TABLE, _MAP),
-    ".mat": Exported("force over speed and duty, for MATLAB", _table, TABLE, _MAP),
-}  # fmt: skip
-
-ONLINE = (
-    "--emulate writes the online emulator of faults in place of the damper: it runs in front of the"
-    " amplifier of a healthy damper, and gives the duty with which that acts as a faulty one,"
-    " within the amplifier's limits and without knowing what comes."
-)
-
-
-def served() -> dict[str, str]:
-    """Which programs a file is for, by its suffix; suffixes that serve the same stand together."""
-    out: dict[str, list[str]] = {}
-    for suffix, found in TARGETS.items():
-        out.setdefault(found.serves, []).append(suffix)
-    return {", ".join(suffixes): serves for serves, suffixes in out.items()}
+    ".c": Exported("C99 source, and its header beside it", _sources, EMULATOR),
+    ".fmu": Exported("FMU for co-simulation", _fmu, (*EMULATOR, "--fmi")),
+    ".dpr": Exported("damper property file", _table, (*TABLE, "--positive")),
+    ".csv": Exported("force over speed and duty", _table, TABLE),
+    ".mat": Exported("force over speed and duty, for MATLAB", _table, TABLE),
+}
 
 
 def target(path: str, given: Sequence[str]) -> Exported:

@@ -16,7 +16,8 @@ import pytest
 from pages import ERDCTL, TABLE_2, concealed, erdctl, mapped
 from places import FIXTURES
 
-from erdctl.export.targets import ONLINE, TARGETS
+from erdctl.export.serves import ONLINE, SERVES
+from erdctl.export.targets import TARGETS
 from erdctl.model.effect import Variable
 from erdctl.report.page.data import Levels, misfit_maps, profile, samples
 from erdctl.report.page.render import Run, digits
@@ -156,10 +157,11 @@ def test_where_an_export_goes_in_the_words_of_the_help(
     assert '<a href="#export">' in page
     words = [*ERDCTL, "export", "--help"]
     said = _one_line(subprocess.run(words, capture_output=True, text=True, check=True).stdout)
-    for suffix, target in TARGETS.items():
+    assert SERVES.keys() == TARGETS.keys()
+    for suffix, serves in SERVES.items():
         assert suffix in section
-        assert f'<td class="words">{target.serves}</td>' in section
-        assert target.serves in said
+        assert f'<td class="words">{serves}</td>' in section
+        assert serves in said
     assert ONLINE in section
     assert ONLINE in said
     for program in ("dSPACE", "Simulink", "multibody"):

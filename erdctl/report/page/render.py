@@ -15,7 +15,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from erdctl.core.recording import Source
 from erdctl.core.version import __version__
-from erdctl.export.targets import ONLINE, served
+from erdctl.export.serves import ONLINE, served
 from erdctl.report.page.mathml import equation, flowing, prose, symbol
 from erdctl.report.readable import typeset
 
