@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import textwrap
 from enum import StrEnum
 from typing import Annotated
 
 import typer
 
 from erdctl.cli.options import Params, emulated_faults
+from erdctl.export.serves import ONLINE, served
 
 
 class Fmi(StrEnum):
@@ -106,19 +108,9 @@ def command(
     """Export a damper to another program: its suffix says what FILE becomes.
 
     \b
-    .c          C99, with its header beside it: dSPACE and any other C target, an
-                S-Function; init, step(dt, x, xdot, duty) -> force, no allocation
-    .fmu        FMI 2.0 (--fmi 3: 3.0) for co-simulation: Simulink, Dymola, OpenModelica,
-                a multibody program, FMPy; tunable parameters, sources, and binaries for
-                Linux, Windows and macOS with 'erdctl[fmu]', else for this machine
-    .dpr        force over speed at one duty: damper property file of Adams Car and
-                other multibody programs (MotionView, SIMPACK)
-    .csv, .mat  force over speed and duty, with standard errors: any program, MATLAB,
-                a lookup table of Simulink
+    SERVED
 
-    --emulate writes the online emulator of faults in place of the damper: it runs in front of the
-    amplifier of a healthy damper, and gives the duty with which that acts as a faulty one, within
-    the amplifier's limits and without knowing what comes.
+    ONLINE
 
     A table holds the force at the highest speed of steady sines, in both directions. What it
     cannot hold (hysteresis, lag, the gas spring) is said in the file, with the NRMSE that this
@@ -185,3 +177,20 @@ def command(
         ))  # fmt: skip
     for line in remarks:
         say(line)
+
+
+def _served(width: int = 86) -> str:
+    """Suffixes and what they serve, in two columns, within the indentation of the help."""
+    first = 2 + max(map(len, served()))
+    rows = [
+        textwrap.fill(
+            serves, width, initial_indent=f"{suffixes:{first}}", subsequent_indent=" " * first,
+            break_on_hyphens=False,
+        )
+        for suffixes, serves in served().items()
+    ]  # fmt: skip
+    return textwrap.indent("\n".join(rows), "    ").lstrip()
+
+
+# The pages have the same words, from the same place.
+command.__doc__ = (command.__doc__ or "").replace("SERVED", _served()).replace("ONLINE", ONLINE)

@@ -31,6 +31,14 @@ def command(
     format: Annotated[
         OutputFormat | None, typer.Option(help="Format on stdout; default CSV.")
     ] = None,
+    causal: Annotated[
+        bool,
+        typer.Option(
+            "--causal",
+            help="As an exported block (C, FMU) computes it: from the past alone, and without"
+            " effects of the bench.",
+        ),
+    ] = False,
     plot: Plots = [],
 ) -> None:
     """Simulate the damper force over a log or a described drive.
@@ -38,12 +46,18 @@ def command(
     Writes the log's columns and `force_model`. A record starts with F_ER at the steady value of
     its first sample; the duty is held from each sample to the next; sign(0) = 0.
 
+    Some effects look at the samples that follow, where that tells more of a log: whether a motion
+    that goes on comes by its place again, the slope of a noisy speed. On a vehicle nobody knows
+    them. With --causal the force is that of the block which `erdctl export` writes, to the last
+    digits, to check one against the other.
+
     \b
     Examples:
       erdctl simulate damper.json drive.csv -o out.parquet
       erdctl simulate damper.json --drive sine:freq=1,amp=0.01,duty=0.2
       erdctl simulate damper.json drive.csv --fault oil=0.5@15:31 --fault electrical=0.8@31:46
       erdctl simulate damper.json drive.csv | erdctl validate -
+      erdctl simulate damper.json drive.csv --causal -o as_exported.csv
       erdctl simulate damper.json drive.csv --fault oil=0.5 --plot faults.png -o out.parquet
     """
     from erdctl.cli.pictures import draw, wanted
@@ -73,6 +87,12 @@ def command(
 
         recording = drives(drive)
         table = table_of(recording)
+    if causal:
+        from erdctl.export.as_block import as_block
+
+        parameters, said = as_block(parameters)
+        for line in said:
+            say(line)
     for line in remarks(parameters, recording):
         say(line)
     with progress() as step:

@@ -71,6 +71,13 @@ class Signals:
         return replace(self, x=x, xdot=xdot, engaged=engaged)
 
     @cached_property
+    def step_before(self) -> Array:
+        """(n,) time since the sample before [s], 0 at the first of a record."""
+        before = np.concatenate([[0.0], self.step[:-1]])[: len(self)]
+        before[self.starts[:-1]] = 0.0
+        return before
+
+    @cached_property
     def sign(self) -> Array:
         """(n,) sign(xdot) of Eq. 18, 0 at rest; a part of it where play runs out."""
         sign: Array = np.sign(self.xdot)

@@ -32,7 +32,7 @@ from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.c_law import CLaw
-from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.effect import Causal, Effect, Requirement, Stage, Variable
 from erdctl.model.slots import MotionSlot, Values
 
 
@@ -44,6 +44,15 @@ def backlash(s: Signals, p: Values) -> Signals:
 
     lost, engaged = play(s.xdot, s.step, s.starts, s.compressing, s.rests, p["g"])
     return s.with_motion(s.x - lost, s.xdot * engaged, engaged)
+
+
+def felt_late(s: Signals, p: Values) -> Signals:
+    """The same where contact that falls just behind a sample shows in the next one only."""
+    moved = backlash(s, p)
+    if moved.engaged is None:
+        return s
+    engaged = np.where(moved.engaged < 0.5, 0.0, moved.engaged)
+    return s.with_motion(moved.x, s.xdot * engaged, engaged)
 
 
 def free_play(p: Values) -> float:
@@ -78,6 +87,7 @@ EFFECT = Effect(
         ),
     ),
     guesses=gaps,
+    causal=Causal(slot=MotionSlot(felt_late, free_play=free_play)),
     companions=("mount_compliance", "coulomb_friction"),
     c=CLaw(
         state=("lost", "past", "free"),

@@ -33,7 +33,7 @@ from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.c_law import CLaw
-from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.effect import Causal, Effect, Requirement, Stage, Variable
 from erdctl.model.slots import ScaleSlot, Values
 
 NEGLIGIBLE = 1e-12  # m
@@ -41,12 +41,22 @@ NEGLIGIBLE = 1e-12  # m
 
 def cavitation(s: Signals, p: Values) -> dict[str, Array]:
     """Factors of the viscous and the yield force, (n,) each [1]."""
+    return _left(s, p, s.path[0])
+
+
+def at_this_speed(s: Signals, p: Values) -> dict[str, Array]:
+    """The same with a coming step that goes as far as the last one would at this speed."""
+    return _left(s, p, np.abs(s.xdot) * s.step_before)
+
+
+def _left(s: Signals, p: Values, travel: Array) -> dict[str, Array]:
+    """The factors; a sample stands for the void within half of travel (n,) each way [m]."""
     x_v = p["x_v"]
     if x_v == 0.0:
         return {}
     void, gone = _void(s, x_v, p["g"])
     edge, to_go = p["e"] * x_v, void - gone
-    sample = np.minimum(np.maximum(s.path[0] - edge, 0.0), 2.0 * void)
+    sample = np.minimum(np.maximum(travel - edge, 0.0), 2.0 * void)
     over = _area(to_go + 0.5 * sample, edge) - _area(to_go - 0.5 * sample, edge)
     here = np.clip(to_go / max(edge, NEGLIGIBLE), 0.0, 1.0)  # of a sample that does not travel
     travels = sample > NEGLIGIBLE
@@ -122,6 +132,7 @@ EFFECT = Effect(
         ),
     ),
     guesses=guesses,
+    causal=Causal(slot=ScaleSlot(at_this_speed)),
     c=CLaw(
         state=("hollow", "gone"),
         code="""

@@ -18,17 +18,26 @@ vehicle suspension applications, Smart Mater. Struct. 5 (1996) 591-606.
 
 from __future__ import annotations
 
+import numpy as np
+
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.c_law import CLaw
-from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.effect import Causal, Effect, Requirement, Stage, Variable
 from erdctl.model.slots import TermSlot, Values
 
 
 def fluid_inertia(s: Signals, p: Values) -> Array:
     """(1, n) force of 1 kg [m/s^2]."""
     return s.xddot[None]
+
+
+def of_the_last_step(s: Signals, p: Values) -> Array:
+    """(1, n) force of 1 kg by the slope of xdot over the last step, half a step late [m/s^2]."""
+    h = s.step_before
+    change = np.diff(s.xdot, prepend=s.xdot[:1])
+    return np.where(h > 0.0, change / np.where(h > 0.0, h, 1.0), 0.0)[None]
 
 
 EFFECT = Effect(
@@ -49,6 +58,7 @@ EFFECT = Effect(
         ),
     ),
     columns=fluid_inertia,
+    causal=Causal(columns=of_the_last_step),
     c=CLaw(
         force="""
         /* No velocity is known ahead of a sample: the slope of the last step, half a step late. */

@@ -66,44 +66,53 @@ EFFECT = Effect(
     ),
     order=10,  # of a constant delay and a memoryless law the order does not matter
     c=CLaw(
-        state=("length", "tail", "count", "span[512]", "value[512]"),
+        state=("length", "tail", "count", "old_span", "old_value", "new_span", "new_value"),
+        past=("span[512]", "value[512]"),
         code="""
-        /* The past of length tau as pieces of held field: a step takes its time from the oldest. */
-        enum { PIECES = 512, KEPT = 504 };
-        real want = s->h, skip, taken, area = K(0.0), span;
-        int tail, count, newest;
+        /* The past of length tau as pieces of held field: a step takes its time from the oldest.
+         * What is left of the oldest and the newest, which may still grow, stand in the state: the
+         * ring has those between, and is written where a new one comes to it and nowhere else. */
+        enum { PIECES = 512, KEPT = 502 };
+        real want = s->h, skip, taken, area = K(0.0), span, value, newest;
+        int tail, count;
 
         if (!(p->tau > K(0.0))) {
             z->length = K(0.0);
             return field;
         }
         if ((s->first && !s->ahead) || !(z->length > K(0.0))) {
-            z->tail = K(0.0);
-            z->count = K(1.0);
-            z->span[0] = z->length = p->tau;
-            z->value[0] = field;
+            z->tail = z->count = z->new_span = z->new_value = K(0.0);
+            z->old_span = z->length = p->tau;
+            z->old_value = field;
         }
         if (s->first)
             return field;
         tail = (int)z->tail;
         count = (int)z->count;
+        newest = z->new_span;
+        value = z->old_value;
         /* Another tau than before: the oldest value goes on, or the oldest pieces go. */
         skip = z->length - p->tau;
-        span = z->span[tail] - FMIN(skip, K(0.0));
+        span = z->old_span - FMIN(skip, K(0.0));
         skip = FMAX(skip, K(0.0));
-        while (count > 0 && (skip > K(0.0) || want > K(0.0))) {
+        while (span > K(0.0) && (skip > K(0.0) || want > K(0.0))) {
             taken = FMIN(span, skip > K(0.0) ? skip : want);
             if (skip > K(0.0)) {
                 skip -= taken;
             } else {
-                area += z->value[tail] * taken;
+                area += value * taken;
                 want -= taken;
             }
             span -= taken;
-            if (!(span > K(0.0))) {
+            if (!(span > K(0.0)) && count > 0) {
+                span = w->span[tail];
+                value = w->value[tail];
                 tail = (tail + 1) % PIECES;
                 count--;
-                span = z->span[tail];
+            } else if (!(span > K(0.0))) {
+                span = newest;
+                value = z->new_value;
+                newest = K(0.0);
             }
         }
         area += FMAX(want, K(0.0)) * field;  /* a step longer than tau */
@@ -111,20 +120,28 @@ EFFECT = Effect(
             return area / s->h;
         z->length = p->tau;
         z->tail = (real)tail;
-        if (count > 0)
-            z->span[tail] = span;
+        z->old_span = span;
+        z->old_value = value;
+        z->new_span = newest;
         taken = FMIN(s->h, p->tau);
-        newest = (tail + count - 1 + PIECES) % PIECES;
         /* A held field is one piece; what is finer than a part of tau joins the newest piece. */
-        if (count > 0 && (FABS(z->value[newest] - field) <= K(0.0) || count >= KEPT
-                          || z->span[newest] < p->tau / (real)KEPT)) {
-            z->span[newest] += taken;
-            z->value[newest] += (field - z->value[newest]) * (taken / z->span[newest]);
+        if (newest > K(0.0) && (FABS(z->new_value - field) <= K(0.0) || count >= KEPT
+                                || newest < p->tau / (real)KEPT)) {
+            z->new_span += taken;
+            z->new_value += (field - z->new_value) * (taken / z->new_span);
+        } else if (!(newest > K(0.0)) && span > K(0.0) && FABS(value - field) <= K(0.0)) {
+            z->old_span += taken;
+        } else if (!(span > K(0.0))) {  /* a step of tau, or longer, has left none */
+            z->old_span = taken;
+            z->old_value = field;
         } else {
-            newest = (tail + count) % PIECES;
-            z->span[newest] = taken;
-            z->value[newest] = field;
-            count++;
+            if (newest > K(0.0)) {
+                w->span[(tail + count) % PIECES] = newest;
+                w->value[(tail + count) % PIECES] = z->new_value;
+                count++;
+            }
+            z->new_span = taken;
+            z->new_value = field;
         }
         z->count = (real)count;
         return area / s->h;

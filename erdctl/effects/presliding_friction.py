@@ -30,19 +30,15 @@ from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array, Index
 from erdctl.core.signals import Signals
 from erdctl.model.c_law import CLaw
-from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.effect import Causal, Effect, Requirement, Stage, Variable
 from erdctl.model.kernels import follow
 from erdctl.model.slots import TermSlot, Values
 
 
 def presliding_friction(s: Signals, p: Values) -> Array:
     """(1, n) state z, the force for F_c = 1 N [1]."""
-    path, after = (distance / p["x_d"] for distance in s.path)
-    way = np.where(s.compressing, 1.0, -1.0)
-    i, _ = s.turns
-    before = np.maximum(path[i] - after, 0.0)
-    slid = np.sign(s.xdot[s.starts[:-1]])
-    z = follow(way, path, i, before, after, slid, s.starts)
+    slid = _slid(s)
+    z = _states(s, p, slid)
     record, again, part, travel = _again(s)
     if len(record):
         then = (1.0 - part) * z[again - 1] + part * z[again]
@@ -50,8 +46,26 @@ def presliding_friction(s: Signals, p: Values) -> Array:
         first = slid.copy()
         # Within bounds also where a step is long for x_d, and the line across it no exponential.
         first[record] = np.clip((then - kept * slid[record]) / (1.0 - kept), -1.0, 1.0)
-        z = follow(way, path, i, before, after, first, s.starts)
+        z = _states(s, p, first)
     return z[None]
+
+
+def slid_before(s: Signals, p: Values) -> Array:
+    """(1, n) state z of records that begin in motion as ones that have slid long [1]."""
+    return _states(s, p, _slid(s))[None]
+
+
+def _slid(s: Signals) -> Array:
+    """(r,) z after a long slide in the direction of a record's first sample."""
+    return np.sign(s.xdot[s.starts[:-1]])
+
+
+def _states(s: Signals, p: Values, first: Array) -> Array:
+    """(n,) z of records that begin with first (r,)."""
+    path, after = (distance / p["x_d"] for distance in s.path)
+    way = np.where(s.compressing, 1.0, -1.0)
+    i, _ = s.turns
+    return follow(way, path, i, np.maximum(path[i] - after, 0.0), after, first, s.starts)
 
 
 @lru_cache(maxsize=4)
@@ -102,6 +116,7 @@ EFFECT = Effect(
         ),
     ),
     columns=presliding_friction,
+    causal=Causal(columns=slid_before),
     c=CLaw(
         state=("z",),
         force="""

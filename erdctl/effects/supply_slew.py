@@ -55,22 +55,31 @@ EFFECT = Effect(
     ),
     order=10,  # the amplifier comes before the fluid
     c=CLaw(
-        state=("reached",),
+        state=("reached", "low"),
         code="""
+        /* What a float's rounding leaves of the way is none: v^beta is steep where the duty ends
+         * at 0. A double has the digits, and then those of Python are wanted. */
+        const int coarse = sizeof(real) < sizeof(double);
+        const real none = coarse ? K(2.0) * K(FLT_EPSILON) : K(0.0);
         real reach = s->h / p->T_full, off, mean;
 
         if (!(p->T_full > K(0.0)))
             return duty;
-        if (s->first && !s->ahead)
+        if (s->first && !s->ahead) {
             z->reached = duty;
-        off = duty - z->reached;
-        if (FABS(off) <= reach) {
-            mean = duty - (reach > K(0.0) ? K(0.5) * off * FABS(off) / reach : K(0.0));
+            z->low = K(0.0);
+        }
+        off = (duty - z->reached) + z->low;
+        if (FABS(off) <= reach + none) {
+            mean = reach > K(0.0) ? FMIN(FABS(off) / reach, K(1.0)) : K(0.0);
+            mean = duty - K(0.5) * off * mean;
         } else {
             off = off > K(0.0) ? reach : -reach;
             mean = z->reached + K(0.5) * off;
         }
-        if (!s->ahead)
+        if (!s->ahead && coarse)
+            add_to(&z->reached, &z->low, off);
+        else if (!s->ahead)
             z->reached += off;
         return mean;
         """,

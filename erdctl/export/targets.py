@@ -1,4 +1,7 @@
-"""What can be exported: one line for each suffix. Writers are imported when they are needed."""
+"""What can be exported: one line for each suffix. Writers are imported when they are needed.
+
+Which programs a file is for says `serves.py`.
+"""
 
 from __future__ import annotations
 

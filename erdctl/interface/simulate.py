@@ -12,6 +12,7 @@ import numpy as np
 from erdctl.bench.drive import drives
 from erdctl.core.errors import UsageProblem
 from erdctl.core.recording import Array
+from erdctl.export.as_block import as_block
 from erdctl.interface.arguments import ParametersLike, given_parameters
 from erdctl.interface.display import draw, frame_of, html, text
 from erdctl.interface.log import BenchLog, LogLike, Place, log_of, samples, texts, with_force
@@ -110,6 +111,7 @@ def simulate(
     *,
     faults: Sequence[str] | str = (),
     drive: Sequence[str] | str = (),
+    causal: bool = False,
 ) -> Simulated:
     """Simulate the force of a damper over a log or a described drive, healthy or with faults.
 
@@ -119,6 +121,8 @@ def simulate(
         deformation, FACTOR 1 for healthy, e.g. ["oil=0.5@15:31", "electrical=0.8"]
     drive : in place of a log, e.g. "sine:freq=1,amp=0.01,duty=0.2" (Hz, m, 1); of several, one
         record each; see `erdctl simulate --help`
+    causal : as the block computes it that `erdctl export` writes (C, FMU): what it knows at a
+        sample is of the past alone, and effects of the bench are left out
 
     Returns a Simulated: `.force` (n,) [N], `.table()` the log's columns and force_model, `.plot()`,
     `.write(path)`. `.remarks` says where it goes beyond what the parameters were identified on.
@@ -134,11 +138,12 @@ def simulate(
     if (log is None) == (not described):
         raise UsageProblem("simulate needs either a log or a drive, e.g. drive='sine:freq=1'")
     found = given_parameters(parameters).parameters
+    found, told = as_block(found) if causal else (found, [])
     given = (
         BenchLog(Log(drives(described)))
         if log is None
         else log_of(log, want_force=True, keep_table=True)
     )
-    said = (*given.remarks, *remarks(found, given.recording))
+    said = (*given.remarks, *told, *remarks(found, given.recording))
     force = simulated(found, given.recording, wanted)
     return Simulated(found, with_force(given, force), tuple(wanted), said)

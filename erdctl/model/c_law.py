@@ -6,6 +6,9 @@ and calls it once a sample. All heads share
     p : const struct *, the effect's parameters by symbol (`p->x_d`)
     z : struct *, its state, the members that `state` names (`z->heat`); only there if it has any.
         All 0 after init; `s->first` is the time to set it
+    w : struct *, its long memory, the arrays that `past` names; only there if it has any. Who looks
+        ahead copies the state and shares this: a step may write only where, by its state, nothing
+        of the past stands that is still needed, and it must have room for a few steps so
     s : const Sample *, motion and control at this sample and at the one before, see below
 
 and real is double, or float. Every literal goes through K (`K(0.5)`), every function of <math.h>
@@ -32,6 +35,7 @@ Sample:
     first            it is the first since init: nothing lies before it
     h, t, clock      step from the sample before [s]; time since the first; the same in the time of
                      the record as logged, where that is known [s]
+    clock_low        to be taken off a difference to the clock: what its digits do not hold [s]
     x, xdot, duty    motion of the piston [m], [m/s]; duty that acts from now on [1]
     x0, xdot0, duty0 the same at the sample before; duty0 acted over the step
     up, up0          1 where the parameters of compression apply, now and before
@@ -77,6 +81,7 @@ class CLaw:
     force : body of the function that gives its added force [N]; empty if it adds none
     play : body of the function that gives a joint's free play [m]
     state : members of its state, reals: a name, or an array with its length, "past[64]"
+    past : members of its long memory, arrays too large to be copied for each look ahead
     told : what a program may tell it
     note : what the causal form cannot do that Python does, for the header
     """
@@ -85,5 +90,6 @@ class CLaw:
     force: str = ""
     play: str = ""
     state: tuple[str, ...] = ()
+    past: tuple[str, ...] = ()
     told: tuple[Told, ...] = ()
     note: str = ""

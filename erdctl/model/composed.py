@@ -77,6 +77,10 @@ class Model:
             for e in self.effects
         )
 
+    def past_alone(self) -> Model:
+        """The same model of what is known at a sample from the past alone, as exported C has it."""
+        return Model(tuple(effect.past_alone() for effect in self.effects))
+
     def of(self, kind: type[S]) -> list[tuple[Effect, S]]:
         """The effects of one slot, each with it, in the order in which they act."""
         return in_slot(self.effects, kind)

@@ -69,6 +69,17 @@ class Variable(Enum):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Causal:
+    """What stands in for an effect that looks at samples ahead where these are not known yet.
+
+    slot, columns : in the place of the effect's own; None where that knows the past alone already
+    """
+
+    slot: Slot | None = None
+    columns: TermFunction | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class Effect:
     """One physical effect: facts for people and programs, and pure functions.
 
@@ -95,6 +106,7 @@ class Effect:
         whose time a fit finds by a search of all (`estimate.onsets`); no others
     order : effects of one slot act in this order
     c : the same in C99, for the export;  writes_c : makes it, where that costs something
+    causal : what that does where the effect itself looks ahead
     earlier : parameters that files lack which were written before there were any, and what they are
         there: a number, or the symbol whose value it is
     """
@@ -123,6 +135,7 @@ class Effect:
     order: int = 0
     earlier: tuple[tuple[str, float | str], ...] = ()
     c: CLaw | None = field(default=None, repr=False)
+    causal: Causal | None = field(default=None, repr=False)
     writes_c: Callable[[], CLaw] | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -140,6 +153,14 @@ class Effect:
     def with_c(self) -> Effect:
         """Itself with its C, where that is made only for an export."""
         return self if self.writes_c is None else replace(self, c=self.writes_c())
+
+    def past_alone(self) -> Effect:
+        """Itself as its C has it: what it does at a sample knows nothing of those ahead."""
+        if self.causal is None:
+            return self
+        return replace(
+            self, slot=self.causal.slot or self.slot, columns=self.causal.columns or self.columns
+        )
 
     def starts(self, s: Signals, rest: Array) -> list[dict[str, float]] | None:
         """Starts of a search by symbol; None where the effect leaves them to a grid."""

@@ -20,7 +20,7 @@ from erdctl.core.errors import UsageProblem
 from erdctl.core.recording import Array, Index
 from erdctl.core.signals import Signals
 from erdctl.model.c_law import CLaw
-from erdctl.model.onset import AMOUNT, RAMP, START, onset_weight
+from erdctl.model.onset import AMOUNT, RAMP, START, onset_by_steps, onset_weight
 
 EXAMPLE = "write for instance oil=0.5@15:31 or electrical=0.8@31,ramp=2,channel=fr"
 
@@ -203,10 +203,24 @@ def set_in(kind: FaultKind, s: Signals, p: Mapping[str, float]) -> dict[str, Arr
     return dict.fromkeys(kind.groups, factor)
 
 
+def set_in_by_steps(kind: FaultKind, s: Signals, p: Mapping[str, float]) -> dict[str, Array]:
+    """The same over the step before each sample, where those ahead are not known."""
+    f = p[AMOUNT]
+    if f == 1.0:
+        return {}
+    weight = onset_by_steps(s.t - p[START], p[RAMP], s.step_before)
+    factor: Array = (1.0 - weight) + weight * f
+    return dict.fromkeys(kind.groups, factor)
+
+
 def set_in_c(kind: FaultKind) -> CLaw:
     """The same in C, by the clock of the record where that was stated."""
-    left = f"K(1.0) - (K(1.0) - p->{AMOUNT}) * onset_weight(s->clock, p->{START}, p->{RAMP}, s->h)"
-    lines = [f"real left = {left};", "", *(f"f->{group} *= left;" for group in kind.groups)]
+    lines = [
+        f"real since = (s->clock - p->{START}) - s->clock_low;",
+        f"real left = K(1.0) - (K(1.0) - p->{AMOUNT}) * onset_weight(since, p->{RAMP}, s->h);",
+        "",
+        *(f"f->{group} *= left;" for group in kind.groups),
+    ]
     return CLaw(code="\n".join(lines), note="sets in over its own step, where steps vary")
 
 

@@ -38,6 +38,21 @@ def anywhere(s: Signals, rest: Array) -> list[dict[str, float]]:
     return [{AMOUNT: 0.7, START: float(np.median(s.t)), RAMP: 0.0}]
 
 
+def onset_by_steps(since: Array, t_r: float, step: Array) -> Array:
+    """The same where each sample stands for a step of its own, as long as the one before it.
+
+    since : (n,) time after the onset [s];  step : (n,) [s], 0 at the first sample of a record
+    Check: at once, 0.1 s after the onset, steps of 1 s and 0.1 s: 0.6 and 1.
+    >>> onset_by_steps(np.array([0.1, 0.1]), 0.0, np.array([1.0, 0.1])).round(9).tolist()
+    [0.6, 1.0]
+    """
+    low, high = np.clip(since - 0.5 * step, 0.0, t_r), np.clip(since + 0.5 * step, 0.0, t_r)
+    area = 0.5 * (high**2 - low**2) / (t_r or 1.0) + np.clip(since + 0.5 * step - t_r, 0.0, step)
+    at_once = np.where(since >= t_r, 1.0, np.clip(since, 0.0, t_r) / (t_r or 1.0))
+    mean = np.clip(area / np.where(step > 0.0, step, 1.0), 0.0, 1.0)
+    return np.where(step > 0.0, mean, at_once)
+
+
 def onset_weight(t: Array, t_0: float, t_r: float, step: float) -> Array:
     """How far a change has set in at the samples of a log.
 

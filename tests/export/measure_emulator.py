@@ -108,9 +108,9 @@ def shortest(call: Callable[[], Any], n: int) -> float:
     """ns a sample: others use the machine too, so that the least of many is what it takes."""
     times = []
     for _ in range(REPEATS):
-        began = time.perf_counter_ns()
+        began = time.thread_time_ns()
         call()
-        times.append(time.perf_counter_ns() - began)
+        times.append(time.thread_time_ns() - began)
     return min(times) / n
 
 

@@ -16,7 +16,6 @@ from pathlib import Path
 import numpy as np
 from c_built import FLOAT, block_of, forces, parameters_of
 from c_motion import bench, random_motion, record
-from causal import causal
 from measured import show, summed, tables
 from places import SHARED
 from roads import road
@@ -59,18 +58,14 @@ def far(found: Array, expected: Array) -> float:
 
 
 def differences(found: Model, values: dict[str, float]) -> list[float]:
-    """Double and float against the causal Python; double against Python as it is, and the rms."""
+    """Double and float against `simulate --causal`; double against `simulate`, and the rms."""
     s = motion()
     block = block_of(found, values, s)
-    past = past_alone(found).force(s, values)
+    past = found.past_alone().force(s, values)
     double, single = forces(block, s), forces(block, s, FLOAT)
     whole = found.force(s, values)
     rms = float(np.sqrt(np.mean((double - whole) ** 2)) / np.ptp(whole))
     return [far(double, past), far(single, past), far(double, whole), rms]
-
-
-def past_alone(found: Model) -> Model:
-    return Model(tuple(causal(e) for e in found.effects))
 
 
 def at_random(found: Model, seed: int) -> dict[str, float]:
@@ -79,7 +74,7 @@ def at_random(found: Model, seed: int) -> dict[str, float]:
 
 
 def looks_ahead(found: Model) -> bool:
-    return any(causal(e) is not e for e in found.effects)
+    return found.past_alone() != found
 
 
 def force(*names: str) -> None:
@@ -171,7 +166,7 @@ def fmu(*names: str) -> None:
         return far(out, expected)
 
     s = Signals.of(schedule())
-    print("FMU by FMPy against Python (causal), over the range; findings of validate_fmu")
+    print("FMU by FMPy against `simulate --causal`, over the range; findings of validate_fmu")
     for number in ("2", "3"):
         off = difference(damper(number), s, Model().force(s, PAPER))
         show(
@@ -190,7 +185,7 @@ def fmu(*names: str) -> None:
         number = "23"[i % 2]
         path = built_fmu(damper_block(write_c(p, prefix=f"f{i}"), p), number)
         n = len(validate_fmu(str(path)))
-        offs.append((name, difference(path, s, past_alone(found).force(s, values))))
+        offs.append((name, difference(path, s, found.past_alone().force(s, values))))
         findings += n
         show(f"{name}, FMI {number}", f"{offs[-1][1]:.1e}", n)
     summed("all", offs, 1e-9)

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import html
 import json
+import subprocess
+from collections.abc import Callable
 from importlib import resources
 from pathlib import Path
 
 import numpy as np
 import pytest
-from pages import TABLE_2, concealed, erdctl, mapped
+from pages import ERDCTL, TABLE_2, concealed, erdctl, mapped
 from places import FIXTURES
 
+from erdctl.export.serves import ONLINE, SERVES
+from erdctl.export.targets import TARGETS
 from erdctl.model.effect import Variable
 from erdctl.report.page.data import Levels, misfit_maps, profile, samples
 from erdctl.report.page.render import Run, digits
@@ -137,3 +142,27 @@ def test_words() -> None:
     assert digits(-5.4e-8, 2) == "−5.4×10⁻⁸"
     assert Run(words=["validate", "a b.csv"]).command == "erdctl validate 'a b.csv'"
     assert json.dumps(Run(words=[]).rows[0]) == '["erdctl", "0.1.0"]'
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split())
+
+
+@pytest.mark.parametrize("name", ["worn", "validation"])
+def test_where_an_export_goes_in_the_words_of_the_help(
+    made: Callable[[str], Path], name: str
+) -> None:
+    page = html.unescape(made(name).read_text(encoding="utf-8"))
+    section = page.partition('<section id="export"')[2].partition("</section>")[0]
+    assert '<a href="#export">' in page
+    words = [*ERDCTL, "export", "--help"]
+    said = _one_line(subprocess.run(words, capture_output=True, text=True, check=True).stdout)
+    assert SERVES.keys() == TARGETS.keys()
+    for suffix, serves in SERVES.items():
+        assert suffix in section
+        assert f'<td class="words">{serves}</td>' in section
+        assert serves in said
+    assert ONLINE in section
+    assert ONLINE in said
+    for program in ("dSPACE", "Simulink", "multibody"):
+        assert program in section

@@ -83,6 +83,7 @@ def _function(kind: str, effect: Effect, head: Head, body: str) -> str:
     given = [f"const struct PREFIX_{name}_params *p"]
     if head.sample:
         given += [f"struct PREFIX_{name}_state *z"] if law_of(effect).state else []
+        given += [f"struct PREFIX_{name}_past *w"] if law_of(effect).past else []
         given += ["const Sample *s"]
     return function(f"{head.returns} {kind}_{name}", [*given, *head.given], body)
 
@@ -106,4 +107,6 @@ def call(kind: str, effect: Effect, *given: str, state: str = "") -> str:
     arguments = [f"&st->p.{name}"]
     if law_of(effect).state:
         arguments.append(f"&st->{name}{state}")
+    if law_of(effect).past:
+        arguments.append(f"&s->keeper->{name}_past{state}")
     return f"{kind}_{name}({', '.join([*arguments, 's', *given])})"

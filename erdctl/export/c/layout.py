@@ -82,6 +82,25 @@ def state_structs(effects: Sequence[Effect]) -> str:
     return "".join(f"{line}\n" for line in lines)
 
 
+def past_structs(effects: Sequence[Effect]) -> str:
+    """The last member of the state: long memories, which a look ahead shares and does not copy."""
+    kept = [(e, e.c.past) for e in effects if e.c is not None and e.c.past]
+    if not kept:
+        return ""
+    lines = ["    /* Long memories, behind all else: a look ahead does not copy them. */"]
+    for effect, past in kept:
+        name = identifier(effect.name)
+        lines += [f"    struct PREFIX_{name}_past {{"]
+        lines += [f"        PREFIX_real {member};" for member in past]
+        lines += [f"    }} {name}_past{'[2]' if isinstance(effect.slot, FieldSlot) else ''};"]
+    return "".join(f"{line}\n" for line in lines)
+
+
+def first_past(effects: Sequence[Effect]) -> str:
+    """The member with which the long memories begin; empty if there are none."""
+    return next((f"{identifier(e.name)}_past" for e in effects if e.c and e.c.past), "")
+
+
 def defaults(members: Sequence[CMember]) -> str:
     """The function that fills in the identified values."""
     lines = [f"    p->{m.path} = {literal(m.value)};" for m in members]

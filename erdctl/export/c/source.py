@@ -12,8 +12,10 @@ from erdctl.export.c.layout import (
     CMember,
     defaults,
     effect_members,
+    first_past,
     paper_members,
     parameter_struct,
+    past_structs,
     state_structs,
 )
 from erdctl.export.c.names import helpers, identifier, part
@@ -32,6 +34,7 @@ class CBlock:
     prefix : begins every name that others see;  header, source : text of PREFIX.h and PREFIX.c
     left_out : effects that the block has not, each with why, for people
     told : functions by which a program tells it more than motion, control and faults
+    memory : member of the state from which on it is long memories, empty if it has none
     parameters : every member of PREFIX_params: path, value, unit and title
     """
 
@@ -41,6 +44,7 @@ class CBlock:
     left_out: tuple[str, ...]
     parameters: tuple[CMember, ...]
     told: tuple[Told, ...] = ()
+    memory: str = ""
 
 
 def write_c(parameters: Parameters, *, prefix: str) -> CBlock:
@@ -69,7 +73,9 @@ def write_c(parameters: Parameters, *, prefix: str) -> CBlock:
     header = header.replace("@TOLD@", told_heads(effects))
     header = header.replace(
         "@STATES@",
-        state_structs(effects) + ("" if spring is None else series.state(effects)),
+        state_structs(effects)
+        + ("" if spring is None else series.state(effects))
+        + past_structs(effects),
     )
     body = [
         part("base.c"), functions(effects, plays=plays),
@@ -88,6 +94,7 @@ def write_c(parameters: Parameters, *, prefix: str) -> CBlock:
         left_out=left_out,
         parameters=members,
         told=told_by(effects),
+        memory=first_past(effects),
     )
 
 

@@ -76,6 +76,7 @@ def write_emulator(
         "@WANTED@": part(model.wanted) if model.wanted else "",
         "@YIELDING@": model.yielding,
         "@OBSERVED@": part(model.state).rstrip(),
+        "@COPIED@": model.copied,
         "@DEFAULTS@": "\n".join(f"    p->{m.path} = {literal(m.value)};" for m in members),
         "@USABLE@": "\n".join(
             f"        && within(p->{m.path}, K(-1e30), K(1e30))" for m in model.members

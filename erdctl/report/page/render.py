@@ -15,6 +15,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from erdctl.core.recording import Source
 from erdctl.core.version import __version__
+from erdctl.export.serves import ONLINE, served
 from erdctl.report.page.mathml import equation, flowing, prose, symbol
 from erdctl.report.readable import typeset
 
@@ -71,6 +72,8 @@ def render(
             data={"samples": samples, "figures": figures},
             scripts=scripts,
             style=style,
+            served=list(served().items()),
+            online=ONLINE,
             policy=_policy(scripts, style),
             **context,
         )

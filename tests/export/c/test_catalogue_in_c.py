@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from c_built import FLOAT, block_of, forces, parameters_of
 from c_motion import bench, random_motion
-from causal import causal
 from places import FIXTURES
 
 from erdctl.core.errors import UsageProblem
@@ -45,7 +44,7 @@ def test_it_equals_python(
 ) -> None:
     """To the last digits, but for what looks ahead in Python."""
     values = acting(effect)
-    expected = Model((causal(effect),)).force(s, values)
+    expected = Model((effect,)).past_alone().force(s, values)
     off = np.abs(forces(block_of(Model((effect,)), values, s), s, *options) - expected)
     assert off.max() <= near * np.ptp(expected)
 
@@ -54,7 +53,7 @@ def test_it_equals_python(
 @moved
 def test_not_to_look_ahead_costs_little(effect: Effect, s: Signals) -> None:
     assert effect.c is not None
-    if causal(effect) is effect:
+    if effect.past_alone() is effect:
         return
     assert effect.c.note  # says so
     model, values = Model((effect,)), acting(effect)

@@ -12,7 +12,6 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-import causal as of_catalogue
 import numpy as np
 import pytest
 from c_built import (
@@ -218,7 +217,7 @@ def test_laws_act_with_the_catalogue(name: str) -> None:
     values |= {other.key(q.symbol): q.start for q in other.quantities}
     in_python = [causal(e) if e.name.startswith("learned_deflection") else e for e in effects]
     s = rough()
-    expected = Model((of_catalogue.causal(other), *in_python)).force(s, values)
+    expected = Model((other.past_alone(), *in_python)).force(s, values)
     found = forces(block_of(Model((other, *effects)), values, s), s)
     assert np.abs(found - expected).max() < 1e-9 * np.ptp(expected)
 

@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 from c_built import COMPILERS, FLOAT, SANITIZERS, WARNINGS, block_of, built, forces, rows_of, run
 from c_motion import bench, random_motion, record
-from causal import causal
 from places import FIXTURES
 
 from erdctl.core.errors import IncompatibleEffects
@@ -68,7 +67,7 @@ def test_it_equals_python(seed: int, options: tuple[str, ...], near: float) -> N
     found, values = model(seed)
     s = record(bench(), *bench().starts[seed % 3 : seed % 3 + 2].tolist())
     s = random_motion() if seed % 2 else s
-    expected = Model(tuple(causal(e) for e in found.effects)).force(s, values)
+    expected = found.past_alone().force(s, values)
     off = np.abs(forces(block_of(found, values, s), s, *options) - expected)
     assert off.max() <= near * np.ptp(expected), [e.name for e in found.effects]
 
@@ -229,7 +228,7 @@ def test_many_at_once_equal_python(
         values |= {"compression.T_d": T_d, "release.T_d": T_d}
     for effect in found.effects:
         values |= {effect.key(q.symbol): drawn(q, rng) for q in effect.quantities}
-    expected = Model(tuple(causal(e) for e in found.effects)).force(s, values)
+    expected = found.past_alone().force(s, values)
     off = np.abs(forces(block_of(found, values, s), s, *options) - expected)
     assert off.max() <= near * np.ptp(expected)
 
@@ -246,7 +245,7 @@ def even(s: Signals) -> Signals:
 def test_without_a_lag_it_equals_python(effect: Effect) -> None:
     found, s = Model((effect,)), even(random_motion())
     values = at_start(found) | {"compression.T_d": 0.0, "release.T_d": 0.0}
-    expected = Model((causal(effect),)).force(s, values)
+    expected = found.past_alone().force(s, values)
     off = np.abs(forces(block_of(found, values, s), s) - expected)
     # At the end of a record Python has no step ahead to take a mean over.
     inner = np.ones(len(s), dtype=bool)

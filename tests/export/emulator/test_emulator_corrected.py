@@ -6,6 +6,8 @@ import copy
 import json
 import re
 import subprocess
+from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -15,15 +17,17 @@ from emulators import COMPILERS, NONSENSE, STRICT, Compiled, rows, sanitized, wr
 from places import FIXTURES
 from roads import factors_over, road
 
+from erdctl.core.recording import Recording
 from erdctl.core.signals import Signals
 from erdctl.effects import get, names
-from erdctl.export.emulator.model_part import dead_time
+from erdctl.export.emulator.model_part import dead_time, sweep_time, turns_first
 from erdctl.export.emulator.source import write_emulator
 from erdctl.io.parameters import parse_parameters
 from erdctl.mimic.plan import mimic
 from erdctl.model.amplifier import Amplifier
 from erdctl.model.faults import parse_fault
 from erdctl.model.parameters import Parameters
+from erdctl.model.simulate import simulate
 from erdctl.score.nrmse import nrmse
 
 pytestmark = pytest.mark.skipif(not COMPILERS, reason="no C compiler")
@@ -58,23 +62,92 @@ def test_every_effect_compiles_within_the_emulator(name: str, tmp_path: Path) ->
             )
 
 
+@cache
+def knowing(name: str, folder: Path) -> Compiled:
+    """The emulator that knows an effect, or, without a name, that of the paper's model alone."""
+    parameters = with_effect(*([name] if name else []))
+    return Compiled.of(write_emulator(parameters, prefix=name or "paper"), folder)
+
+
+def duties(name: str, r: Recording, faults: tuple[str, ...], folder: Path) -> dict[str, Any]:
+    """(n,) duty of the emulator that knows the effect, and of that of the paper's model alone."""
+    given = rows(r.t, r.x, r.xdot, r.duty, **factors_over(r, faults))
+    both = {"online": knowing(name, folder), "by the paper": knowing("", folder)}
+    return {what: e.run(e.state(), given).duty for what, e in both.items()}
+
+
+def missed(name: str, r: Recording, found: dict[str, Any], ideal: Any, at: Any) -> dict[str, float]:
+    """NRMSE of the corrected damper's force to the ideal faulty one, under each duty."""
+    corrected, s = with_effect(name), Signals.of(r)
+    force = {w: corrected.model.force(s.with_duty(v), corrected.values) for w, v in found.items()}
+    return {what: nrmse(ideal[at], f[at]).nrmse for what, f in force.items()}
+
+
 def errors(name: str, folder: Path) -> dict[str, float]:
-    """NRMSE of the corrected damper's force to the ideal faulty one on a rough road."""
-    corrected, r = with_effect(name), road(0, step=0.001, duration=5.0)
-    given = rows(r.t, r.x, r.xdot, r.duty, **factors_over(r, FAULT))
-    found = {}
-    for what, parameters in (("online", corrected), ("by the paper", with_effect())):
-        prefix = what.replace(" ", "_")
-        emulator = Compiled.of(write_emulator(parameters, prefix=prefix), folder)
-        found[what] = emulator.run(emulator.state(), given).duty
-    plan = mimic(corrected, r, [parse_fault(f) for f in FAULT], Amplifier())
-    found |= {"offline": plan.duty, "static": plan.duty_paper}
-    at = plan.acting
+    """Online and offline on a rough road."""
+    r = road(0, step=0.001, duration=5.0)
+    plan = mimic(with_effect(name), r, [parse_fault(f) for f in FAULT], Amplifier())
+    found = duties(name, r, FAULT, folder) | {"offline": plan.duty, "static": plan.duty_paper}
+    return missed(name, r, found, plan.ideal, plan.acting)
 
-    def force(v: Any) -> Any:
-        return corrected.model.force(Signals.of(r).with_duty(v), corrected.values)
 
-    return {what: nrmse(plan.ideal[at], force(v)[at]).nrmse for what, v in found.items()}
+# What hides the yield force for a while: a void, play, a spring that loads, a flow before yield.
+HIDING = ("cavitation", "backlash", "mount_compliance", "fluid_compressibility",
+          "yield_hysteresis", "preyield_viscosity", "preyield_elasticity")  # fmt: skip
+
+
+@pytest.mark.parametrize("name", HIDING)
+def test_to_know_an_effect_that_hides_the_yield_force_is_no_worse(
+    name: str, tmp_path: Path
+) -> None:
+    for seed, fault in ((0, "deformation=0.7@1"), (4, "electrical=0.8@1"), (4, "oil=0.5@1")):
+        r = road(seed, step=0.001, duration=4.0)
+        ideal = simulate(with_effect(name), r, [fault])
+        e = missed(name, r, duties(name, r, (fault,), tmp_path), ideal, r.t >= 1.0)
+        # Duties are looked for until they are near enough: 1e-4 of the range of the force.
+        assert e["online"] < 1.02 * e["by the paper"] + 1e-4
+
+
+def test_a_duty_that_slews_is_not_sent_to_and_fro(tmp_path: Path) -> None:
+    r = road(0, step=0.001, duration=5.0)
+    ideal = simulate(with_effect("supply_slew"), r, FAULT)
+    found = duties("supply_slew", r, FAULT, tmp_path)
+    e = missed("supply_slew", r, found, ideal, r.t >= 1.0)
+    assert e["online"] < 0.55 * e["by the paper"]
+
+
+def test_what_an_effect_makes_of_a_step_of_the_duty() -> None:
+    slewing = with_effect("supply_slew")
+    assert sweep_time(slewing) == pytest.approx(slewing.values["supply_slew.T_full"], abs=5e-4)
+    assert sweep_time(with_effect("input_delay")) == 0.0
+    assert sweep_time(with_effect()) == 0.0
+    # More duty is a slower yielding first and more yield force later.
+    assert turns_first(with_effect("preyield_field_dependence"))
+    assert not any(map(turns_first, map(with_effect, ("preyield_viscosity", "field_viscosity"))))
+
+
+@pytest.mark.parametrize("tau", [0.0004, 0.005, 0.0503, 0.4])
+def test_looks_ahead_leave_the_past_as_it_is(tau: float, tmp_path: Path) -> None:
+    """They share the ring of past duties; with copies of the whole the output is the same."""
+    block = write_emulator(with_effect("input_delay"), prefix="shared")
+    copies = replace(
+        block, prefix="copied", header=block.header.replace("shared", "copied"),
+        source=re.sub(r"offsetof\(.*?\)\)", "sizeof *copy)", block.source)
+        .replace("step_with(copy, of,", "step_with(copy, copy,").replace("shared", "copied"),
+    )  # fmt: skip
+    assert copies.source.count("sizeof *copy") == 1
+    assert copies.source.count("step_with(copy, copy,") == 1
+    r = road(3, step=0.001, duration=3.0)
+    rng = np.random.default_rng(1)
+    duty = np.clip(0.2 + 0.1 * rng.standard_normal(len(r.t)), 0.0, 0.45)
+    given = rows(np.cumsum(rng.uniform(3e-4, 2e-3, len(r.t))), r.x, r.xdot, duty, deformation=0.7)
+    out = []
+    for each in (block, copies):
+        emulator = Compiled.of(each, tmp_path)
+        state = emulator.state(**{"damper.input_delay.tau": tau, "dead_time": tau})
+        out.append(emulator.run(state, given).duty)
+    assert np.array_equal(*out)
+    assert len(np.unique(out[0])) > 100
 
 
 @pytest.mark.parametrize("name", ["field_threshold", "field_viscosity", "shear_thinning"])

@@ -107,18 +107,18 @@ static real ramp_area(real v, real edge)
     return (edge > K(0.0) ? ramp * ramp / (K(2.0) * edge) : K(0.0)) + FMAX(v - edge, K(0.0));
 }
 
-/* How far a change has set in at a time: the mean over a step about it of a ramp from t_0 on. */
-static real onset_weight(real t, real t_0, real t_r, real step)
+/* How far a change has set in, a time after its onset: the mean over a step about it of a ramp over
+ * t_r. Each case in a form whose digits do not cancel, as the rest of a step is what counts. */
+static real onset_weight(real since, real t_r, real step)
 {
-    real since = t - t_0, low, high, area;
+    real low = since - K(0.5) * step, high = since + K(0.5) * step;
 
+    if (high <= K(0.0) || low >= t_r)
+        return low >= t_r ? K(1.0) : K(0.0);
     if (!(step > K(0.0)))
-        return since >= t_r ? K(1.0) : clipped(since / t_r, K(0.0), K(1.0));
-    if (since >= K(0.5) * step && since <= t_r - K(0.5) * step)
-        return since / t_r;  /* as below, with all its digits */
-    low = clipped(since - K(0.5) * step, K(0.0), t_r);
-    high = clipped(since + K(0.5) * step, K(0.0), t_r);
-    area = t_r > K(0.0) ? K(0.5) * (high - low) * (high + low) / t_r : K(0.0);
-    area += clipped(since + K(0.5) * step - t_r, K(0.0), step);
-    return clipped(area / step, K(0.0), K(1.0));
+        return since / t_r;
+    if (low >= K(0.0))
+        return high <= t_r ? since / t_r
+                           : K(1.0) - K(0.5) * (t_r - low) / step * ((t_r - low) / t_r);
+    return high <= t_r ? K(0.5) * high / step * (high / t_r) : (high - K(0.5) * t_r) / step;
 }

@@ -60,8 +60,8 @@ static void forget(State *s)
     s->up = up;
 }
 
-PREFIX_real PREFIX_step(PREFIX_state *s, PREFIX_real dt, PREFIX_real x, PREFIX_real xdot,
-                        PREFIX_real duty)
+/* A step with the long memories of `keeper`. */
+static real step_with(State *s, State *keeper, real dt, real x, real xdot, real duty)
 {
     Sample now;
     real force;
@@ -82,7 +82,7 @@ PREFIX_real PREFIX_step(PREFIX_state *s, PREFIX_real dt, PREFIX_real x, PREFIX_r
         s->status |= PREFIX_DUTY_LIMITED;
         duty = duty < K(0.0) ? K(0.0) : K(1.0);
     }
-    take(s, &now, dt, x, xdot, duty);
+    take(s, keeper, &now, dt, x, xdot, duty);
     force = acting(s, &now);
     keep(s, &now, duty);
     if (!usable(force, HUGEST)) {
@@ -92,4 +92,10 @@ PREFIX_real PREFIX_step(PREFIX_state *s, PREFIX_real dt, PREFIX_real x, PREFIX_r
     }
     s->force = force;
     return force;
+}
+
+PREFIX_real PREFIX_step(PREFIX_state *s, PREFIX_real dt, PREFIX_real x, PREFIX_real xdot,
+                        PREFIX_real duty)
+{
+    return step_with(s, s, dt, x, xdot, duty);
 }

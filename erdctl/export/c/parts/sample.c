@@ -3,17 +3,20 @@ static int heading(real xdot, int up)
     return xdot > K(0.0) ? 1 : xdot < K(0.0) ? 0 : up;
 }
 
-static void take(State *st, Sample *s, real dt, real x, real xdot, real duty)
+static void take(State *st, State *keeper, Sample *s, real dt, real x, real xdot, real duty)
 {
     Motion m;
 
     memset(s, 0, sizeof *s);
+    s->keeper = keeper;
     s->first = !st->started;
     s->h = s->first ? K(0.0) : dt + st->waited;
     if (!s->first)
         add_to(&st->t, &st->t_low, s->h);
     s->t = st->t;
-    s->clock = st->t + st->clock;
+    s->clock = st->clock;
+    s->clock_low = st->t_low;
+    add_to(&s->clock, &s->clock_low, st->t);
     s->x0 = s->first ? x : st->x;
     s->xdot0 = s->first ? xdot : st->xdot;
     s->x = x;

@@ -1,5 +1,6 @@
 #include <float.h>
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "PREFIX.h"
@@ -42,12 +43,14 @@ typedef PREFIX_state State;
 
 /* Motion and control at a sample, and at the one before; see PREFIX_step. */
 typedef struct Sample {
+    struct PREFIX_state *keeper; /* whose long memories are used: its own, or of whom it is a copy */
     int first;               /* nothing lies before it */
     int ahead;               /* a law is asked for the step that begins here */
     int rests;               /* the first sample begins at rest */
     int up, up0;             /* direction whose parameters apply, now and before */
     int turned;              /* it changed in this step */
     real h, t, clock;        /* [s] step before it, time since the first, time of the record */
+    real clock_low;          /* [s] to be taken off the last, which its digits do not hold */
     real x, xdot, duty;      /* [m], [m/s] of the piston, [1] from now on */
     real x0, xdot0, duty0;   /* at the sample before; duty0 acted over the step */
     real before;             /* [1] part of the step before the turn */

@@ -2,6 +2,21 @@
 /* The exported damper itself, with all its effects: three of it run along, and copies of them tell
    what force comes next. */
 
+/* A copy to look ahead with, all but its long memories; `look` finds these where they are. */
+static void copy_of(PREFIX_damper_state *copy, const PREFIX_damper_state *of)
+{
+    memcpy(copy, of, @COPIED@);
+}
+
+/* A step of a copy: its force [N]. What diverged has forgotten its past and stays where it is. */
+static real look(PREFIX_damper_state *copy, PREFIX_damper_state *of, real dt, real x, real xdot,
+                 real duty)
+{
+    if (of->started && !copy->started)
+        return copy->force;
+    return step_with(copy, of, dt, x, xdot, duty);
+}
+
 static void observe(Emulator *s, real dt, real x, real xdot, real duty)
 {
     PREFIX_damper_faults(&s->faulty, s->f_oil, s->f_electrical, s->f_deformation);
@@ -27,6 +42,10 @@ static int unreachable(const Emulator *s)
     return (s->ideal - s->unfielded) * s->xdot < K(0.0);
 }
 
+/* Of the time that the damper's own supply takes from no duty to the highest: a force that is to be
+   met sooner sends the duty from one end to the other and back. */
+#define SLEWING K(0.35)
+
 /* What is told of the motion to come. */
 typedef struct {
     real dt;              /* [s] since the sample before, 0 at the first */
@@ -35,19 +54,7 @@ typedef struct {
     real held;            /* [s] over which a duty that is tried is held, h or more */
 } Outlook;
 
-/* Force [N] that the faulty one will have. */
-static real force_wanted(const Emulator *s, const Outlook *o)
-{
-    PREFIX_damper_state copy;
-    if (!(o->h > K(0.0)))
-        return s->ideal;
-    copy = s->faulty;
-    if (o->late > K(0.0))
-        PREFIX_damper_step(&copy, o->late, o->x_1, o->xdot_1, s->duty);
-    return PREFIX_damper_step(&copy, o->h, o->x_2, o->xdot_2, s->duty);
-}
-
-static Outlook outlook(const Emulator *s, real dt, real top)
+static Outlook outlook(const Emulator *s, real dt, real top, real more)
 {
     Outlook o = {0};
     o.dt = dt;
@@ -55,6 +62,9 @@ static Outlook outlook(const Emulator *s, real dt, real top)
         const real sweep = s->p.slew > K(0.0) ? SWEEP * top / s->p.slew : K(0.0);
         o.late = s->p.dead_time;
         o.h = until_next(&s->p, dt);
+        if (o.h < SLEWING * s->p.sweep_time * top)
+            o.h = SLEWING * s->p.sweep_time * top;
+        o.h += more;
         o.xdot_1 = speed_ahead(s, o.late);
         o.x_1 = s->x + K(0.5) * o.late * (s->xdot + o.xdot_1);
         o.xdot_2 = speed_ahead(s, o.late + o.h);
@@ -64,37 +74,64 @@ static Outlook outlook(const Emulator *s, real dt, real top)
     return o;
 }
 
+/* What is to be reached: force [N] of the faulty damper at the end, and the yield force [N] with
+   which the real one has it by the paper's model, whatever of it shows. Below 0 none does. */
+typedef struct {
+    real force, yield;
+    int up;               /* direction then: 1 compression, 0 release */
+} Goal;
+
+/* The second as Eqs. 26, 30, 34: what the fault takes of the faulty damper's own yield force, of
+   its gas and of its viscous force. */
+static Goal goal_of(Emulator *s, const Outlook *o)
+{
+    const PREFIX_damper_params *p = &s->p.damper;
+    const PREFIX_damper_state *end = &s->faulty;
+    PREFIX_damper_state copy;
+    real x = s->x, xdot = s->xdot, lost;
+    Goal out;
+    out.force = s->ideal;
+    if (o->h > K(0.0)) {
+        copy_of(&copy, end);
+        if (o->late > K(0.0))
+            look(&copy, &s->faulty, o->late, o->x_1, o->xdot_1, s->duty);
+        out.force = look(&copy, &s->faulty, o->h, o->x_2, o->xdot_2, s->duty);
+        end = &copy;
+        x = o->x_2;
+        xdot = o->xdot_2;
+    }
+    /* Of the rod: where the piston does not go with it, its next stroke begins with it. */
+    out.up = xdot > K(0.0) || (xdot == K(0.0) && s->made.up);
+    lost = (s->f_oil - K(1.0)) * (out.up ? p->compression_k_nom : p->release_k_nom) * x;
+    lost += (s->f_oil * s->f_deformation - K(1.0))
+        * (out.up ? p->compression_c_vis : p->release_c_vis) * xdot;
+    out.yield = (out.up ? lost : -lost)
+        + s->f_oil * s->f_electrical * s->f_deformation * end->@YIELDING@;
+    return out;
+}
+
 /* The law of Eq. 12 in the direction of the end. */
 typedef struct {
     real sigma, beta, gone;
     real way; /* 1 compression, -1 release */
 } Law;
 
-static Law law_at_the_end(const Emulator *s, const Outlook *o)
+static Law law_at_the_end(const Emulator *s, const Outlook *o, const Goal *goal)
 {
     const PREFIX_damper_params *p = &s->p.damper;
-    const real xdot = o->h > K(0.0) ? o->xdot_2 : s->xdot;
-    const int up = xdot > K(0.0) || (xdot == K(0.0) && s->made.up);
-    const real T = up ? p->compression_T_d : p->release_T_d;
+    const real T = goal->up ? p->compression_T_d : p->release_T_d;
     Law law;
-    law.sigma = up ? p->compression_sigma : p->release_sigma;
-    law.beta = up ? p->compression_beta : p->release_beta;
+    law.sigma = goal->up ? p->compression_sigma : p->release_sigma;
+    law.beta = goal->up ? p->compression_beta : p->release_beta;
     law.gone = o->h > K(0.0) && T > K(0.0) ? -EXPM1(-o->held / T) : K(1.0);
-    law.way = up ? K(1.0) : K(-1.0);
+    law.way = goal->up ? K(1.0) : K(-1.0);
     return law;
 }
 
-/* By Eq. 12 alone, from the yield force that is missing beside all other forces. */
-static real duty_by_yield_force(const Emulator *s, const Outlook *o, const Law *law, real goal)
+/* By Eq. 12 alone, from the yield force. */
+static real duty_by_yield_force(const Emulator *s, const Law *law, const Goal *goal)
 {
-    PREFIX_damper_state copy = s->idle;
-    real rest = s->unfielded, steady;
-    if (o->h > K(0.0)) {
-        if (o->late > K(0.0))
-            PREFIX_damper_step(&copy, o->late, o->x_1, o->xdot_1, K(0.0));
-        rest = PREFIX_damper_step(&copy, o->h, o->x_2, o->xdot_2, K(0.0));
-    }
-    steady = (law->way * (goal - rest) - (K(1.0) - law->gone) * s->made.@YIELDING@) / law->gone;
+    const real steady = (goal->yield - (K(1.0) - law->gone) * s->made.@YIELDING@) / law->gone;
     if (!(steady > K(0.0)) || !(law->sigma > K(0.0)))
         return K(0.0);
     return steady > law->sigma ? K(2.0) : POW(steady / law->sigma, K(1.0) / law->beta);
@@ -119,6 +156,6 @@ static void begin(Emulator *s)
 
 static int usable_model(const Settings *p)
 {
-    return positive(p->dead_time, K(1.0))
+    return positive(p->dead_time, K(1.0)) && positive(p->sweep_time, K(10.0))
 @USABLE@;
 }

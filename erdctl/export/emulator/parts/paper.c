@@ -1,6 +1,7 @@
 
 /* The paper's model: its two yield forces are solved for, Eq. 12, and inverted by formula. */
 
+#define MOMENTS 8          /* of the time for which a duty will stand */
 #define SECANTS 4          /* towards a duty between two that are near each other */
 
 typedef struct {
@@ -218,6 +219,42 @@ static int unreachable(const Emulator *s)
     return target_now(s) < K(0.0);
 }
 
+/* The duty that is nearest, in the mean of squares over the time h for which it will stand, to the
+   target at each of some moments in it. A later one counts more: there the next duty begins. */
+static real best_over(const Emulator *s, real h, Left g, real top)
+{
+    const Law laws[2] = {law_of(&s->p, 0), law_of(&s->p, 1)};
+    const real part = h / K(MOMENTS);
+    real x = s->x, xdot = s->xdot, healthy = s->healthy, kept = K(1.0), ask = K(0.0), target, ends[2];
+    real shares[2] = {K(0.0), K(0.0)}; /* of the duty's steady forces, release and compression */
+    Span span = {K(0.0), K(0.0), K(0.0)};
+    int up = s->up, i, leg, turns;
+    for (i = 1; i <= MOMENTS; i++) {
+        const real next = speed_ahead(s, part * (real)i);
+        real weight;
+        turns = up ? next < K(0.0) : next > K(0.0);
+        ends[0] = turns ? part_before(xdot, next) * part : part;
+        ends[1] = part - ends[0];
+        for (leg = 0; leg <= turns; leg++) {
+            const real lost = gone(ends[leg], laws[up].T);
+            healthy += (s->steady[up ? 0 : 1] - healthy) * lost;
+            kept *= K(1.0) - lost;
+            shares[!up] *= K(1.0) - lost;
+            shares[up] += (K(1.0) - shares[up]) * lost;
+            up = leg < turns ? !up : up;
+        }
+        x += K(0.5) * part * (xdot + next);
+        xdot = next;
+        target = target_of(&s->p, g, up, up ? K(1.0) : K(-1.0), x, xdot, healthy);
+        target = (target > K(0.0) ? target : K(0.0)) - kept * s->made;
+        weight = (real)i * (shares[0] + shares[1]);
+        ask += weight * target;
+        span.before += weight * shares[s->up];
+        span.after += weight * shares[!s->up];
+    }
+    return meeting(ask, &span, &laws[s->up], &laws[!s->up], top);
+}
+
 /* The duty that brings the yield force to the faulty one's target at the next moment at which the
    duty can change. What the motion will be until then is told from the past alone. */
 static real wanted_duty(Emulator *s, real dt, real top)
@@ -234,6 +271,8 @@ static real wanted_duty(Emulator *s, real dt, real top)
         return duty_for(&law, target_now(s));
     h = until_next(p, dt);
     sweep = p->slew > K(0.0) ? SWEEP * top / p->slew : K(0.0);
+    if (h > dt * (K(1.0) + EQUAL) && !(sweep > h))
+        return best_over(s, h, g, top);
     xdot = speed_ahead(s, h);
     x = s->x + K(0.5) * h * (s->xdot + xdot);
     turns = up ? xdot < K(0.0) : xdot > K(0.0);

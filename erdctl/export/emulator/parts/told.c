@@ -1,8 +1,9 @@
 /* Behind a spring a duty shows in the force long after it was given, and each question costs many
-   steps: the yield force alone is aimed at. */
-static real wanted_duty(const Emulator *s, real dt, real top)
+   steps; in another damper it shows the wrong way first. The yield force alone is aimed at. */
+static real wanted_duty(Emulator *s, real dt, real top)
 {
-    const Outlook o = outlook(s, dt, top);
-    const Law law = law_at_the_end(s, &o);
-    return duty_by_yield_force(s, &o, &law, force_wanted(s, &o));
+    const Outlook o = outlook(s, dt, top, K(0.0));
+    const Goal goal = goal_of(s, &o);
+    const Law law = law_at_the_end(s, &o, &goal);
+    return duty_by_yield_force(s, &law, &goal);
 }

@@ -1,0 +1,78 @@
+"""`simulate --causal` is what the exported block computes, to the last digits."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from c_built import block_of, forces
+from c_motion import bench
+from places import FIXTURES
+from typer.testing import CliRunner
+
+import erdctl
+from erdctl.cli.app import build
+from erdctl.effects import catalogue, get
+from erdctl.export.c.source import on_the_vehicle
+from erdctl.io.parameters import read_parameters
+from erdctl.model.composed import Model
+
+LOG = str(FIXTURES / "healthy_campaign.parquet")
+PAPER = json.loads((FIXTURES / "table_2.json").read_text())
+AHEAD = [e.name for e in on_the_vehicle(catalogue())[0] if e.past_alone() is not e]
+
+
+def damper(folder: Path, *names: str) -> str:
+    """A parameter file with effects at their starts, an onset within the log."""
+    effects = [
+        {"effect": n, "parameters": {
+            q.symbol: {"value": 2.0 if q.symbol == "t_0" else q.start, "unit": q.unit}
+            for q in get(n).quantities}}
+        for n in names
+    ]  # fmt: skip
+    path = folder / "damper.json"
+    path.write_text(json.dumps(PAPER | {"effects": effects}))
+    return str(path)
+
+
+def run(*words: str) -> str:
+    done = CliRunner().invoke(build(["simulate"]), ["simulate", *words], catch_exceptions=False)
+    assert done.exit_code == 0, done.stderr
+    return str(done.stderr)
+
+
+def test_the_effects_that_look_ahead() -> None:
+    assert {"backlash", "fluid_inertia", "presliding_friction"} <= {*AHEAD}
+
+
+@pytest.mark.parametrize("name", AHEAD)
+def test_it_is_what_the_block_computes(name: str, tmp_path: Path) -> None:
+    file, out = damper(tmp_path, name), tmp_path / "out.parquet"
+    run(file, LOG, "--causal", "-o", str(out))
+    found = pd.read_parquet(out)["force_model"].to_numpy()
+    parameters = read_parameters(file)
+    s = bench()
+    expected = forces(block_of(Model((get(name),)), parameters.values, s), s)
+    near = 1e-9 * np.ptp(expected)
+    assert np.abs(found - expected).max() <= near
+    called = erdctl.simulate(file, LOG, causal=True)
+    assert np.array_equal(called.force, found)
+    plain = erdctl.simulate(file, LOG).force
+    # The others rest on the length of the step ahead only, and all are alike here.
+    seen = name in ("backlash", "fluid_inertia", "presliding_friction")
+    assert (np.abs(plain - expected).max() > near) == seen
+
+
+def test_the_bench_is_left_out_and_what_a_block_does_otherwise_is_said(tmp_path: Path) -> None:
+    file = damper(tmp_path, "force_drift", "coulomb_friction", "input_delay")
+    said = run(file, LOG, "--causal", "-o", str(tmp_path / "out.csv"))
+    assert "belong to the bench and not to the damper: force_drift" in said
+    assert "input_delay: in a block" in said
+    both = damper(tmp_path, "coulomb_friction", "input_delay")
+    alone = erdctl.simulate(both, LOG).force
+    file = damper(tmp_path, "force_drift", "coulomb_friction", "input_delay")
+    assert np.array_equal(erdctl.simulate(file, LOG, causal=True).force, alone)
+    assert not np.array_equal(erdctl.simulate(file, LOG).force, alone)
