@@ -23,7 +23,7 @@ from erdctl.diagnose.backward_step import without_each
 from erdctl.diagnose.comparison import compare
 from erdctl.diagnose.forward_step import Exploration, key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fitted_from, over_records
-from erdctl.diagnose.kinds_of_excitation import kinds_of_motion, strokes_and_speeds
+from erdctl.diagnose.kinds_of_excitation import kinds_of_motion
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.thin import thinned
 from erdctl.estimate.linearisation import jacobian
@@ -94,21 +94,20 @@ def to_every_kind(x: Exploration, best: Hypothesis) -> Hypothesis:
     """A hypothesis without the learned laws that predict some kind of motion worse, left out.
 
     What an effect of the catalogue says holds wherever it is valid; a curve was seen at some
-    strokes and speeds, and a gain at one of them is no licence to fail at another. Left out are
-    kinds of motion, all records of one stroke, and all of one speed.
+    strokes and speeds, and a gain at one of them is no licence to fail at another.
     """
     few = thinned(x.problem, thresholds.CARRY_SAMPLES)
-    coarse = kinds_of_motion(few.recording, coarse=True)
-    parts = [*([] if coarse is None else [coarse]), *strokes_and_speeds(few.recording)]
+    kinds = kinds_of_motion(few.recording, coarse=True)
+    if kinds is None:
+        return best
     names = {e.name for e in best.effects if isinstance(e, LearnedEffect)}
     if not names:
         return best
-    less = [h for h in without_each(x, best) if names - key_of(h.effects)]
-    for kinds in parts:
-        of_best = _by_kind(few, kinds, best)
-        for rest in less:
-            if (of_best > thresholds.WORSE_KIND * _by_kind(few, kinds, rest)).any():
-                return to_every_kind(x, rest)
+    of_best = _by_kind(few, kinds, best)
+    for rest in without_each(x, best):
+        gone = names - key_of(rest.effects)
+        if gone and (of_best > thresholds.WORSE_KIND * _by_kind(few, kinds, rest)).any():
+            return to_every_kind(x, rest)
     return best
 
 

@@ -48,28 +48,6 @@ def motions(recording: Recording) -> int:
     return 1 if len(at) < 2 else int(_joined(at).max())
 
 
-def strokes_and_speeds(recording: Recording) -> list[Index]:
-    """(n,) stroke of each sample's record, numbered, and its speed, of COARSE_KINDS at most.
-
-    Without those of which all records have the same, each its own, or that part the records as
-    `kinds_of_motion` does. Where a stroke is left out at whatever speed, a law has to hold beyond
-    the travel that it was seen at.
-    """
-    at = excitation(recording)[:, :2]
-    if len(at) < 2:
-        return []
-    found = [_narrow(at[:, [i]]) - 1 for i in range(2)]
-    parted = [_along(recording, kinds, thresholds.MOTION_KINDS) for kinds in found]
-    other = kinds_of_motion(recording, coarse=True)
-    return [k for k in parted if k is not None and not (other is not None and _same(k, other))]
-
-
-def _same(a: Index, b: Index) -> bool:
-    """Whether two numberings part samples alike."""
-    both = len(np.unique(np.stack([a, b]), axis=1).T)
-    return both == len(np.unique(a)) == len(np.unique(b))
-
-
 def _joined(at: Array) -> Index:
     """(r,) kind of each record, from 1: those nearer than KIND_FACTOR, or joined by others."""
     from scipy.cluster.hierarchy import fcluster, linkage
@@ -81,19 +59,12 @@ def _joined(at: Array) -> Index:
 
 def _of_most(at: Array, most: int = thresholds.MOST_KINDS) -> Index:
     """(r,) kind of each record as `_joined`; where that makes more than so many, so many."""
-    found = _joined(at)
-    return found if found.max() <= most else _narrow(at, most)
-
-
-def _narrow(at: Array, most: int = thresholds.COARSE_KINDS) -> Index:
-    """(r,) kind of each record, from 1: no two of a kind as far apart as KIND_FACTOR, but for the
-    sake of so few kinds."""
     from scipy.cluster.hierarchy import fcluster, linkage
 
-    tree = linkage(at, "complete", "chebyshev")
-    found = fcluster(tree, np.log(thresholds.KIND_FACTOR), "distance")
-    found = found if found.max() <= most else fcluster(tree, most, "maxclust")
-    return np.asarray(found, dtype=np.intp)
+    found = _joined(at)
+    if found.max() > most:
+        found = np.asarray(fcluster(linkage(at, "complete", "chebyshev"), most, "maxclust"))
+    return found.astype(np.intp)
 
 
 def levels_of_duty(recording: Recording) -> Index | None:
