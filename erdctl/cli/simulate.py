@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -48,8 +48,9 @@ def command(
     """
     from erdctl.cli.pictures import draw, wanted
     from erdctl.core.errors import UsageProblem
+    from erdctl.io.formats import CONTAINERS
     from erdctl.io.parameters import read_parameters
-    from erdctl.io.tables import append_column, write_table
+    from erdctl.io.tables import append_column, output_format, write_table
     from erdctl.model.simulate import remarks, simulate
     from erdctl.report.text import progress, say
 
@@ -60,11 +61,18 @@ def command(
     asked = wanted(plot, "faults" if fault else "loops")
     parameters = read_parameters(params)
     if log is not None:
+        from erdctl.cli.long import simulate_long
         from erdctl.cli.reading import read_logs
 
-        read = read_logs(
-            [log], maps=maps, text=text, where=where, need_force=False, keep_table=True, report=say
-        )
+        options: dict[str, Any] = {"maps": maps, "where": where, "need_force": False, "keep_table": True}
+        # A picture, and a file of channels, take the whole log.
+        if (
+            not asked
+            and output_format(output, format and format.value) not in CONTAINERS
+            and simulate_long(parameters, log, fault, output, format and format.value, options)
+        ):
+            return
+        read = read_logs([log], text=text, report=say, **options)
         recording, table = read.recording, read.table
         assert table is not None
     else:

@@ -7,15 +7,15 @@ a stretch needs nothing more of its neighbours than a model's state.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from erdctl.core.blocks import neighbours_of
-from erdctl.core.recording import Array, Index, Recording
+from erdctl.core.recording import CHANNELS, Array, Index, Recording, concatenate
 
 LONG = 1 << 20  # samples of a stretch, where records allow it
 
@@ -115,3 +115,40 @@ def stretches(recording: Recording, *, cut: bool = True, long: int | None = None
             out.append(Stretch(part, a, e.record, begun=a > e.first, ahead=ahead))
             a += length
     return out
+
+
+class Gathered:
+    """Chosen samples of a log, kept as they come by.
+
+    extents : first and end of each part, in samples of the log
+    """
+
+    def __init__(self, extents: Sequence[tuple[int, int]]) -> None:
+        self.extents = extents
+        self._parts: list[list[Recording]] = [[] for _ in extents]
+
+    def add(self, stretch: Stretch) -> None:
+        """The next stretch of the log."""
+        first, end = stretch.first, stretch.first + len(stretch)
+        for (a, b), parts in zip(self.extents, self._parts, strict=True):
+            low, high = max(a, first), min(b, end)
+            if low < high:
+                # Copied, so that the stretch itself is let go.
+                parts.append(_copied(stretch.recording, slice(low - first, high - first)))
+
+    def blocks(self) -> list[Recording]:
+        """Each of the parts, as one record."""
+        return [_joined(parts) for parts in self._parts]
+
+
+def _copied(recording: Recording, part: slice) -> Recording:
+    window = recording.window(part)
+    copies = {n: c.copy() for n in CHANNELS if (c := getattr(window, n)) is not None}
+    return replace(window, **copies)
+
+
+def _joined(parts: Sequence[Recording]) -> Recording:
+    if len(parts) == 1:
+        return parts[0]
+    whole = concatenate(parts)
+    return replace(whole, starts=whole.starts[[0, -1]], names=("",))

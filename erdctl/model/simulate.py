@@ -148,7 +148,7 @@ class Remarks:
         self.parameters = parameters
         ranges = dict(parameters.provenance.get("ranges", {}))
         self._ranges = {n: (float(a), float(b)) for n, (a, b) in ranges.items() if n in UNITS}
-        self._seen = {name: (inf, -inf) for name in self._ranges}
+        self._seen = dict.fromkeys(self._ranges, (inf, -inf))
         self._laws: dict[tuple[int, int], tuple[float, float, float]] = {}
         self._samples = 0
 

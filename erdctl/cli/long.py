@@ -1,0 +1,49 @@
+"""Commands over a log that is read in stretches, and never as a whole."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from erdctl.io.long_logs import LongLog
+    from erdctl.model.parameters import Parameters
+
+
+@contextmanager
+def opened(paths: Sequence[str], options: dict[str, Any]) -> Iterator[LongLog | None]:
+    """A log that is to be read in stretches, with a sign of life on a terminal; else None."""
+    from erdctl.io.long_logs import open_long
+    from erdctl.report.text import progress, say
+
+    with progress() as step:
+        yield open_long(paths, report=say, progress=step, **options)
+
+
+def simulate_long(
+    parameters: Parameters,
+    path: str,
+    faults: Sequence[str],
+    output: str,
+    format: str | None,
+    options: dict[str, Any],
+) -> bool:
+    """Write the log with `force_model`, if it is one to be read in stretches; whether it is."""
+    from erdctl.io.tables import append_column, table_writer
+    from erdctl.model.simulate import Remarks, Simulation
+    from erdctl.report.text import say
+
+    with opened([path], options) as log:
+        if log is None:
+            return False
+        simulation, remarks = Simulation(parameters, faults), Remarks(parameters)
+        with table_writer(output, format) as write:
+            for read in log.stretches(cut=simulation.cuts):
+                force = simulation.force(read.stretch)
+                remarks.add(read.stretch.own)
+                write(append_column(read.table, "force_model", force))
+            simulation.finish()
+    for line in remarks.lines():
+        say(line)
+    return True
