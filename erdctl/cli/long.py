@@ -7,8 +7,10 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from erdctl.bench.rig import Rig
     from erdctl.io.long_logs import LongLog
     from erdctl.model.parameters import Parameters
+    from erdctl.score.nrmse import Normalise, Validation
 
 
 @contextmanager
@@ -30,7 +32,7 @@ def simulate_long(
     options: dict[str, Any],
 ) -> bool:
     """Write the log with `force_model`, if it is one to be read in stretches; whether it is."""
-    from erdctl.io.tables import append_column, table_writer
+    from erdctl.io.tables import append_column, behind, table_writer
     from erdctl.model.simulate import Remarks, Simulation
     from erdctl.report.text import say
 
@@ -38,7 +40,7 @@ def simulate_long(
         if log is None:
             return False
         simulation, remarks = Simulation(parameters, faults), Remarks(parameters)
-        with table_writer(output, format) as write:
+        with table_writer(output, format) as writer, behind(writer) as write:
             for read in log.stretches(cut=simulation.cuts):
                 force = simulation.force(read.stretch)
                 remarks.add(read.stretch.own)
@@ -47,3 +49,40 @@ def simulate_long(
     for line in remarks.lines():
         say(line)
     return True
+
+
+def validate_long(
+    parameters: Parameters | None,
+    paths: Sequence[str],
+    normalise: Normalise,
+    options: dict[str, Any],
+) -> tuple[Validation, Rig, float] | None:
+    """Scores, faults of the rig and the largest force [N]; None for a log that is read whole."""
+    from erdctl.bench.rig import Looking
+    from erdctl.cli.validate import UNMODELLED
+    from erdctl.core.errors import InputProblem
+    from erdctl.model.simulate import Remarks, Simulation
+    from erdctl.report.text import say
+    from erdctl.score.nrmse import Tally
+
+    with opened(paths, options) as log:
+        if log is None:
+            return None
+        simulation = remarks = None
+        if parameters is not None:
+            simulation, remarks = Simulation(parameters), Remarks(parameters)
+        tally, looking = Tally(normalise), Looking(log.outline.starts, log.outline.names)
+        for read in log.stretches(cut=simulation is None or simulation.cuts):
+            modelled = read.force_model
+            if simulation is not None and remarks is not None:
+                modelled = simulation.force(read.stretch)
+                remarks.add(read.stretch.own)
+            if modelled is None:
+                raise InputProblem(UNMODELLED, file=paths[0])
+            tally.add(read.stretch, modelled)
+            looking.add(read.stretch, modelled)
+        if simulation is not None and remarks is not None:
+            simulation.finish()
+            for line in remarks.lines():
+                say(line)
+    return tally.found(), looking.rig(), tally.peak

@@ -64,7 +64,12 @@ def command(
         from erdctl.cli.long import simulate_long
         from erdctl.cli.reading import read_logs
 
-        options: dict[str, Any] = {"maps": maps, "where": where, "need_force": False, "keep_table": True}
+        options: dict[str, Any] = {
+            "maps": maps,
+            "where": where,
+            "need_force": False,
+            "keep_table": True,
+        }
         # A picture, and a file of channels, take the whole log.
         if (
             not asked

@@ -84,6 +84,24 @@ def table_writer(path: str, format: str | None = None) -> Iterator[Callable[[pa.
 
 
 @contextmanager
+def behind(write: Callable[[pa.Table], None]) -> Iterator[Callable[[pa.Table], None]]:
+    """The same next to other work: a table is written while the next one is made."""
+    from concurrent.futures import Future, ThreadPoolExecutor
+
+    with ThreadPoolExecutor(1) as pool:
+        waiting: list[Future[None]] = []
+
+        def later(table: pa.Table) -> None:
+            while waiting:
+                waiting.pop().result()
+            waiting.append(pool.submit(write, table))
+
+        yield later
+        while waiting:
+            waiting.pop().result()
+
+
+@contextmanager
 def _writable(kind: Format) -> Iterator[None]:
     """Raise UsageProblem for types that the format's writer does not take."""
     try:
