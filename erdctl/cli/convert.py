@@ -51,16 +51,26 @@ def command(
       erdctl convert lab.txt out.parquet --text decimal=comma --map "force=Load (N)[0.98 N]"
     """
     from erdctl.core.progress import part_of
-    from erdctl.io.convert import read_converted
-    from erdctl.io.tables import output_format, write_table
+    from erdctl.io.convert import converted_in_parts, read_converted
+    from erdctl.io.formats import CONTAINERS
+    from erdctl.io.tables import behind, output_format, table_writer, write_table
     from erdctl.report.text import progress, say
 
+    def warn(line: str) -> None:
+        say(line, "warning")
+
     wanted = format and format.value
-    output_format(output, wanted)  # a wrong suffix shows before a long reading
+    kind = output_format(output, wanted)  # a wrong suffix shows before a long reading
     with progress() as step:
+        parts = None
+        if kind not in CONTAINERS:
+            parts = converted_in_parts(log, maps=maps, say=say, warn=warn, progress=step)
+        if parts is not None:
+            with table_writer(output, wanted) as writer, behind(writer) as write:
+                for part in parts:
+                    write(part)
+            return
         step("reading", part_of(log, 1, 2))
-        table = read_converted(
-            log, maps=maps, text=text, say=say, warn=lambda line: say(line, "warning")
-        )
+        table = read_converted(log, maps=maps, text=text, say=say, warn=warn)
         step("writing", part_of(output, 2, 2))
         write_table(table, output, wanted)

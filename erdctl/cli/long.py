@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from erdctl.bench.inspection import Inspection
     from erdctl.bench.rig import Rig
+    from erdctl.io.inspection import InspectionFile
     from erdctl.io.long_logs import LongLog
     from erdctl.model.parameters import Parameters
     from erdctl.score.nrmse import Normalise, Validation
+
+UNMODELLED = "the log has no column force_model; give a parameter file before it"
 
 
 @contextmanager
@@ -59,7 +63,6 @@ def validate_long(
 ) -> tuple[Validation, Rig, float] | None:
     """Scores, faults of the rig and the largest force [N]; None for a log that is read whole."""
     from erdctl.bench.rig import Looking
-    from erdctl.cli.validate import UNMODELLED
     from erdctl.core.errors import InputProblem
     from erdctl.model.simulate import Remarks, Simulation
     from erdctl.report.text import say
@@ -86,3 +89,31 @@ def validate_long(
             for line in remarks.lines():
                 say(line)
     return tally.found(), looking.rig(), tally.peak
+
+
+def inspect_long(
+    paths: Sequence[str], options: dict[str, Any], labels: Mapping[str, str]
+) -> tuple[Inspection, InspectionFile] | None:
+    """What is in a log, and its document; None for a log that is read whole."""
+    from erdctl.bench.counts import Ends
+    from erdctl.bench.inspection import Inspecting
+    from erdctl.core.recording import CHANNELS
+    from erdctl.effects import catalogue
+    from erdctl.io.inspection import Inspected, to_json
+
+    with opened(paths, options) as log:
+        if log is None:
+            return None
+        inspecting = Inspecting(log.outline.starts, log.outline.names)
+        ends = {c.name: Ends() for c in log.channels}
+        for read in log.stretches():
+            inspecting.add(read.stretch)
+            own = read.stretch.own
+            seen = {**{n: getattr(own, n) for n in CHANNELS}, "force_model": read.force_model}
+            for name, values in seen.items():
+                if name in ends and values is not None:
+                    ends[name].add(values)
+    found = inspecting.found(catalogue(), log.xdot_note)
+    ranges = {name: [e.low, e.high] for name, e in ends.items() if e.low <= e.high}
+    subject = Inspected(log.sources, log.channels, log.unread, labels, ranges)
+    return found, to_json(found, subject)

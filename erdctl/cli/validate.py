@@ -14,8 +14,6 @@ from erdctl.cli.rig import Accept, Strict
 if TYPE_CHECKING:
     from erdctl.score.nrmse import Score, Validation
 
-UNMODELLED = "the log has no column force_model; give a parameter file before it"
-
 
 def command(
     arguments: Annotated[
@@ -58,6 +56,7 @@ def command(
       erdctl validate damper.json other.csv --plot loops.png --plot time:force.png
     """
     from erdctl.bench.rig import look
+    from erdctl.cli.long import UNMODELLED, validate_long
     from erdctl.cli.pictures import draw, wanted, wants
     from erdctl.cli.reading import labelled, read_logs
     from erdctl.cli.rig import fail, show
@@ -83,8 +82,6 @@ def command(
         parameters = read_parameters(params)
     long = None
     if report is None and not asked:  # which take the whole log
-        from erdctl.cli.long import validate_long
-
         long = validate_long(parameters, logs, Normalise(normalise), options)
     if long is not None:
         found, rig, peak = long

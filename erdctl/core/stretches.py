@@ -18,6 +18,7 @@ from erdctl.core.blocks import neighbours_of
 from erdctl.core.recording import CHANNELS, Array, Index, Recording, concatenate
 
 LONG = 1 << 20  # samples of a stretch, where records allow it
+MEASURED = "measured"  # an xdot that was derived takes all of a record
 
 
 class Extent(NamedTuple):
@@ -102,7 +103,7 @@ def stretches(recording: Recording, *, cut: bool = True, long: int | None = None
     for e in extents(recording.starts, long):
         bounds = recording.starts[e.record : e.behind + 1] - e.first
         names = recording.names[e.record : e.behind]
-        if not cut or len(names) > 1:
+        if not cut or len(names) > 1 or recording.xdot_note != MEASURED:
             part = recording.window(slice(e.first, e.end), bounds, names)
             out.append(Stretch(part, e.first, e.record))
             continue

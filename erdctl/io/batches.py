@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Collection, Iterator, Sequence
 
 import pyarrow as pa
 
 from erdctl.core.errors import ComputationProblem
-from erdctl.io.formats import Format
-from erdctl.io.sources import TableSource, guarded, native
+from erdctl.io.formats import Format, by_content
+from erdctl.io.sources import STDIN, TableSource, guarded, native, open_source
 
 STREAMS = (Format.PARQUET, Format.ARROW)
+STREAMED = 1 << 21  # rows from which a log is read in stretches
+SMALL = 1 << 20  # bytes; what so small a file holds is not worth a look before reading
 
 
 def read_batches(
@@ -49,7 +52,19 @@ def _tables(
     return arrow_in.batches(file, source.size, source.columns, names, source.name)
 
 
-class Rows:
+def in_portions(tables: Iterator[pa.Table], rows: int) -> Iterator[pa.Table]:
+    """The same of at least so many rows each, but the last."""
+    held: list[pa.Table] = []
+    for table in tables:
+        held.append(table)
+        if sum(t.num_rows for t in held) >= rows:
+            yield pa.concat_tables(held)
+            held = []
+    if held:
+        yield pa.concat_tables(held)
+
+
+class Incoming:
     """Tables that come one after the other, to be taken in other portions."""
 
     def __init__(self, tables: Iterator[pa.Table]) -> None:
@@ -72,3 +87,24 @@ class Rows:
         self._rows = whole.num_rows - rows
         # Chunk by chunk, so that what is behind is let go.
         self._held = [whole.slice(rows)] if self._rows else []
+
+
+def long_source(paths: Sequence[str]) -> TableSource | None:
+    """The file, if it is so long that it is better read in stretches."""
+    if len(paths) != 1 or paths[0] == STDIN or not os.path.isfile(paths[0]):
+        return None
+    if os.path.getsize(paths[0]) < SMALL or not _streams(paths[0]):
+        return None
+    source = open_source(paths[0], whole=False)
+    long = source.rows is not None and source.rows >= STREAMED
+    return source if long and isinstance(source.data, str) else None
+
+
+def _streams(path: str) -> bool:
+    """Whether the content is of a format that is read so."""
+    try:
+        with open(path, "rb") as file:
+            head = file.read(64)
+    except OSError:
+        return False
+    return by_content(head, path, path) in STREAMS

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
@@ -14,25 +13,23 @@ from erdctl.core.messages import as_text
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Array, Recording, Source
 from erdctl.core.stretches import LONG, Extent, Gathered, Stretch, cut_at, extents
-from erdctl.io.batches import STREAMS, Rows, read_batches
+from erdctl.io.batches import Incoming, long_source, read_batches
 from erdctl.io.channels import take_channels, with_own_label
 from erdctl.io.checks import Place, check_growth, check_lengths, remark_on_time
 from erdctl.io.consistency import check_blocks, consistency_blocks
 from erdctl.io.dampers import needed_columns, parse_where
 from erdctl.io.logs import FORCES, ColumnMap, mapped, stem_of, unread
 from erdctl.io.maps import parse_maps
-from erdctl.io.outline import Outline, outline
+from erdctl.io.outline import Outline, outline, place_behind
 from erdctl.io.plan import ColumnPlan, Report, in_contract_names, plan_columns
-from erdctl.io.sources import STDIN, TableSource, open_source, sha256_of
+from erdctl.io.sources import TableSource, sha256_of
 from erdctl.io.units import RECORD
 
-STREAMED = 1 << 21  # rows from which a log is read in stretches
-SMALL = 1 << 20  # bytes; what so small a file holds is not worth a look before reading
 MORE = 1 << 16  # samples that are read at once to find a place to cut
 
 
 @dataclass(frozen=True, eq=False)
-class Read:
+class ReadStretch:
     """A stretch as it was read; table, force_model : of its own samples, as in `Log`."""
 
     stretch: Stretch
@@ -79,7 +76,7 @@ class LongLog:
         """The file, with its hash if that was wanted and all is read."""
         return (Source(as_text(self.source.path), self.digest, self.samples),)
 
-    def stretches(self, *, cut: bool = True) -> Iterator[Read]:
+    def stretches(self, *, cut: bool = True) -> Iterator[ReadStretch]:
         """All of the log; cut : whether a record longer than a stretch may be divided.
 
         Raises InputProblem where a sample is wrong, and, at the end, if the channels contradict one
@@ -96,7 +93,7 @@ class LongLog:
             digest: Future[str] | None = None
             if self.want_hash:
                 digest = pool.submit(sha256_of, self.source.data)
-            rows = Rows(read_batches(self.source, wanted, labels))
+            rows = Incoming(read_batches(self.source, wanted, labels))
             for extent in extents(starts):
                 cuts = cut and extent.behind == extent.record + 1 and "xdot" in self.plan
                 self._warn(extent, cuts)
@@ -107,7 +104,7 @@ class LongLog:
                 self.digest = digest.result()
         self._finish(blocks, seen)
 
-    def _parts(self, rows: Rows, e: Extent, cuts: bool) -> Iterator[Read]:
+    def _parts(self, rows: Incoming, e: Extent, cuts: bool) -> Iterator[ReadStretch]:
         a = e.first
         while a < e.end:
             self.progress("reading", part_of(f"{self.samples} samples", a + 1, self.samples))
@@ -129,7 +126,7 @@ class LongLog:
                 recording.names,
             )  # fmt: skip
             stretch = Stretch(recording, a, e.record, begun=a > e.first, ahead=ahead)
-            yield Read(
+            yield ReadStretch(
                 stretch,
                 table.slice(0, length) if self.keep_table else None,
                 None if model is None else model[:length],
@@ -203,7 +200,7 @@ class LongLog:
         )
 
     def _place(self, first: int) -> Place:
-        return Place(self.source.name, lambda sample: first + sample + 1)
+        return place_behind(self.source.name, first)
 
 
 def _unheard(line: str) -> None:
@@ -224,10 +221,10 @@ def open_long(
 ) -> LongLog | None:
     """A log that is to be read in stretches; None for one that `read_logs` reads as well.
 
-    That is a file in Parquet or Arrow of STREAMED rows or more, all of which are wanted.
+    That is a file in Parquet or Arrow of very many rows (`long_source`), all of which are wanted.
     Arguments and errors as those of `read_logs`, which says the rest.
     """
-    source = _worth(paths)
+    source = long_source(paths)
     if source is None:
         return None
     mappings, wheres = parse_maps(maps), parse_where(where)
@@ -253,26 +250,3 @@ def open_long(
     for line in said:
         say(line)
     return LongLog(source, plan, found, keep_table, want_hash, say, progress)
-
-
-def _worth(paths: Sequence[str]) -> TableSource | None:
-    """The file, if it is so long that it is better read in stretches."""
-    if len(paths) != 1 or paths[0] == STDIN or not os.path.isfile(paths[0]):
-        return None
-    if os.path.getsize(paths[0]) < SMALL or not _streams(paths[0]):
-        return None
-    source = open_source(paths[0], whole=False)
-    long = source.rows is not None and source.rows >= STREAMED
-    return source if long and isinstance(source.data, str) else None
-
-
-def _streams(path: str) -> bool:
-    """Whether the content is of a format that is read so."""
-    from erdctl.io.formats import by_content
-
-    try:
-        with open(path, "rb") as file:
-            head = file.read(64)
-    except OSError:
-        return False
-    return by_content(head, path, path) in STREAMS

@@ -47,12 +47,12 @@ def outline(
     names = list(dict.fromkeys([column, *choosing]))
     labels = [c for c in names if c != column or RECORD in plan]
     chosen = {name: dict[str | None, None]() for name in choosing}
-    look: _Labels | _Times = _Labels(column) if RECORD in plan else _Times()
+    look: Labels | _Times = Labels(column) if RECORD in plan else _Times()
     rows = 0
     for table in read_batches(source, names, labels):
-        place = _place(source, rows)
+        place = place_behind(source.name, rows)
         values = table.column(column)
-        if isinstance(look, _Labels):
+        if isinstance(look, Labels):
             look.add(values, place, rows)
         else:
             look.add(convert(to_numbers(values, column, place)), rows)
@@ -63,16 +63,17 @@ def outline(
         raise InputProblem("a header but no samples", file=source.name)
     if not _all_rows(chosen, where, source.name):
         return None
-    if isinstance(look, _Labels):
+    if isinstance(look, Labels):
         return Outline(np.array([*look.starts, rows], dtype=np.intp), tuple(look.names), True)
     starts = look.runs(rows)
     if starts is None:
         return Outline(np.array([0, rows], dtype=np.intp), (stem,), False)
-    return Outline(starts, names_of_runs(starts, stem, _place(source, 0), say), True)
+    return Outline(starts, names_of_runs(starts, stem, place_behind(source.name, 0), say), True)
 
 
-def _place(source: TableSource, first: int) -> Place:
-    return Place(source.name, lambda sample: first + sample + 1)
+def place_behind(file: str, rows: int) -> Place:
+    """Where samples stand that begin behind so many rows of a table that has no others."""
+    return Place(file, lambda sample: rows + sample + 1)
 
 
 def _texts(column: pa.ChunkedArray) -> Iterator[str | None]:
@@ -97,7 +98,7 @@ def _all_rows(chosen: dict[str, dict[str | None, None]], where: Sequence[Where],
     )
 
 
-class _Labels:
+class Labels:
     """Records by a column that names them."""
 
     def __init__(self, column: str) -> None:
@@ -106,7 +107,13 @@ class _Labels:
         self.names: list[str] = []
         self._seen: set[str] = set()
 
-    def add(self, values: pa.ChunkedArray, place: Place, rows: int) -> None:
+    def add(
+        self, values: pa.ChunkedArray, place: Place, rows: int
+    ) -> tuple[Index, tuple[str, ...]]:
+        """The next values, before which there were so many rows; their records alone.
+
+        Raises InputProblem for a record that comes back.
+        """
         starts, names = to_records(values, self.column, place)
         for name, start in zip(names, starts.tolist(), strict=False):
             if self.names and name == self.names[-1]:
@@ -120,6 +127,7 @@ class _Labels:
             self._seen.add(name)
             self.names.append(name)
             self.starts.append(rows + start)
+        return starts, names
 
 
 class _Times:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import os
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -54,15 +54,18 @@ def write_table(table: pa.Table, path: str, format: str | None = None) -> None:
         with output(path) as stream:
             stream.write(data)
         return
-    with table_writer(path, format) as write:
+    with table_writer(path, format, parts=False) as write:
         write(table)
 
 
 @contextmanager
-def table_writer(path: str, format: str | None = None) -> Iterator[Callable[[pa.Table], None]]:
+def table_writer(
+    path: str, format: str | None = None, *, parts: bool = True
+) -> Iterator[Callable[[pa.Table], None]]:
     """What writes a table in parts, all with the same columns; else as `write_table`.
 
     Formats of channels (`CONTAINERS`) are written as a whole alone.
+    parts : whether there may be several, of which an Arrow file keeps no dictionaries
     """
     kind = output_format(path, format)
     with output(path) as stream:
@@ -72,13 +75,19 @@ def table_writer(path: str, format: str | None = None) -> Iterator[Callable[[pa.
         elif kind is Format.PARQUET:
             writer = _Parquet(stream)
         else:
-            writer = _Arrow(stream, file=path.lower().endswith(".feather"))
+            writer = _Arrow(stream, file=path.lower().endswith(".feather"), parts=parts)
 
         def write(table: pa.Table) -> None:
             with _writable(kind):
                 writer.write(table)
 
-        yield write
+        try:
+            yield write
+        except BaseException:
+            # Else pyarrow would close it later, into a stream that is no more.
+            with suppress(Exception):
+                writer.close()
+            raise
         with _writable(kind):
             writer.close()
 
@@ -172,13 +181,15 @@ class _Csv:
 
 
 class _Arrow:
-    def __init__(self, stream: BinaryIO, *, file: bool) -> None:
-        self.stream, self.file = stream, file
+    def __init__(self, stream: BinaryIO, *, file: bool, parts: bool) -> None:
+        self.stream, self.file, self.parts = stream, file, parts
         self.writer: Any = None
 
     def write(self, table: pa.Table) -> None:
         table = with_si(csv_out.typed(table))
         try:
+            if self.file and self.parts:
+                table = _decoded(table)
             if any(pa.types.is_dictionary(f.type) for f in table.schema):
                 # A file holds one for each column, Parquet several.
                 table = table.unify_dictionaries()
@@ -192,6 +203,15 @@ class _Arrow:
     def close(self) -> None:
         if self.writer is not None:
             self.writer.close()
+
+
+def _decoded(table: pa.Table) -> pa.Table:
+    for index, field in enumerate(table.schema):
+        if pa.types.is_dictionary(field.type):
+            kind = field.type.value_type
+            column = table.column(index).cast(kind)
+            table = table.set_column(index, field.with_type(kind), column)
+    return table
 
 
 class _Parquet:

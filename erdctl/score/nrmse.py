@@ -104,16 +104,16 @@ def duty_levels(duty: Array) -> tuple[Codes, Array]:
     ([0.0, 0.3], [1, 0, 1])
     """
     percent, seen = percents(duty)
-    values, present = _levels(seen)
+    values, present = levels_of(seen)
     if present is None:
         percent = bins(duty)
-        values, present = _bins(np.bincount(percent, minlength=len(BINS)))
+        values, present = bins_of(np.bincount(percent, minlength=len(BINS)))
     code = np.zeros(len(BINS), dtype=np.int16)
     code[present] = np.arange(len(present))
     return code[percent], values
 
 
-def _levels(seen: npt.NDArray[Any]) -> tuple[Array, Index | None]:
+def levels_of(seen: npt.NDArray[Any]) -> tuple[Array, Index | None]:
     """Levels (k,) and which of the whole percents they are; None for a continuous control.
 
     seen : (101,) samples that have each
@@ -124,7 +124,7 @@ def _levels(seen: npt.NDArray[Any]) -> tuple[Array, Index | None]:
     return present / 100.0, present
 
 
-def _bins(seen: npt.NDArray[Any]) -> tuple[Array, Index]:
+def bins_of(seen: npt.NDArray[Any]) -> tuple[Array, Index]:
     """Middles (k,) of the bins that samples are in, and which they are."""
     present = np.flatnonzero(seen)
     return BINS[present], present
@@ -178,10 +178,10 @@ class Tally:
 
     def found(self) -> Validation:
         """The scores of all of it."""
-        levels, present = _levels(self._percents.samples)
+        levels, present = levels_of(self._percents.samples)
         duties = self._percents
         if present is None:
-            (levels, present), duties = _bins(self._bins.samples), self._bins
+            (levels, present), duties = bins_of(self._bins.samples), self._bins
         records = [s for part in self._records for s in self._scores(part)]
         ways = dict(zip(DIRECTIONS, self._scores(self._ways)[1:], strict=True))
         by_level = self._scores(duties)
