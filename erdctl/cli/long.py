@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from erdctl.bench.inspection import Inspection
     from erdctl.bench.rig import Rig
+    from erdctl.io.drawn import Drawn
     from erdctl.io.inspection import InspectionFile
     from erdctl.io.long_logs import LongLog
     from erdctl.model.parameters import Parameters
@@ -18,13 +19,18 @@ UNMODELLED = "the log has no column force_model; give a parameter file before it
 
 
 @contextmanager
-def opened(paths: Sequence[str], options: dict[str, Any]) -> Iterator[LongLog | None]:
-    """A log that is to be read in stretches, with a sign of life on a terminal; else None."""
+def opened(
+    paths: Sequence[str], options: dict[str, Any], least: int = 0
+) -> Iterator[LongLog | None]:
+    """A log that is to be read in stretches, with a sign of life on a terminal; else None.
+
+    least : samples, below which it is not
+    """
     from erdctl.io.long_logs import open_long
     from erdctl.report.text import progress, say
 
     with progress() as step:
-        yield open_long(paths, report=say, progress=step, **options)
+        yield open_long(paths, least=least, report=say, progress=step, **options)
 
 
 def simulate_long(
@@ -117,3 +123,16 @@ def inspect_long(
     ranges = {name: [e.low, e.high] for name, e in ends.items() if e.low <= e.high}
     subject = Inspected(log.sources, log.channels, log.unread, labels, ranges)
     return found, to_json(found, subject)
+
+
+def drawn_long(paths: Sequence[str], options: dict[str, Any]) -> Drawn | None:
+    """A sample of a log of more samples than are fitted; None for one that is read whole."""
+    from erdctl.io import drawn
+    from erdctl.report.text import say
+
+    with opened(paths, options, least=drawn.MOST) as log:
+        if log is None:
+            return None
+        found = drawn.draw(log, drawn.MOST)
+    say(str(found))
+    return found

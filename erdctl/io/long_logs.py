@@ -216,16 +216,17 @@ def open_long(
     want_force: bool = False,
     keep_table: bool = False,
     want_hash: bool = False,
+    least: int = 0,
     report: Report,
     progress: Progress = lambda stage, what: None,
 ) -> LongLog | None:
     """A log that is to be read in stretches; None for one that `read_logs` reads as well.
 
     That is a file in Parquet or Arrow of very many rows (`long_source`), all of which are wanted.
-    Arguments and errors as those of `read_logs`, which says the rest.
+    least : rows, of which it has more.  Else arguments and errors are those of `read_logs`.
     """
     source = long_source(paths)
-    if source is None:
+    if source is None or (source.rows or 0) <= least:
         return None
     mappings, wheres = parse_maps(maps), parse_where(where)
     said: list[str] = []

@@ -17,7 +17,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from places import FIXTURES
 
-from erdctl.cli import convert, simulate, validate
+from erdctl.cli import convert, identify, inspect, simulate, validate
 from erdctl.core.errors import ComputationProblem, ErdctlError, InputProblem
 
 EXAMPLES = int(os.environ.get("ERDCTL_LONG_EXAMPLES", "4"))  # of a second or more each
@@ -86,7 +86,7 @@ def params(folder: Path, effect: str) -> str:
 
 
 LOGS = st.fixed_dictionaries({
-    "lengths": st.lists(st.integers(2, 900), min_size=1, max_size=7),
+    "lengths": st.lists(st.integers(2, 600), min_size=1, max_size=5),
     "seed": st.integers(0, 1000), "even": st.booleans(), "xdot": st.booleans(),
 })  # fmt: skip
 SIZES = st.fixed_dictionaries({
@@ -95,7 +95,9 @@ SIZES = st.fixed_dictionaries({
 
 
 @settings(
-    max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    max_examples=EXAMPLES,
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
 )
 @given(made=LOGS, sizes=SIZES, effect=st.sampled_from(sorted(EFFECTS)), groups=st.integers(5, 900))
 def test_simulate_and_validate_are_those_of_the_whole(
@@ -266,3 +268,32 @@ def test_runs_whose_time_begins_anew(tmp_path: Path, capsys: pytest.CaptureFixtu
         said.append(capsys.readouterr())
     assert "taken as 2 records" in said[1].err
     assert said[0].out == said[1].out
+
+
+def test_identify_draws_a_sample_and_says_so(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, out = tmp_path / "log.parquet", tmp_path / "out.json"
+    pq.write_table(log([6000] * 12 + [20_000], 8), path)
+    found = []
+    for _ in range(2):
+        with (
+            small(long=7000, run=5000, batch=1000, streamed=True),
+            mock.patch("erdctl.io.drawn.MOST", 40_000),
+            mock.patch("erdctl.io.drawn.WINDOW", 5000),
+        ):
+            identify.command([str(path)], str(out))
+        found.append(out.read_bytes())
+    assert found[0] == found[1]
+    document = json.loads(found[0])
+    sample = document["provenance"]["sample"]
+    assert sample["of_samples"] == 92_000
+    assert sample["of_parts"] == 16
+    assert 0.7 * 40_000 < sample["samples"] < 1.2 * 40_000
+    assert document["provenance"]["samples"] == sample["samples"]
+    assert document["provenance"]["logs"][0]["rows"] == 92_000
+    assert len(document["provenance"]["logs"][0]["sha256"]) == 64
+    assert "fitted to a sample" in capsys.readouterr().err
+    # The log is that of a damper with c_vis = 66 N s/m either way.
+    c_vis = document["compression"]["c_vis"]
+    assert abs(c_vis["value"] - 66.0) < 5.0 * c_vis["stderr"] + 0.5
