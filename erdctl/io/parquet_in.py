@@ -74,8 +74,11 @@ def _opened(
     texts = [n for n in names if is_text(schema.field(n).type)]
     # As dictionary indices: text takes longer to read than five columns of numbers.
     coded = [n for n in texts if n in labels]
-    # Without a buffer a column of a row group is read as a whole.
-    options = {"page_checksum_verification": True, "buffer_size": 0 if held else _BUFFER}
+    # Without its own buffer a column of a row group is read as a whole, and with `pre_buffer` what
+    # was read of all of them is kept to the end.
+    options: dict[str, Any] = {"page_checksum_verification": True, "pre_buffer": held}
+    if not held:
+        options["buffer_size"] = _BUFFER
     opened = pq.ParquetFile(file, read_dictionary=coded, **options)
     metadata = opened.metadata
     leaves = _leaves(metadata, names)
