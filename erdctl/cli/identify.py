@@ -63,7 +63,6 @@ def command(
     from erdctl.core.labels import labels_of
     from erdctl.estimate.identify import identify
     from erdctl.io.identification import parameters_of
-    from erdctl.io.logs import Log
     from erdctl.io.parameters import write_parameters
     from erdctl.report.text import progress, say
 
@@ -73,14 +72,14 @@ def command(
         "maps": maps, "where": where, "need_force": True, "want_hash": True,
     }  # fmt: skip
     drawn = drawn_long(logs, options)
-    log = (
-        read_logs(logs, text=text, report=say, **options) if drawn is None else Log(drawn.recording)
-    )
-    log = labelled(log, labels)
-    rig = look(log.recording).accept(accept)
+    if drawn is None:
+        log = labelled(read_logs(logs, text=text, report=say, **options), labels)
+        rig = look(log.recording).accept(accept)
+    else:
+        rig = drawn.rig.accept(accept)
     rig.refuse()
     show(rig)
-    recording = rig.usable()
+    recording = rig.usable() if drawn is None else replace(drawn.usable(rig), labels=labels)
     with progress() as step:
         found = identify(recording, robust=robust, progress=step)
     parameters = parameters_of(found, method, recording, rig.to_json())

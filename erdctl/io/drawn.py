@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from erdctl.bench.rig import Looking, Rig
 from erdctl.core.recording import Index, Recording, concatenate
 from erdctl.core.stretches import Gathered
 from erdctl.io.long_logs import LongLog
@@ -22,26 +23,45 @@ class Drawn:
     """A sample of a log.
 
     recording : whole records and windows of longer ones, each as a record
-    parts : how many there are of them;  of : samples, and parts that they were drawn from
+    chosen : record, first and end of each of them in the log
+    of : samples, and parts that they were drawn from;  rig : what is wrong with the log
     """
 
     recording: Recording
-    parts: int
+    chosen: Sequence[tuple[int, int, int]]
     of: tuple[int, int]
+    rig: Rig
+
+    def usable(self, rig: Rig) -> Recording:
+        """What of it a fit may use; rig : what counts of the log's own."""
+        first = self.recording.starts
+        faults = [f for f in rig.faults if f.record is None and f.samples is None]
+        for f in rig.faults:
+            for k, (record, a, b) in enumerate(self.chosen):
+                if f.samples is None and f.record == record:
+                    faults.append(replace(f, record=k))
+                elif f.samples is not None and f.record in (None, record):
+                    inside = f.samples[(f.samples >= a) & (f.samples < b)]
+                    if len(inside):
+                        faults.append(replace(f, record=k, samples=inside - a + first[k]))
+        mine = replace(
+            rig, names=self.recording.names, faults=tuple(faults), recording=self.recording
+        )
+        return mine.usable()
 
     def __str__(self) -> str:
         samples, parts = self.of
         return (
-            f"fitted to a sample: {self.parts} of {parts} records, or windows of long ones, with"
-            f" {len(self.recording)} of {samples} samples, one drawn from each of as many equal"
-            " groups, the same in every run; standard errors are those of the sample"
+            f"fitted to a sample: {len(self.chosen)} of {parts} records, or windows of long ones,"
+            f" with {len(self.recording)} of {samples} samples, one drawn from each of as many"
+            " equal groups, the same in every run; standard errors are those of the sample"
         )
 
     def to_json(self) -> dict[str, Any]:
         """For the provenance of what is fitted to it."""
         samples, parts = self.of
         return {
-            "samples": len(self.recording), "of_samples": samples, "parts": self.parts,
+            "samples": len(self.recording), "of_samples": samples, "parts": len(self.chosen),
             "of_parts": parts, "text": str(self),
         }  # fmt: skip
 
@@ -58,12 +78,14 @@ def draw(log: LongLog, most: int) -> Drawn:
     picks = ((np.arange(count) + rng.random(count)) * len(windows) / count).astype(int).tolist()
     chosen = [windows[i] for i in picks]
     gathered = Gathered([(a, b) for _, a, b in chosen])
+    looking = Looking(log.outline.starts, log.outline.names)
     for read in log.stretches():
         gathered.add(read.stretch)
+        looking.add(read.stretch)
     names = tuple(_name(log, record, a, b) for record, a, b in chosen)
     recording = replace(concatenate(gathered.blocks()), names=names)
     recording = replace(recording, sources=log.sources, xdot_note=log.xdot_note)
-    return Drawn(recording, count, (log.samples, len(windows)))
+    return Drawn(recording, chosen, (log.samples, len(windows)), looking.rig())
 
 
 def windows_of(starts: Index, length: int | None = None) -> Sequence[tuple[int, int, int]]:

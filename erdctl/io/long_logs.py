@@ -189,7 +189,7 @@ class LongLog:
             check_blocks(channels, first, self._place(0), sources=own)
 
     def _warn(self, e: Extent, cuts: bool) -> None:
-        if cuts or e.samples <= LONG + LONG // 2:
+        if cuts or e.behind > e.record + 1 or e.samples <= LONG + LONG // 2:
             return
         why = "this model remembers more than the yield force from sample to sample"
         if "xdot" not in self.plan:
