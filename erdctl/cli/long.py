@@ -72,7 +72,7 @@ def validate_long(
     from erdctl.core.errors import InputProblem
     from erdctl.model.simulate import Remarks, Simulation
     from erdctl.report.text import say
-    from erdctl.score.nrmse import Tally
+    from erdctl.score.nrmse import Scoring
 
     with opened(paths, options) as log:
         if log is None:
@@ -80,7 +80,7 @@ def validate_long(
         simulation = remarks = None
         if parameters is not None:
             simulation, remarks = Simulation(parameters), Remarks(parameters)
-        tally, looking = Tally(normalise), Looking(log.outline.starts, log.outline.names)
+        tally, looking = Scoring(normalise), Looking(log.outline.starts, log.outline.names)
         for read in log.stretches(cut=simulation is None or simulation.cuts):
             modelled = read.force_model
             if simulation is not None and remarks is not None:
@@ -105,7 +105,7 @@ def inspect_long(
     from erdctl.bench.inspection import Inspecting
     from erdctl.core.recording import CHANNELS
     from erdctl.effects import catalogue
-    from erdctl.io.inspection import Inspected, to_json
+    from erdctl.io.inspection import InspectedLog, to_json
 
     with opened(paths, options) as log:
         if log is None:
@@ -121,7 +121,7 @@ def inspect_long(
                     ends[name].add(values)
     found = inspecting.found(catalogue(), log.xdot_note)
     ranges = {name: [e.low, e.high] for name, e in ends.items() if e.low <= e.high}
-    subject = Inspected(log.sources, log.channels, log.unread, labels, ranges)
+    subject = InspectedLog(log.sources, log.channels, log.unread, labels, ranges)
     return found, to_json(found, subject)
 
 

@@ -123,7 +123,7 @@ class InspectionFile(TypedDict):
 
 
 @dataclass(frozen=True)
-class Inspected:
+class InspectedLog:
     """The log of an inspection: where it came from, and the ends of each channel, by name."""
 
     sources: Sequence[Source]
@@ -133,14 +133,14 @@ class Inspected:
     ranges: Mapping[str, list[float]]
 
 
-def subject_of(log: Log) -> Inspected:
+def subject_of(log: Log) -> InspectedLog:
     """A log that is in memory."""
     ranges = {c.name: found for c in log.channels if (found := _range(log, c.name)) is not None}
     r = log.recording
-    return Inspected(r.sources, log.channels, log.unread, r.labels, ranges)
+    return InspectedLog(r.sources, log.channels, log.unread, r.labels, ranges)
 
 
-def to_json(found: Inspection, log: Inspected, ahead: Forecast | None = None) -> InspectionFile:
+def to_json(found: Inspection, log: InspectedLog, ahead: Forecast | None = None) -> InspectionFile:
     """The document of an inspection, with a forecast if one was asked for."""
     document: InspectionFile = {
         "schema": SCHEMA,

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from erdctl.core.cache import parts
 from erdctl.core.recording import DIRECTIONS, Array, Index, Recording
 from erdctl.core.stretches import Stretch, stretches
-from erdctl.score.tally import Sums, by, none, over
+from erdctl.score.sums import GroupSums, by, none, over
 
 MAX_LEVELS = 24  # more distinct duty levels than that are a continuous control, and are binned
 BIN = 0.05
@@ -138,14 +138,14 @@ def bins(duty: Array) -> Codes:
     return code
 
 
-class Tally:
+class Scoring:
     """The scores of a modelled force over one stretch of a log after the other."""
 
     def __init__(self, normalise: Normalise = Normalise.RANGE) -> None:
         self.normalise = normalise
         self._all, self._ways = none(1), none(3)
         self._percents, self._bins = none(101), none(len(BINS))
-        self._records: list[Sums] = []
+        self._records: list[GroupSums] = []
         self._names: list[str] = []
 
     def add(self, stretch: Stretch, modelled: Array) -> None:
@@ -193,7 +193,7 @@ class Tally:
             by_record=dict(zip(self._names, records, strict=True)),
         )
 
-    def _scores(self, sums: Sums) -> list[Score]:
+    def _scores(self, sums: GroupSums) -> list[Score]:
         rms = np.sqrt(sums.squares / np.maximum(sums.samples, 1.0))
         match self.normalise:
             case Normalise.RANGE:
@@ -223,7 +223,7 @@ def validate(
         names = [recording.names[i] for i in kept]
         usable = recording.take(rows, np.append(ends[kept], ends[-1]), names)
         return validate(replace(usable, excluded=None), modelled[rows], normalise)
-    tally = Tally(normalise)
+    tally = Scoring(normalise)
     for part in stretches(recording):
         tally.add(part, modelled[part.first : part.first + len(part)])
     return tally.found()

@@ -1,4 +1,4 @@
-"""Sums that scores are made of, over one stretch of a log after the other."""
+"""GroupSums that scores are made of, over one stretch of a log after the other."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from erdctl.core.recording import Array, Index
 Codes = npt.NDArray[np.integer[Any]]
 
 
-class Sums(NamedTuple):
+class GroupSums(NamedTuple):
     """What is kept of a measured force F and an error e in each of k groups of samples.
 
     samples, squares : (k,) number, sum of e^2 [N^2]
@@ -28,7 +28,7 @@ class Sums(NamedTuple):
     spread: Array
     size: Array
 
-    def at(self, codes: Codes | Index, groups: int) -> Sums:
+    def at(self, codes: Codes | Index, groups: int) -> GroupSums:
         """The same with each group counted to another, of so many.
 
         codes : (k,) which.  The spread of groups together is that within each and that of their
@@ -49,25 +49,25 @@ class Sums(NamedTuple):
         mean = summed(self.samples * self.mean) / np.maximum(samples, 1.0)
         away = self.mean - mean[codes]
         spread = summed(self.spread + self.samples * away * away)
-        return Sums(samples, summed(self.squares), low, high, mean, spread, summed(self.size))
+        return GroupSums(samples, summed(self.squares), low, high, mean, spread, summed(self.size))
 
-    def behind(self, first: Sums) -> Sums:
+    def behind(self, first: GroupSums) -> GroupSums:
         """Groups of two kinds, the others first."""
-        return Sums(*(np.concatenate(pair) for pair in zip(first, self, strict=True)))
+        return GroupSums(*(np.concatenate(pair) for pair in zip(first, self, strict=True)))
 
-    def added(self, codes: Codes | Index, more: Sums) -> Sums:
+    def added(self, codes: Codes | Index, more: GroupSums) -> GroupSums:
         """With those of other samples, which are counted to the groups that `codes` says."""
         groups = len(self.samples)
         return more.behind(self).at(np.concatenate([np.arange(groups), codes]), groups)
 
 
-def none(groups: int) -> Sums:
+def none(groups: int) -> GroupSums:
     """Of no samples."""
     zero = np.zeros(groups)
-    return Sums(zero, zero, zero + np.inf, zero - np.inf, zero, zero, zero)
+    return GroupSums(zero, zero, zero + np.inf, zero - np.inf, zero, zero, zero)
 
 
-def over(first: Index, force: Array, error: Array) -> Sums:
+def over(first: Index, force: Array, error: Array) -> GroupSums:
     """Of runs of samples that begin at `first` (k,), up to the next one or to the end.
 
     force, error : (n,) [N]
@@ -75,7 +75,7 @@ def over(first: Index, force: Array, error: Array) -> Sums:
     length = np.diff(first, append=len(force)).astype(np.float64)
     mean = np.add.reduceat(force, first) / length
     away = force - np.repeat(mean, length.astype(np.intp))
-    return Sums(
+    return GroupSums(
         length,
         np.add.reduceat(error * error, first),
         np.minimum.reduceat(force, first),
@@ -86,7 +86,7 @@ def over(first: Index, force: Array, error: Array) -> Sums:
     )
 
 
-def by(code: Codes, force: Array, error: Array) -> tuple[Codes, Sums]:
+def by(code: Codes, force: Array, error: Array) -> tuple[Codes, GroupSums]:
     """Of samples that have the same code (n,) next to each other; and that of each (k,)."""
     first = _changes(code)
     if 4 * len(first) > len(code):
