@@ -92,7 +92,8 @@ def windows_of(starts: Index, length: int | None = None) -> Sequence[tuple[int, 
     """Record, first and end of the parts that a log is drawn from: records, or even parts of one.
 
     starts : (r + 1,) offsets of the records
-    Check: records of 4 and 9 samples in windows of 4: the first, and two of the second.
+    Check: records of 4 and 9 samples in windows of 4: record 0 from 0 to 4, record 1 from 4 to 8
+    and from 8 to 13.
     >>> windows_of(np.array([0, 4, 13]), 4)
     [(0, 0, 4), (1, 4, 8), (1, 8, 13)]
     """
