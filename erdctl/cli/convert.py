@@ -24,7 +24,8 @@ def command(
 
     Columns of a bench log (t, x, xdot, duty, force, temperature) are written in SI under these
     names; all others keep values, names and units. A column `record` makes records: a struct array
-    in MAT, groups in MDF4 and TDMS. MAT, MDF4 and TDMS are read and written whole, in memory.
+    in MAT, groups in MDF4 and TDMS. MAT, MDF4 and TDMS are read and written whole, in memory; long
+    Parquet and Arrow files go by in stretches, and may be larger than memory.
 
     Units: one that the file states is converted to SI; one given with --map overrides it; one of
     the wrong kind is refused; without any, SI is assumed. Whole numbers without unit and scaling

@@ -38,6 +38,8 @@ def command(
     Writes the log's columns and `force_model`. A record starts with F_ER at the steady value of
     its first sample; the duty is held from each sample to the next; sign(0) = 0.
 
+    A long Parquet or Arrow file is read in stretches, and may be larger than memory.
+
     \b
     Examples:
       erdctl simulate damper.json drive.csv -o out.parquet

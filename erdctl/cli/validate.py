@@ -46,7 +46,8 @@ def command(
 
     NRMSE per PWM level = RMSE / (max - min of the measured force at that level); the paper does
     not state its own denominator. Faults of the rig (see `inspect`) are said, and their samples
-    count like all others: the scores are those of the log as it is.
+    count like all others: the scores are those of the log as it is. A long Parquet or Arrow file is
+    read in stretches, and may be larger than memory; --plot and --report take all of it.
 
     \b
     Examples:
