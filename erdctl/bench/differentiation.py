@@ -24,6 +24,7 @@ def derive_xdot(
     *,
     file: str | None = None,
     row_of: Callable[[int], int] = lambda sample: sample + 1,
+    notes: dict[str, None] | None = None,
 ) -> tuple[Array, str]:
     """Derivative of a local quadratic, record by record.
 
@@ -35,13 +36,14 @@ def derive_xdot(
 
     t : (n,) strictly increasing within a record [s];  x : (n,) [m];  starts : (r + 1,) offsets
     file, row_of : for messages; row of a sample
+    notes : of the parts of a log before this one, to which it adds its own; None if it is all
     Returns (n,) xdot [m/s] and a note: method, window, and where the response has fallen by 3 dB
     against an ideal differentiator. Exact for x quadratic in t; x = t^2 gives 2 t.
     Raises InputProblem at a pause of more than 10 steps, or for a record of one sample.
     Source: A. Savitzky, M. J. E. Golay, Analytical Chemistry 36 (1964) 1627-1639.
     """
     xdot = np.empty_like(x)
-    notes: dict[str, None] = {}
+    notes = {} if notes is None else notes
     for first, end in pairwise(starts.tolist()):
         part = slice(first, end)
         steps = np.diff(t[part])

@@ -33,11 +33,8 @@ class Bench:
     @classmethod
     def of(cls, survey: Survey) -> Bench:
         """The bench of a log; a plain small test where the log shows nothing."""
-        s = survey.signals
         return cls(
-            stroke=survey.stroke / 2 or 0.01,
-            speed=max(abs(float(s.xdot.min())), abs(float(s.xdot.max()))) or 0.05,
-            duty=float(s.duty.max()) or 0.3,
+            stroke=survey.stroke / 2 or 0.01, speed=survey.speed or 0.05, duty=survey.duty or 0.3
         )
 
     def sine(self, duty: str = "", most: float = 1.0) -> str:

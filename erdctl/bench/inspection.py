@@ -3,74 +3,31 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from erdctl.bench import identifiability as coverage
+from erdctl.bench.accelerations import Accelerations
+from erdctl.bench.counts import Counts
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import Cover
-from erdctl.bench.rig import Rig, look
+from erdctl.bench.records import RecordSummaries, RecordSummary, Span
+from erdctl.bench.rig import Looking, Rig
 from erdctl.core.cache import parts
 from erdctl.core.quantiles import median
-from erdctl.core.recording import CHANNELS, Array, Recording
+from erdctl.core.recording import Array, Index, Recording
+from erdctl.core.stretches import Gathered, Stretch, stretches
 from erdctl.model.effect import Effect
-from erdctl.score.nrmse import duty_levels
+from erdctl.score.nrmse import BINS, bins, bins_of, levels_of, percents
 
-GAP = 1.5  # steps of a record; a longer one has lost samples
+__all__ = ["Inspecting", "Inspection", "NoiseFloor", "RecordSummary", "Span", "inspect"]
+
 PIECE = 4_000  # samples of the stretches that the noise is taken from
 STRETCHES = 100
 ORDER = 3  # of the differences that take the motion out of the force
-
-
-@dataclass(frozen=True)
-class Span:
-    """Lowest and highest value of a channel."""
-
-    low: float
-    high: float
-
-    @classmethod
-    def of(cls, values: Array) -> Span:
-        """The span of (n,) values."""
-        return cls(float(values.min()), float(values.max()))
-
-
-@dataclass(frozen=True)
-class RecordSummary:
-    """One record: its sampling, and what the motion and the force reached.
-
-    duration : from the first to the last sample [s];  step : the usual one [s]
-    jitter : how far steps differ from it, gaps apart [1];  gaps : number of longer steps
-    missing : samples that these have lost;  longest_gap : [s];  gap_at : time of its start [s]
-    """
-
-    name: str
-    samples: int
-    duration: float
-    step: float
-    jitter: float
-    gaps: int
-    missing: int
-    longest_gap: float
-    gap_at: float | None
-    x: Span
-    xdot: Span
-    duty: Span
-    force: Span | None
-    temperature: Span | None
-
-    @property
-    def rate(self) -> float:
-        """Sampling rate [Hz]."""
-        return 1.0 / self.step
-
-    @property
-    def speed(self) -> float:
-        """Highest speed, in either direction [m/s]."""
-        return max(abs(self.xdot.low), abs(self.xdot.high))
 
 
 @dataclass(frozen=True)
@@ -108,75 +65,94 @@ class Inspection:
 
 def inspect(recording: Recording, candidates: Sequence[Effect]) -> Inspection:
     """Inspect a recording, with force or without, against a catalogue of effects."""
-    survey = Survey.of(recording)
-    records = tuple(_records(recording))
-    noise = None if recording.force is None else force_noise(recording)
-    free = survey.acceleration
-    return Inspection(
-        samples=len(recording),
-        duration=sum(r.duration for r in records),
-        records=records,
-        seconds_at=_seconds_at(recording),
-        noise=noise,
-        mass=noise.rms / free if noise and free > 0 else None,
-        xdot=recording.xdot_note,
-        parameters=tuple(coverage.parameters(survey)),
-        effects=tuple(coverage.effects(survey, candidates)),
-        rig=look(recording),
-    )
+    inspecting = Inspecting(recording.starts, recording.names)
+    for part in stretches(recording):
+        inspecting.add(part)
+    found = inspecting.found(candidates, recording.xdot_note)
+    return replace(found, rig=replace(found.rig, recording=recording))
 
 
-def _records(recording: Recording) -> Iterator[RecordSummary]:
-    """Every record. Channels are looked at as a whole, since a log may hold many thousand tests."""
-    spans = {name: _spans(getattr(recording, name), recording) for name in CHANNELS}
-    for i, part in enumerate(recording.slices):
-        yield _record(recording, i, part, {name: span[i] for name, span in spans.items()})
+class Inspecting:
+    """The same over one stretch of a log after the other.
+
+    starts, names : offsets and names of its records
+    """
+
+    def __init__(self, starts: Index, names: tuple[str, ...]) -> None:
+        self.samples = int(starts[-1])
+        self._counts, self._accelerations = Counts(starts), Accelerations(starts)
+        self._looking = Looking(starts, names)
+        self._noise = Gathered(noise_extents(starts))
+        self._records = RecordSummaries()
+        self._percents, self._bins = np.zeros(101), np.zeros(len(BINS))
+        self._force = False
+
+    def add(self, stretch: Stretch) -> None:
+        """The next stretch."""
+        self._counts.add(stretch)
+        self._accelerations.add(stretch)
+        self._looking.add(stretch)
+        self._records.add(stretch)
+        own, step = stretch.own, stretch.recording.step[: len(stretch)]
+        self._force = own.force is not None
+        if self._force:
+            self._noise.add(stretch)
+        for part in parts(len(own)):
+            duty, seconds = own.duty[part], step[part]
+            self._percents += np.bincount(percents(duty)[0], seconds, len(self._percents))
+            self._bins += np.bincount(bins(duty), seconds, len(self._bins))
+
+    def found(self, candidates: Sequence[Effect], xdot: str) -> Inspection:
+        """What there is to say of all of it; xdot : how that was obtained."""
+        survey = Survey(lambda: self._counts, self._accelerations.beyond_a_spring)
+        records = tuple(self._records.summaries)
+        noise = None
+        if self._force:
+            noise = noise_floor([b.force for b in self._noise.blocks() if b.force is not None])
+        free = survey.acceleration
+        return Inspection(
+            samples=self.samples,
+            duration=sum(r.duration for r in records),
+            records=records,
+            seconds_at=self._seconds_at(),
+            noise=noise,
+            mass=noise.rms / free if noise and free > 0 else None,
+            xdot=xdot,
+            parameters=tuple(coverage.parameters(survey)),
+            effects=tuple(coverage.effects(survey, candidates)),
+            rig=self._looking.rig(),
+        )
+
+    def _seconds_at(self) -> dict[float, float]:
+        seen = self._counts.percents
+        seconds: Array = self._percents
+        levels, present = levels_of(seen)
+        if present is None:
+            # A last sample may be alone in its bin, and have no time.
+            (levels, present), seconds = bins_of(self._counts.bins), self._bins
+        return dict(zip(levels.tolist(), seconds[present].tolist(), strict=True))
 
 
-def _spans(channel: Array | None, recording: Recording) -> Sequence[Span | None]:
-    if channel is None:
-        return [None] * len(recording.names)
-    first = recording.starts[:-1]
-    ends = (ufunc.reduceat(channel, first).tolist() for ufunc in (np.minimum, np.maximum))
-    return [Span(low, high) for low, high in zip(*ends, strict=True)]
-
-
-def _record(
-    recording: Recording, index: int, part: slice, span: Mapping[str, Any]
-) -> RecordSummary:
-    t = recording.t[part]
-    steps = recording.step[part][:-1]
-    step = median(steps)
-    long = steps > GAP * step
-    gaps = int(np.count_nonzero(long))
-    # Rounded times make no gaps, so most records need no copy of their steps.
-    even = steps if gaps == 0 else steps[~long]
-    away = max(float(even.max()) - step, step - float(even.min())) / step
-    at = int(steps.argmax()) if gaps else None
-    length = float(t[-1] - t[0])
-    return RecordSummary(
-        name=recording.names[index],
-        samples=len(t),
-        duration=length,
-        step=step if gaps else length / len(steps),
-        jitter=max(away, 0.0),
-        gaps=gaps,
-        missing=int((np.round(steps[long] / step) - 1.0).sum()) if gaps else 0,
-        longest_gap=float(steps.max()) if gaps else 0.0,
-        gap_at=None if at is None else float(t[at]),
-        **{name: span[name] for name in CHANNELS if name != "t"},
-    )
-
-
-def _seconds_at(recording: Recording) -> dict[float, float]:
-    codes, levels = duty_levels(recording.duty)
-    seconds = np.zeros(len(levels))
-    for part in parts(len(codes)):
-        seconds += np.bincount(codes[part], weights=recording.step[part], minlength=len(levels))
-    return dict(zip(levels.tolist(), seconds.tolist(), strict=True))
+def noise_extents(starts: Index) -> list[tuple[int, int]]:
+    """The samples that the noise of the force is taken from."""
+    pieces = [
+        (a, min(a + PIECE, end))
+        for first, end in pairwise(starts.tolist())
+        for a in range(first, end, PIECE)
+        if min(a + PIECE, end) - a > ORDER
+    ]
+    return pieces[:: -(-len(pieces) // STRETCHES)] if pieces else []
 
 
 def force_noise(recording: Recording) -> NoiseFloor | None:
+    """Noise of the force of a recording; see `noise_floor`."""
+    force = recording.force
+    if force is None:
+        raise ValueError("the recording has no measured force")
+    return noise_floor([force[a:b] for a, b in noise_extents(recording.starts)])
+
+
+def noise_floor(pieces: Sequence[Array]) -> NoiseFloor | None:
     """Noise of the force that motion cannot make: what third differences hold of it.
 
         rms = median |d3 F| / (0.6745 sqrt(20)),   d3 F = F_i - 3 F_i-1 + 3 F_i-2 - F_i-3
@@ -184,26 +160,18 @@ def force_noise(recording: Recording) -> NoiseFloor | None:
     A smooth force has third differences of the order of the step cubed; the median does not see
     the jumps at reversals. Exact for white noise; noise slower than a few samples is seen in part,
     and the rounding of the force, step / sqrt(12), is the least that there is.
+
+    pieces : (n,) of the force each, of more than 3 samples [N]
     Check: white noise of 0.3 N rms on any slow force gives 0.3 N within the scatter of a median.
     >>> noise = np.random.default_rng(1).normal(0.0, 0.3, 20_000)
     >>> slow = 10.0 * np.sin(np.arange(20_000) * 1e-3)
-    >>> round(force_noise(recording(np.zeros(20_000), force=slow + noise)).rms, 1)
+    >>> round(noise_floor([slow + noise]).rms, 1)
     0.3
     """
-    force = recording.force
-    if force is None:
-        raise ValueError("the recording has no measured force")
-    pieces = [
-        slice(a, min(a + PIECE, part.stop))
-        for part in recording.slices
-        for a in range(part.start, part.stop, PIECE)
-        if min(a + PIECE, part.stop) - a > ORDER
-    ]
     if not pieces:
         return None
-    chosen = pieces[:: -(-len(pieces) // STRETCHES)]
-    differences = np.concatenate([np.diff(force[p], ORDER) for p in chosen])
-    values = np.sort(np.concatenate([force[p] for p in chosen]))
+    differences = np.concatenate([np.diff(p, ORDER) for p in pieces])
+    values = np.sort(np.concatenate(pieces))
     between = np.diff(values)
     # Values of one level may differ by the rounding of their binary form.
     apart = between[between > 1e-9 * max(float(np.abs(values[[0, -1]]).max()), 1e-300)]

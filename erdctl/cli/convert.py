@@ -24,7 +24,8 @@ def command(
 
     Columns of a bench log (t, x, xdot, duty, force, temperature) are written in SI under these
     names; all others keep values, names and units. A column `record` makes records: a struct array
-    in MAT, groups in MDF4 and TDMS. MAT, MDF4 and TDMS are read and written whole, in memory.
+    in MAT, groups in MDF4 and TDMS. MAT, MDF4 and TDMS are read and written whole, in memory; long
+    Parquet and Arrow files go by in stretches, and may be larger than memory.
 
     Units: one that the file states is converted to SI; one given with --map overrides it; one of
     the wrong kind is refused; without any, SI is assumed. Whole numbers without unit and scaling
@@ -52,13 +53,25 @@ def command(
     """
     from erdctl.cli.in_force import IN_FORCE
     from erdctl.core.progress import part_of
-    from erdctl.io.convert import read_converted
-    from erdctl.io.tables import output_format, write_table
+    from erdctl.io.convert import converted_in_parts, read_converted
+    from erdctl.io.formats import CONTAINERS
+    from erdctl.io.tables import behind, output_format, table_writer, write_table
     from erdctl.report.text import progress, say
 
+    def warn(line: str) -> None:
+        say(line, "warning")
+
     wanted, project = format and format.value, IN_FORCE.get()
-    output_format(output, wanted)  # a wrong suffix shows before a long reading
+    kind = output_format(output, wanted)  # a wrong suffix shows before a long reading
     with progress() as step:
+        parts = None
+        if kind not in CONTAINERS and project is None:
+            parts = converted_in_parts(log, maps=maps, say=say, warn=warn, progress=step)
+        if parts is not None:
+            with table_writer(output, wanted) as writer, behind(writer) as write:
+                for part in parts:
+                    write(part)
+            return
         step("reading", part_of(log, 1, 2))
         table = read_converted(
             log,
@@ -66,7 +79,7 @@ def command(
             text=text,
             project=None if project is None else project.reading,
             say=say,
-            warn=lambda line: say(line, "warning"),
+            warn=warn,
         )
         step("writing", part_of(output, 2, 2))
         write_table(table, output, wanted)

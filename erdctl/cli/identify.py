@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -42,6 +42,10 @@ def command(
     Faults of the rig are looked for first (see `inspect`): what they spoil is left out of the fit
     and said, and a log that is spoiled as a whole, by a wrong sign or unit, is refused.
 
+    A log in Parquet or Arrow of more than 8 million samples is read to its end, and fitted to a
+    sample of them: whole records, or windows of long ones, evenly drawn, the same in every run. It
+    is said, and written to the provenance as `sample`.
+
     \b
     Examples:
       erdctl identify bench.parquet -o damper.json
@@ -49,7 +53,10 @@ def command(
       erdctl identify bench.csv | erdctl validate - other.csv
       erdctl identify bench.csv -o damper.json --plot loops.png --plot yield-force:law.svg
     """
+    from dataclasses import replace
+
     from erdctl.bench.rig import look
+    from erdctl.cli.long import drawn_long
     from erdctl.cli.pictures import draw, wanted
     from erdctl.cli.reading import labelled, read_logs
     from erdctl.cli.rig import fail, show
@@ -61,17 +68,24 @@ def command(
 
     asked = wanted(plot, "loops")
     labels = labels_of(date, damper, operator)
-    log = read_logs(
-        logs, maps=maps, text=text, where=where, need_force=True, want_hash=True, report=say
-    )
-    log = labelled(log, labels)
-    rig = look(log.recording).accept(accept)
+    options: dict[str, Any] = {
+        "maps": maps, "where": where, "need_force": True, "want_hash": True,
+    }  # fmt: skip
+    drawn = drawn_long(logs, options)
+    if drawn is None:
+        log = labelled(read_logs(logs, text=text, report=say, **options), labels)
+        rig = look(log.recording).accept(accept)
+    else:
+        rig = drawn.rig.accept(accept)
     rig.refuse()
     show(rig)
-    recording = rig.usable()
+    recording = rig.usable() if drawn is None else replace(drawn.usable(rig), labels=labels)
     with progress() as step:
         found = identify(recording, robust=robust, progress=step)
     parameters = parameters_of(found, method, recording, rig.to_json())
+    if drawn is not None:
+        whence = {**parameters.provenance, "sample": drawn.to_json()}
+        parameters = replace(parameters, provenance=whence)
     write_parameters(parameters, output)
     if asked:
         from erdctl.model.simulate import simulate

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -62,7 +62,8 @@ def command(
 
     Faults of the rig come before that, each with its place and a remedy: a wrong sign or unit,
     clipped or frozen channels, spikes, bursts of noise, lost samples, records unlike the others in
-    gain, zero, lag or noise, and a velocity channel that does not follow x.
+    gain, zero, lag or noise, and a velocity channel that does not follow x. A long Parquet or Arrow
+    file is read in stretches, and may be larger than memory.
 
     --forecast says of every effect from which size this motion and control would show it, for the
     paper's model and the noise of the force: also of a drive that is only planned, which has no
@@ -80,6 +81,7 @@ def command(
         --map "duty=PWM[%]"
     """
     from erdctl.bench.inspection import inspect
+    from erdctl.cli.long import inspect_long
     from erdctl.cli.reading import labelled, read_logs
     from erdctl.cli.rig import fail, show
     from erdctl.core.errors import UsageProblem
@@ -87,28 +89,26 @@ def command(
     from erdctl.core.progress import part_of
     from erdctl.effects import catalogue
     from erdctl.io import documents
-    from erdctl.io.inspection import to_json
+    from erdctl.io.inspection import subject_of, to_json
     from erdctl.report.text import progress, say
 
     if not forecast and (params is not None or noise is not None):
         raise UsageProblem("--params and --noise go with --forecast")
     labels = labels_of(date, damper, operator)
-    log = read_logs(
-        logs,
-        maps=maps,
-        text=text,
-        where=where,
-        need_force=False,
-        want_force=True,
-        want_hash=as_json,
-        report=say,
-    )
-    log = labelled(log, labels)
-    with progress() as step:
-        step("inspecting", part_of(f"{len(log.recording)} samples", 1, 1))
-        found = inspect(log.recording, catalogue())
-        ahead = _forecast(log.recording, params, noise, step) if forecast else None
-    document = to_json(found, log, ahead)
+    options: dict[str, Any] = {
+        "maps": maps, "where": where, "need_force": False, "want_force": True,
+        "want_hash": as_json,
+    }  # fmt: skip
+    long = None if forecast else inspect_long(logs, options, labels)  # which takes the whole log
+    if long is not None:
+        found, document = long
+    else:
+        log = labelled(read_logs(logs, text=text, report=say, **options), labels)
+        with progress() as step:
+            step("inspecting", part_of(f"{len(log.recording)} samples", 1, 1))
+            found = inspect(log.recording, catalogue())
+            ahead = _forecast(log.recording, params, noise, step) if forecast else None
+        document = to_json(found, subject_of(log), ahead)
     show(found.rig)
     if as_json:
         documents.write(document, "-")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -51,6 +51,8 @@ def command(
     them. With --causal the force is that of the block which `erdctl export` writes, to the last
     digits, to check one against the other.
 
+    A long Parquet or Arrow file is read in stretches, and may be larger than memory.
+
     \b
     Examples:
       erdctl simulate damper.json drive.csv -o out.parquet
@@ -62,8 +64,9 @@ def command(
     """
     from erdctl.cli.pictures import draw, wanted
     from erdctl.core.errors import UsageProblem
+    from erdctl.io.formats import CONTAINERS
     from erdctl.io.parameters import read_parameters
-    from erdctl.io.tables import append_column, write_table
+    from erdctl.io.tables import append_column, output_format, write_table
     from erdctl.model.simulate import remarks, simulate
     from erdctl.report.text import progress, say
 
@@ -73,12 +76,30 @@ def command(
         raise UsageProblem("PARAMS and LOG cannot both be stdin")
     asked = wanted(plot, "faults" if fault else "loops")
     parameters = read_parameters(params)
+    if causal:
+        from erdctl.export.as_block import as_block
+
+        parameters, said = as_block(parameters)
+        for line in said:
+            say(line)
     if log is not None:
+        from erdctl.cli.long import simulate_long
         from erdctl.cli.reading import read_logs
 
-        read = read_logs(
-            [log], maps=maps, text=text, where=where, need_force=False, keep_table=True, report=say
-        )
+        options: dict[str, Any] = {
+            "maps": maps,
+            "where": where,
+            "need_force": False,
+            "keep_table": True,
+        }
+        # A picture, and a file of channels, take the whole log.
+        if (
+            not asked
+            and output_format(output, format and format.value) not in CONTAINERS
+            and simulate_long(parameters, log, fault, output, format and format.value, options)
+        ):
+            return
+        read = read_logs([log], text=text, report=say, **options)
         recording, table = read.recording, read.table
         assert table is not None
     else:
@@ -87,12 +108,6 @@ def command(
 
         recording = drives(drive)
         table = table_of(recording)
-    if causal:
-        from erdctl.export.as_block import as_block
-
-        parameters, said = as_block(parameters)
-        for line in said:
-            say(line)
     for line in remarks(parameters, recording):
         say(line)
     with progress() as step:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -12,7 +12,6 @@ from erdctl.cli.pictures import Plots
 from erdctl.cli.rig import Accept, Strict
 
 if TYPE_CHECKING:
-    from erdctl.core.recording import Recording
     from erdctl.score.nrmse import Score, Validation
 
 
@@ -47,7 +46,8 @@ def command(
 
     NRMSE per PWM level = RMSE / (max - min of the measured force at that level); the paper does
     not state its own denominator. Faults of the rig (see `inspect`) are said, and their samples
-    count like all others: the scores are those of the log as it is.
+    count like all others: the scores are those of the log as it is. A long Parquet or Arrow file is
+    read in stretches, and may be larger than memory; --plot and --report take all of it.
 
     \b
     Examples:
@@ -56,9 +56,8 @@ def command(
       erdctl simulate damper.json drive.csv | erdctl validate -
       erdctl validate damper.json other.csv --plot loops.png --plot time:force.png
     """
-    from functools import partial
-
     from erdctl.bench.rig import look
+    from erdctl.cli.long import UNMODELLED, validate_long
     from erdctl.cli.pictures import draw, wanted, wants
     from erdctl.cli.reading import labelled, read_logs
     from erdctl.cli.rig import fail, show
@@ -71,45 +70,51 @@ def command(
         raise UsageProblem(f"--normalise takes {', '.join(Normalise)}, not '{normalise}'")
     check_report(report)
     labels = labels_of(date, damper, operator)
-    read = partial(
-        read_logs, maps=maps, text=text, where=where, need_force=True,
-        want_hash=report is not None, report=say,
-    )  # fmt: skip
-    asked, parameters = wanted(plot, "loops"), None
-    if len(arguments) == 1:
-        log = read(arguments)
-        modelled = log.force_model
-        if modelled is None:
-            raise InputProblem(
-                "the log has no column force_model; give a parameter file before it",
-                file=arguments[0],
-            )
-    else:
+    options: dict[str, Any] = {
+        "maps": maps, "where": where, "need_force": True, "want_hash": report is not None,
+    }  # fmt: skip
+    asked, parameters, logs = wanted(plot, "loops"), None, arguments
+    if len(arguments) > 1:
         from erdctl.io.parameters import read_parameters
-        from erdctl.model.simulate import remarks, simulate
 
         params, *logs = arguments
         if params == "-" and "-" in logs:
             raise UsageProblem("PARAMS and LOG cannot both be stdin")
         parameters = read_parameters(params)
-        log = read(logs)
-        for line in remarks(parameters, log.recording):
-            say(line)
-        with progress() as step:
-            modelled = simulate(parameters, log.recording, progress=step)
-    log = labelled(log, labels)
-    labels = dict(log.recording.labels)
-    rig = look(log.recording, modelled).accept(accept)
+    long = None
+    if report is None and not asked:  # which take the whole log
+        long = validate_long(parameters, logs, Normalise(normalise), options)
+    if long is not None:
+        found, rig, peak = long
+        rig = rig.accept(accept)
+    else:
+        log = read_logs(logs, text=text, report=say, **options)
+        modelled = log.force_model
+        if parameters is not None:
+            from erdctl.model.simulate import remarks, simulate
+
+            for line in remarks(parameters, log.recording):
+                say(line)
+            with progress() as step:
+                modelled = simulate(parameters, log.recording, progress=step)
+        elif modelled is None:
+            raise InputProblem(UNMODELLED, file=arguments[0])
+        log = labelled(log, labels)
+        labels = dict(log.recording.labels)
+        rig = look(log.recording, modelled).accept(accept)
+        found = validate(log.recording, modelled, Normalise(normalise))
+        assert log.recording.force is not None
+        peak = max(float(log.recording.force.max()), -float(log.recording.force.min()))
     show(rig)
-    found = validate(log.recording, modelled, Normalise(normalise))
     if as_json:
         from erdctl.io import documents
         from erdctl.io.validation import to_json
 
         documents.write(to_json(found, labels, rig.to_json()), "-")
     else:
-        _show(found, log.recording)
+        _show(found, peak)
     if report is not None:
+        assert modelled is not None
         import sys
 
         from erdctl.cli.pages import write_report
@@ -127,6 +132,7 @@ def command(
         from erdctl.report.subject import Subject
         from erdctl.report.subjects import about, located
 
+        assert modelled is not None
         draw(
             asked,
             Subject(
@@ -143,12 +149,10 @@ def command(
         fail(rig)
 
 
-def _show(found: Validation, recording: Recording) -> None:
-    from erdctl.report.readable import largest, number, percent_of, scaled, with_unit
+def _show(found: Validation, peak: float) -> None:
+    from erdctl.report.readable import number, percent_of, scaled, with_unit
     from erdctl.report.text import table
 
-    assert recording.force is not None
-    peak = largest((float(recording.force.max()), float(recording.force.min())))
     factor, unit = scaled("N", found.overall.rms)
 
     def row(label: str, s: Score) -> list[str]:

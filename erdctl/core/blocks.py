@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from erdctl.core.recording import Array, Recording
+from erdctl.core.recording import Array, Index, Recording
 from erdctl.core.signals import Signals
 
 # The state of Eq. 12 before a record or a piece of one is unknown; it has faded after this time
@@ -44,15 +44,24 @@ def whole(recording: Recording) -> Block:
     return Block(Signals.of(recording), recording.force, weight)
 
 
-def neighbours(recording: Recording, longest: int = LONGEST) -> list[Recording]:
-    """The recording as runs of whole records, of at most about `longest` samples where they fit."""
-    bounds = recording.starts.tolist()
+def neighbours_of(starts: Index, longest: int = LONGEST) -> list[int]:
+    """First records of runs of whole records, of at most about `longest` samples where they fit.
+
+    starts : (r + 1,) offsets of the records
+    """
     firsts, size = [0], 0
-    for i, (a, b) in enumerate(pairwise(bounds)):
-        if size and size + b - a > longest:
+    for i, length in enumerate(np.diff(starts).tolist()):
+        if size and size + length > longest:
             firsts.append(i)
             size = 0
-        size += b - a
+        size += length
+    return firsts
+
+
+def neighbours(recording: Recording, longest: int = LONGEST) -> list[Recording]:
+    """The recording as such runs."""
+    bounds = recording.starts.tolist()
+    firsts = neighbours_of(recording.starts, longest)
     if len(firsts) == 1:
         return [recording]
     runs = pairwise([*firsts, len(bounds) - 1])

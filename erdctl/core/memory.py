@@ -15,14 +15,22 @@ _CGROUP = "/sys/fs/cgroup"
 
 
 def check_claim(
-    decoded: int, size: int, file: str, what: str, *, copies: int = COPIES, about: bool = False
+    decoded: int,
+    size: int,
+    file: str,
+    what: str,
+    *,
+    copies: int = COPIES,
+    about: bool = False,
+    held: bool = True,
 ) -> None:
     """Raise InputProblem if what a file holds will not fit into memory, or cannot be measured.
 
     decoded : bytes of `what` in memory, as the file states them;  size : bytes of the file
     copies : of `decoded` that will be in memory;  about : `decoded` is an estimate
+    held : whether it will be there all at once
     """
-    need, have = decoded * copies, available()
+    need, have = decoded * copies, available() if held else None
     if have is not None and need > have:
         raise InputProblem(
             f"too large: {what} need {'about ' if about else ''}{gigabytes(need)} of memory and"

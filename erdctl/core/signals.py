@@ -33,6 +33,7 @@ class Signals:
     temperature : (n,) [degC] where the log has it
     sampled : all samples of the log, and which of them these are (n,), where they are not all; for
         what counts by samples
+    begun : (r,) F_ER as each record begins [N], where that goes on from elsewhere; None for steady
     """
 
     t: Array
@@ -44,6 +45,7 @@ class Signals:
     engaged: Array | None = None
     temperature: Array | None = None
     sampled: tuple[Signals, Index] | None = None
+    begun: Array | None = None
 
     @classmethod
     def of(cls, recording: Recording) -> Signals:

@@ -132,7 +132,7 @@ def diagnose(
     recording = rig.usable()
     problem = prepare(recording, free)
     _enough(problem)
-    survey = Survey(recording, problem.block.signals)
+    survey = Survey.of(recording)
     if given is not None:
         simulate(given, recording)  # one that diverges is refused before the search, not judged
         problem = with_given(problem, given, untestable(survey, given.model.effects))

@@ -71,7 +71,7 @@ def forecast(
     force = model.force(signals, values) + noise * random.standard_normal(len(thin))
     problem = prepare(replace(thin, force=force))
     best = fit_hypothesis(problem, model.effects, [values], thresholds.STEPS_AGAIN)
-    survey = Survey(thin, problem.block.signals)
+    survey = Survey.of(thin)
     found = detectable(problem, best, candidates, untestable(survey, candidates), progress)
     return Forecast(noise, found)
 

@@ -60,7 +60,7 @@ def remaining_text(found: Diagnosis) -> str:
             f" {'; '.join(f.text for f in found.rig.blocking)}"
         )
     if found.cannot_tell:
-        bench = Bench.of(Survey(found.problem.recording, found.problem.block.signals))
+        bench = Bench.of(Survey.of(found.problem.recording))
         return (
             f"the log has {found.cannot_tell}, at which other effects, and other values of the"
             " paper's parameters, explain the misfit as well: what is named is one answer; to tell"

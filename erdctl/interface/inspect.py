@@ -13,7 +13,7 @@ from erdctl.effects import catalogue
 from erdctl.interface.display import frame_of, html, option, text
 from erdctl.interface.log import BenchLog, LogLike, Place, log_of
 from erdctl.io import documents
-from erdctl.io.inspection import to_json
+from erdctl.io.inspection import subject_of, to_json
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -37,7 +37,7 @@ class Inspected:
 
     def to_dict(self) -> dict[str, Any]:
         """The document of `erdctl inspect --json`, "schema": "erdctl.inspection/1"."""
-        found: dict[str, Any] = documents.plain(to_json(self.found, self.log.log))
+        found: dict[str, Any] = documents.plain(to_json(self.found, subject_of(self.log.log)))
         return found
 
     def table(
@@ -90,7 +90,7 @@ class Inspected:
 
     def write(self, path: Place) -> None:
         """Write the document as JSON, as `erdctl inspect --json` prints it."""
-        documents.write(to_json(self.found, self.log.log), os.fspath(path))
+        documents.write(to_json(self.found, subject_of(self.log.log)), os.fspath(path))
 
     def __repr__(self) -> str:
         return text(f"Inspected: {self._title()}", [*self._lines(), *self.remarks])

@@ -18,7 +18,7 @@ from erdctl.effects import catalogue
 from erdctl.interface.display import draw, frame_of, html, text
 from erdctl.io import documents
 from erdctl.io.csv_out import typed
-from erdctl.io.inspection import to_json
+from erdctl.io.inspection import subject_of, to_json
 from erdctl.io.logs import Log, read_logs
 from erdctl.io.stored import PLAIN, si
 from erdctl.io.tables import append_column, table_of, write_table
@@ -93,7 +93,7 @@ class BenchLog:
     def to_dict(self) -> dict[str, Any]:
         """What the log holds and can show: the document of `erdctl.inspect`."""
         found = inspect(self.recording, catalogue())
-        document: dict[str, Any] = documents.plain(to_json(found, self.log))
+        document: dict[str, Any] = documents.plain(to_json(found, subject_of(self.log)))
         return document
 
     def table(self) -> pd.DataFrame:

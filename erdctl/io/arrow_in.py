@@ -22,19 +22,23 @@ _RECORDS, _DICTIONARY = 3, 2  # kinds of a message's header
 _MOST = 1 << 26  # bytes of the description of one batch; 100,000 columns need 10 MB
 
 
-def described(file: Any, name: str) -> tuple[pa.Schema, int]:
+def described(file: Any, name: str, *, held: bool = True) -> tuple[pa.Schema, int]:
     """Schema and number of rows, as a file or stream states them; file : a NativeFile.
+
+    held : whether all of it will be in memory at once
 
     Raises InputProblem if it opens to more than memory holds or a log can have.
     """
     size = file.size()
     schema = _reader(file).schema
     file.seek(0)
-    rows = decoded = 0
-    for one, held in _messages(file, size):
-        rows, decoded = rows + one, decoded + held
+    rows = decoded = largest = 0
+    for one, opened in _messages(file, size):
+        rows, decoded, largest = rows + one, decoded + opened, max(largest, opened)
     file.seek(0)
-    check_claim(decoded, size, name, "its batches", copies=1)
+    check_claim(decoded, size, name, "its batches", copies=1, held=held)
+    if not held:
+        check_claim(largest, size, name, "the columns of its largest batch")
     return schema, rows
 
 
@@ -44,20 +48,44 @@ def read(file: Any, size: int, columns: Sequence[str], names: Sequence[str], nam
     Raises InputProblem if it was cut off, or its text opens to more than a log can have.
     """
     reader = _reader(file, [columns.index(n) for n in names])
+    table = reader.read_all()
     if isinstance(reader, pa.RecordBatchStreamReader):
-        table = reader.read_all()
-        file.seek(file.tell() - len(ARROW_END))
-        if file.read(len(ARROW_END)) != ARROW_END:
-            raise InputProblem(
-                "the Arrow stream stops without its end mark: its writer was cut off", file=name
-            )
-    else:
-        table = reader.read_all()
+        _refuse_cut(file, name)
     # Before anything else: selecting does not look into the buffers, whatever computes does.
     table.validate(full=True)
     table = table.select(list(names))
     check_texts(table, size, name)
     return table
+
+
+def batches(
+    file: Any, size: int, columns: Sequence[str], names: Sequence[str], name: str
+) -> Iterator[pa.Table]:
+    """The same, batch by batch as it was written."""
+    reader = _reader(file, [columns.index(n) for n in names])
+    if isinstance(reader, pa.RecordBatchStreamReader):
+        for batch in reader:
+            yield _sound(batch, size, names, name)
+        _refuse_cut(file, name)
+    else:
+        for i in range(reader.num_record_batches):
+            yield _sound(reader.get_batch(i), size, names, name)
+
+
+def _sound(batch: pa.RecordBatch, size: int, names: Sequence[str], name: str) -> pa.Table:
+    batch.validate(full=True)
+    table = pa.Table.from_batches([batch]).select(list(names))
+    check_texts(table, size, name)
+    return table
+
+
+def _refuse_cut(file: Any, name: str) -> None:
+    """Raise InputProblem for a stream, read to its end, without the mark that says so."""
+    file.seek(file.tell() - len(ARROW_END))
+    if file.read(len(ARROW_END)) != ARROW_END:
+        raise InputProblem(
+            "the Arrow stream stops without its end mark: its writer was cut off", file=name
+        )
 
 
 def _reader(file: Any, columns: Sequence[int] | None = None) -> Any:

@@ -113,6 +113,12 @@ def check_time(
     names : of the records, None if the log does not tell records apart
     source : the log's own name of t;  narrow : t was stored as 32-bit floats
     """
+    check_lengths(starts, names, place)
+    check_growth(t, starts, names, place, source=source, narrow=narrow)
+
+
+def check_lengths(starts: Index, names: Sequence[str] | None, place: Place) -> None:
+    """Raise InputProblem for a record of one sample; see `check_time`."""
     lengths = np.diff(starts)
     if lengths.min() < 2:
         record = int(lengths.argmin())
@@ -120,7 +126,6 @@ def check_time(
         raise place.problem(
             f"record{of} has a single sample; a record needs at least two", int(starts[record])
         )
-    check_growth(t, starts, names, place, source=source, narrow=narrow)
 
 
 def check_growth(

@@ -48,19 +48,37 @@ def check_consistency(
 
     sources : the log's own names of t, x and xdot
     """
-    for record in _chosen(len(starts) - 1, _RECORDS):
-        first, end = int(starts[record]), int(starts[record + 1])
-        parts = [slice(a, b) for a, b in _blocks(first, end)]
-        slope, correlation = _slope(t, x, xdot, parts)
-        if LOW <= slope <= HIGH:
-            continue
-        step = float(t[end - 1] - t[first]) / (end - first - 1)
-        raise place.problem(
-            f"dx/dt is {slope:.3g} times xdot (correlation {correlation:.2f}); "
-            + _advice(slope, step, sources),
-            first,
-            sources["xdot"],
+    for first, blocks in consistency_blocks(starts):
+        check_blocks(
+            [(t[a:b], x[a:b], xdot[a:b]) for a, b in blocks], first, place, sources=sources
         )
+
+
+def consistency_blocks(starts: Index) -> list[tuple[int, list[tuple[int, int]]]]:
+    """First sample of each record that is looked at, and the samples of it that are."""
+    bounds = [(int(starts[r]), int(starts[r + 1])) for r in _chosen(len(starts) - 1, _RECORDS)]
+    return [(first, list(_blocks(first, end))) for first, end in bounds]
+
+
+def check_blocks(
+    blocks: Sequence[tuple[Array, Array, Array]],
+    first: int,
+    place: Place,
+    *,
+    sources: dict[str, str],
+) -> None:
+    """The check on one record that begins with sample `first`, by t, x and xdot of its blocks."""
+    slope, correlation = _slope(blocks)
+    if LOW <= slope <= HIGH:
+        return
+    t = blocks[0][0]
+    step = float(t[-1] - t[0]) / (len(t) - 1)
+    raise place.problem(
+        f"dx/dt is {slope:.3g} times xdot (correlation {correlation:.2f}); "
+        + _advice(slope, step, sources),
+        first,
+        sources["xdot"],
+    )
 
 
 def _advice(slope: float, step: float, sources: dict[str, str]) -> str:
@@ -80,14 +98,14 @@ def _advice(slope: float, step: float, sources: dict[str, str]) -> str:
     ).format(**sources)
 
 
-def _slope(t: Array, x: Array, xdot: Array, parts: Sequence[slice]) -> tuple[float, float]:
+def _slope(blocks: Sequence[tuple[Array, Array, Array]]) -> tuple[float, float]:
     """Slope and correlation at the shortest span that makes them certain; else correlation 0."""
-    travelled = [_integral(t[p], xdot[p]) for p in parts]
+    travelled = [_integral(t, xdot) for t, _, xdot in blocks]
     for span in SPANS:
-        times = np.concatenate([np.diff(t[p][::span]) for p in parts])
+        times = np.concatenate([np.diff(t[::span]) for t, _, _ in blocks])
         if times.size < FEWEST:
             break
-        u = np.concatenate([np.diff(x[p][::span]) for p in parts]) / times
+        u = np.concatenate([np.diff(x[::span]) for _, x, _ in blocks]) / times
         v = np.concatenate([np.diff(y[::span]) for y in travelled]) / times
         u, v = u - u.mean(), v - v.mean()
         # Not u @ v: waking the threads of BLAS takes longer than these sums.

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem
+from erdctl.core.progress import Progress, part_of
+from erdctl.core.recording import Index
+from erdctl.core.stretches import LONG
+from erdctl.io.batches import in_portions, long_source, read_batches
 from erdctl.io.checks import Place, check_growth, check_values
-from erdctl.io.columns import to_numbers, to_records
+from erdctl.io.columns import to_numbers
 from erdctl.io.maps import parse_maps
 from erdctl.io.memory import check_fits
+from erdctl.io.outline import Labels, place_behind
 from erdctl.io.plan import ColumnPlan, in_contract_names, plan_columns, read_planned
 from erdctl.io.sources import TableSource, open_source
 from erdctl.io.stored import si, units_apart, with_unit
@@ -58,6 +63,69 @@ def read_converted(
     plan = plan_columns(source, mappings, needed=(), say=note)
     check_fits(source, len(source.columns))
     table, plan, _ = read_planned(source, plan, mappings, source.columns, say=note)
+    table = _in_si(table, plan, source.name, note)
+    if rows := table.num_rows:
+        place = Place(source.name, lambda sample: source.row_of(sample, rows))
+        _Checks(plan, warn or say).add(table, place)
+    return units_apart(table)
+
+
+def converted_in_parts(
+    path: str,
+    *,
+    maps: Sequence[str] = (),
+    say: Callable[[str], None],
+    warn: Callable[[str], None],
+    progress: Progress = lambda stage, what: None,
+) -> Iterator[pa.Table] | None:
+    """The same some rows at a time, of a long file that can be read so; else None."""
+    source = long_source([path])
+    if source is None:
+        return None
+    said: list[str] = []
+    plan = plan_columns(source, parse_maps(maps), needed=(), say=said.append)
+    assert source.schema is not None
+    if "t" in plan and pa.types.is_temporal(source.schema.field(plan["t"][0]).type):
+        return None
+    for line in said:
+        say(f"{source.name}: {line}")
+    return _parts(source, plan, say, warn, progress)
+
+
+def _parts(
+    source: TableSource,
+    plan: ColumnPlan,
+    say: Callable[[str], None],
+    warn: Callable[[str], None],
+    progress: Progress,
+) -> Iterator[pa.Table]:
+    checks, rows = _Checks(plan, warn), 0
+    labels = [plan[RECORD][0]] if RECORD in plan else []
+    for table in in_portions(read_batches(source, source.columns, labels), LONG):
+        progress("converting", part_of(f"{source.rows} rows", rows + 1, source.rows or 1))
+        said: list[str] = []
+        table = _in_si(table, plan, source.name, said.append)
+        if not rows:
+            for line in said:
+                say(f"{source.name}: {line}")
+        checks.add(table, place_behind(source.name, rows))
+        rows += table.num_rows
+        yield units_apart(_own_labels(table, source, plan))
+
+
+def _own_labels(table: pa.Table, source: TableSource, plan: ColumnPlan) -> pa.Table:
+    """The table with `record` in the type that the log has it in."""
+    if RECORD not in plan or source.schema is None:
+        return table
+    index = table.column_names.index(RECORD)
+    own = source.schema.field(plan[RECORD][0]).type
+    if table.schema.field(index).type == own:
+        return table
+    field = table.schema.field(index).with_type(own)
+    return table.set_column(index, field, table.column(index).cast(own))
+
+
+def _in_si(table: pa.Table, plan: ColumnPlan, file: str, note: Callable[[str], None]) -> pa.Table:
     table = in_contract_names(table, plan, note)
     for target, (column, convert) in plan.items():
         if target == RECORD:
@@ -65,34 +133,52 @@ def read_converted(
         index = table.column_names.index(target)
         field, values = table.schema.field(index), table.column(index)
         if convert != Conversion():
-            values = _converted(values, convert, source.name, column)
+            values = _converted(values, convert, file, column)
         field = with_unit(field.with_type(values.type), si(target))
         table = table.set_column(index, field, values)
-    if table.num_rows:
-        _check(table, plan, source, warn or say)
-    return units_apart(table)
+    return table
 
 
-def _check(
-    table: pa.Table, plan: ColumnPlan, source: TableSource, warn: Callable[[str], None]
-) -> None:
-    """Refuse a time and records out of order; warn of values out of range."""
-    rows = table.num_rows
-    place = Place(source.name, lambda sample: source.row_of(sample, rows))
-    starts, names = np.array([0, rows], dtype=np.intp), None
-    if RECORD in plan:
-        starts, names = to_records(table.column(RECORD), plan[RECORD][0], place)
-    if "t" in plan:
-        t, column = to_numbers(table.column("t"), plan["t"][0], place), plan["t"][0]
+class _Checks:
+    """Refuses a time and records out of order, warns of values out of range, part by part."""
+
+    def __init__(self, plan: ColumnPlan, warn: Callable[[str], None]) -> None:
+        self.plan, self.warn = plan, warn
+        self._labels = Labels(plan[RECORD][0]) if RECORD in plan else None
+        self._rows = 0
+        self._last: tuple[float, str | None] | None = None  # time and record
+        self._warned: set[str] = set()
+
+    def add(self, table: pa.Table, place: Place) -> None:
+        """The next rows, one at least."""
+        starts, names = np.array([0, table.num_rows], dtype=np.intp), None
+        if self._labels is not None:
+            starts, names = self._labels.add(table.column(RECORD), place, self._rows)
+        self._rows += table.num_rows
+        if "t" in self.plan:
+            self._check_time(table, starts, names, place)
+        for target in [n for n in self.plan if n not in ("t", RECORD) and n not in self._warned]:
+            try:
+                values = to_numbers(table.column(target), self.plan[target][0], place)
+                check_values(target, values, place, source=self.plan[target][0])
+            except InputProblem as problem:
+                self._warned.add(target)
+                self.warn(f"{problem}; converted as it is, and refused by other commands")
+
+    def _check_time(
+        self, table: pa.Table, starts: Index, names: tuple[str, ...] | None, place: Place
+    ) -> None:
+        t, column = to_numbers(table.column("t"), self.plan["t"][0], place), self.plan["t"][0]
         check_values("t", t, place, source=column)
         narrow = table.schema.field("t").type == pa.float32()
+        record = None if names is None else names[0]
+        if self._last is not None and self._last[1] == record:
+            # With the last time before, which its own must be later than.
+            t, starts = np.append(self._last[0], t), np.append(0, starts[1:] + 1)
+            before = place
+            place = Place(place.file, lambda sample: before.row_of(sample - 1))
         check_growth(t, starts, names, place, source=column, narrow=narrow)
-    for target in [name for name in plan if name not in ("t", RECORD)]:
-        try:
-            values = to_numbers(table.column(target), plan[target][0], place)
-            check_values(target, values, place, source=plan[target][0])
-        except InputProblem as problem:
-            warn(f"{problem}; converted as it is, and refused by other commands")
+        self._last = float(t[-1]), None if names is None else names[-1]
 
 
 def _converted(

@@ -47,8 +47,10 @@ def typed(table: pa.Table) -> pa.Table:
     return table
 
 
-def chunks(table: pa.Table) -> Iterator[pa.Buffer]:
+def chunks(table: pa.Table, *, head: bool = True) -> Iterator[pa.Buffer]:
     """A table as CSV: a header with units, then lines, numbers as short as reads back exactly.
+
+    head : whether it begins with the header
 
     Only cells that need quotes get them. Raises UsageProblem for columns that CSV cannot hold.
     """
@@ -56,7 +58,8 @@ def chunks(table: pa.Table) -> Iterator[pa.Buffer]:
 
     names = pa.array(header(table.schema), pa.string())
     line = pc.binary_join(pa.array([_quoted(names).to_pylist()]), ",")[0].as_py()
-    yield pa.py_buffer((line + "\n").encode())
+    if head:
+        yield pa.py_buffer((line + "\n").encode())
     for batch in table.to_batches(ROWS):
         if not batch.num_rows:
             continue

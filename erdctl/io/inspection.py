@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NotRequired, TypedDict, cast
 
 import msgspec
 
 from erdctl.bench.identifiability import Cover
 from erdctl.bench.inspection import Inspection, NoiseFloor, RecordSummary, Span
-from erdctl.io.logs import Log
+from erdctl.core.recording import Source
+from erdctl.io.logs import ColumnMap, Log
 from erdctl.io.rig import RigFaultDocument
 from erdctl.io.undetected import UndetectedDocument, undetected
 from erdctl.io.units import UNITS
@@ -120,13 +122,29 @@ class InspectionFile(TypedDict):
     provenance: NotRequired[dict[str, str]]
 
 
-def to_json(found: Inspection, log: Log, ahead: Forecast | None = None) -> InspectionFile:
+@dataclass(frozen=True)
+class InspectedLog:
+    """The log of an inspection: where it came from, and the ends of each channel, by name."""
+
+    sources: Sequence[Source]
+    channels: Sequence[ColumnMap]
+    unread: Sequence[str]
+    labels: Mapping[str, str]
+    ranges: Mapping[str, list[float]]
+
+
+def subject_of(log: Log) -> InspectedLog:
+    """A log that is in memory."""
+    ranges = {c.name: found for c in log.channels if (found := _range(log, c.name)) is not None}
+    r = log.recording
+    return InspectedLog(r.sources, log.channels, log.unread, r.labels, ranges)
+
+
+def to_json(found: Inspection, log: InspectedLog, ahead: Forecast | None = None) -> InspectionFile:
     """The document of an inspection, with a forecast if one was asked for."""
     document: InspectionFile = {
         "schema": SCHEMA,
-        "logs": [
-            {"name": s.name, "sha256": s.sha256, "rows": s.rows} for s in log.recording.sources
-        ],
+        "logs": [{"name": s.name, "sha256": s.sha256, "rows": s.rows} for s in log.sources],
         "channels": [
             {
                 "name": c.name,
@@ -134,7 +152,7 @@ def to_json(found: Inspection, log: Log, ahead: Forecast | None = None) -> Inspe
                 "unit": UNITS.get(c.name, "") or "1",
                 "factor": c.factor,
                 "offset": c.offset,
-                "range": _range(log, c.name),
+                "range": log.ranges.get(c.name),
             }
             for c in log.channels
         ],
@@ -154,8 +172,8 @@ def to_json(found: Inspection, log: Log, ahead: Forecast | None = None) -> Inspe
         document["forecast"] = {
             "noise_rms": ahead.noise, "effects": undetected(ahead.effects),
         }  # fmt: skip
-    if log.recording.labels:
-        document["provenance"] = dict(log.recording.labels)
+    if log.labels:
+        document["provenance"] = dict(log.labels)
     return document
 
 

@@ -34,16 +34,22 @@ def restarts(t: Array) -> Index | None:
     )
     if not falls.size:
         return None
-    starts = np.concatenate([[0], falls, [t.size]]).astype(np.intp)
-    if np.diff(starts).min() < FEWEST:
+    edges = t[falls - 1], t[falls]
+    return restarts_at(falls, np.concatenate([t[:1], edges[1]]), np.append(edges[0], t[-1]), t.size)
+
+
+def restarts_at(falls: Index, begins: Array, ends: Array, samples: int) -> Index | None:
+    """The same from the times (r,) at which runs begin and end, where t falls (r - 1,)."""
+    starts = np.concatenate([[0], falls, [samples]]).astype(np.intp)
+    lengths = np.diff(starts)
+    if lengths.min() < FEWEST:
         return None
-    for before, begin in zip(starts[:-2].tolist(), starts[1:-1].tolist(), strict=True):
-        run = t[before:begin]
-        duration = float(run[-1] - run[0])
-        tolerance = max(NEAR * duration, STEPS * duration / (run.size - 1))
-        new = float(t[begin])
-        if min(abs(new - run[0]), abs(new - t[0]), abs(new)) > tolerance:
-            return None
+    durations = ends - begins
+    tolerances = np.maximum(NEAR * durations, STEPS * durations / (lengths - 1))
+    new = begins[1:]
+    away = np.minimum(np.abs(new - begins[:-1]), np.abs(new - begins[0]))
+    if (np.minimum(away, np.abs(new)) > tolerances[:-1]).any():
+        return None
     return starts
 
 
@@ -84,14 +90,7 @@ def runs(
     """
     found = restarts(t)
     if found is not None:
-        names = tuple(f"{stem}:{i}" for i in range(1, len(found)))
-        rows = ", ".join(str(place.row_of(int(i))) for i in found[1:6].tolist() if i < t.size)
-        more = "" if len(found) <= 7 else ", ..."
-        say(
-            f"time begins anew in row {rows}{more}; taken as {len(names)} records, {names[0]} to"
-            f" {names[-1]}; a column 'record' would name them"
-        )
-        return found, names
+        return found, names_of_runs(found, stem, place, say)
     place_of_join = suspected(t, x, starts)
     if place_of_join is not None:
         at, jump, times = place_of_join
@@ -100,3 +99,17 @@ def runs(
             " anywhere else; if two runs were joined there, tell them apart in a column 'record'"
         )
     return starts, ()
+
+
+def names_of_runs(
+    starts: Index, stem: str, place: Place, say: Callable[[str], None]
+) -> tuple[str, ...]:
+    """Names for runs told apart by their time, which is said."""
+    names = tuple(f"{stem}:{i}" for i in range(1, len(starts)))
+    rows = ", ".join(str(place.row_of(int(i))) for i in starts[1:-1][:5].tolist())
+    more = "" if len(starts) <= 7 else ", ..."
+    say(
+        f"time begins anew in row {rows}{more}; taken as {len(names)} records, {names[0]} to"
+        f" {names[-1]}; a column 'record' would name them"
+    )
+    return names

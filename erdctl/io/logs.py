@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -15,8 +14,8 @@ from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.core.messages import as_text
 from erdctl.core.progress import Progress, told
 from erdctl.core.recording import Array, Index, Recording, Source, concatenate
-from erdctl.io.arrays import arrow, runs_of_text
-from erdctl.io.checks import Place, check_time, check_values, remark_on_time
+from erdctl.io.channels import take_channels, with_own_label
+from erdctl.io.checks import Place, check_time, remark_on_time
 from erdctl.io.columns import to_numbers, to_records
 from erdctl.io.consistency import check_consistency
 from erdctl.io.dampers import Where, chosen_rows, needed_columns, parse_where
@@ -26,11 +25,9 @@ from erdctl.io.maps import parse_maps
 from erdctl.io.memory import check_fits
 from erdctl.io.names_of_logs import names_of, qualified, refuse_repeated, stem
 from erdctl.io.plan import ColumnPlan, Report, in_contract_names, plan_columns, read_planned
-from erdctl.io.problems import Problems
-from erdctl.io.sources import STDIN, TableSource, open_source
-from erdctl.io.stored import si, with_unit
+from erdctl.io.sources import STDIN, open_source
 from erdctl.io.text.options import TextOptions, TextSpec, parse_text_options
-from erdctl.io.units import RECORD, Conversion
+from erdctl.io.units import RECORD
 
 if TYPE_CHECKING:
     from erdctl.io.project.labels import Labels
@@ -210,22 +207,7 @@ def _read(
     table = in_contract_names(table, plan, say)
     starts, names = _records(table, plan, place)
     narrow = table.schema.field("t").type == pa.float32()
-    channels: dict[str, Array] = {}
-    problems = Problems(source.name)
-    for target in [t for t in plan if t != RECORD]:
-        column, convert = plan[target]
-        numbers = problems.attempt(partial(to_numbers, table.column(target), column, place))
-        if numbers is None:
-            continue
-        values = convert(numbers)
-        problems.attempt(partial(check_values, target, values, place, source=column))
-        # Column by column, so that at most one of them is in memory twice.
-        if keep_table:
-            table = _with_channel(table, target, values, converted=convert != Conversion())
-        else:
-            table = table.drop_columns(target)
-        channels[target] = values
-    problems.settle()
+    channels, table = take_channels(table, plan, place, keep_table=keep_table)
     if RECORD not in plan:
         starts, names = runs(channels["t"], channels["x"], starts, stem(path), place, say)
     recording = _recording(channels, starts, names, place, plan, narrow=narrow, say=say)
@@ -237,17 +219,28 @@ def _read(
     )
     return Log(
         recording,
-        table=_with_own_label(table, source, plan, starts, names) if keep_table else None,
+        table=with_own_label(table, source, plan, starts, names) if keep_table else None,
         force_model=channels.get("force_model"),
-        channels=tuple(
-            ColumnMap(target, column, float(convert.factor), float(convert.offset))
-            for target, (column, convert) in plan.items()
-        ),
-        unread=tuple(c for c in source.columns if c not in {column for column, _ in plan.values()}),
+        channels=mapped(plan),
+        unread=unread(source.columns, plan),
         others=found,
         units=dict(source.units),
         labels=labels,
     )
+
+
+def mapped(plan: ColumnPlan) -> tuple[ColumnMap, ...]:
+    """Where each of the contract's columns comes from."""
+    return tuple(
+        ColumnMap(target, column, float(convert.factor), float(convert.offset))
+        for target, (column, convert) in plan.items()
+    )
+
+
+def unread(columns: Sequence[str], plan: ColumnPlan) -> tuple[str, ...]:
+    """The columns of a log that nobody asked for."""
+    taken = {column for column, _ in plan.values()}
+    return tuple(c for c in columns if c not in taken)
 
 
 def _records(table: pa.Table, plan: ColumnPlan, place: Place) -> tuple[Index, tuple[str, ...]]:
@@ -295,26 +288,3 @@ def _recording(
         names=names or ("",),
         xdot_note=note,
     )
-
-
-def _with_channel(table: pa.Table, target: str, values: Array, *, converted: bool) -> pa.Table:
-    """The table with a channel's values, shared; a column that needed no change stays as it was."""
-    index = table.column_names.index(target)
-    field, column = with_unit(table.schema.field(index), si(target)), table.column(index)
-    if not converted and (column.num_chunks == 1 or field.type != pa.float64()):
-        return table.set_column(index, field, column)
-    return table.set_column(index, field.with_type(pa.float64()), arrow(values))
-
-
-def _with_own_label(
-    table: pa.Table, source: TableSource, plan: ColumnPlan, starts: Index, names: Sequence[str]
-) -> pa.Table:
-    """The table with `record` in the type that the log has it in."""
-    if RECORD not in plan or source.schema is None:
-        return table
-    index = table.column_names.index(RECORD)
-    field = source.schema.field(plan[RECORD][0]).with_name(RECORD)
-    if field.type == table.schema.field(index).type:
-        return table
-    text = runs_of_text(names, np.diff(starts), field.type)
-    return table.set_column(index, field, text)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from typing import Any
 
 import pyarrow as pa
@@ -11,6 +11,8 @@ from erdctl.core.errors import InputProblem
 from erdctl.core.memory import SMALL, check_claim
 from erdctl.io.texts import check_texts, is_text
 
+BATCH = 1 << 18  # rows read at a time
+_BUFFER = 1 << 20  # bytes of a column
 _OWN = ("DELTA_BYTE_ARRAY",)  # each text says what it shares with the one before
 
 
@@ -34,12 +36,50 @@ def read(
 
     Raises InputProblem if they open to more than memory holds or a log can have.
     """
+    opened, risky = _opened(file, size, schema, names, labels, name)
+    with opened:
+        table = opened.read(columns=list(names)).select(list(names))
+    return _sound(table, size, schema, risky, name)
+
+
+def batches(
+    file: Any,
+    size: int,
+    schema: pa.Schema,
+    names: Sequence[str],
+    labels: Collection[str],
+    name: str,
+) -> Iterator[pa.Table]:
+    """The same, some rows at a time, however long its row groups are."""
+    opened, risky = _opened(file, size, schema, names, labels, name, held=False)
+    with opened:
+        for batch in opened.iter_batches(BATCH, columns=list(names)):
+            table = pa.Table.from_batches([batch]).select(list(names))
+            yield _sound(table, size, schema, risky, name)
+
+
+def _opened(
+    file: Any,
+    size: int,
+    schema: pa.Schema,
+    names: Sequence[str],
+    labels: Collection[str],
+    name: str,
+    *,
+    held: bool = True,
+) -> tuple[Any, list[str]]:
+    """The file, and which columns come dictionary-encoded though nobody asked for it."""
     import pyarrow.parquet as pq
 
     texts = [n for n in names if is_text(schema.field(n).type)]
     # As dictionary indices: text takes longer to read than five columns of numbers.
     coded = [n for n in texts if n in labels]
-    opened = pq.ParquetFile(file, read_dictionary=coded, page_checksum_verification=True)
+    # Without its own buffer a column of a row group is read as a whole, and with `pre_buffer` what
+    # was read of all of them is kept to the end.
+    options: dict[str, Any] = {"page_checksum_verification": True, "pre_buffer": held}
+    if not held:
+        options["buffer_size"] = _BUFFER
+    opened = pq.ParquetFile(file, read_dictionary=coded, **options)
     metadata = opened.metadata
     leaves = _leaves(metadata, names)
     decoded = sum(
@@ -47,16 +87,18 @@ def read(
         for column, chunks in leaves.items()
         for chunk in chunks
     )
-    check_claim(decoded, size, name, f"its {len(names)} columns")
+    check_claim(decoded, size, name, f"its {len(names)} columns", held=held)
     _refuse_prefixes({n: leaves[n] for n in texts}, name)
     risky = [n for n in texts if n not in coded and _may_open(leaves[n])]
     if risky:
         coded += risky
-        opened = pq.ParquetFile(
-            file, metadata=metadata, read_dictionary=coded, page_checksum_verification=True
-        )
-    with opened:
-        table = opened.read(columns=list(names)).select(list(names))
+        opened = pq.ParquetFile(file, metadata=metadata, read_dictionary=coded, **options)
+    return opened, risky
+
+
+def _sound(
+    table: pa.Table, size: int, schema: pa.Schema, risky: Sequence[str], name: str
+) -> pa.Table:
     # Reading builds all buffers anew, so that the quick check finds what there is to find.
     table.validate()
     check_texts(table, size, name)

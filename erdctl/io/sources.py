@@ -79,12 +79,14 @@ def open_source(
     *,
     text: TextOptions | None = None,
     assumed: TextOptions | None = None,
+    whole: bool = True,
 ) -> TableSource:
     """Look at a file, or take all of standard input for `-`; samples are not read yet.
 
     held : the bytes of the file where they are in memory; `path` is then only what it is called
     text : what is given of how a text file is written
     assumed : the same where it is not written as the contract has it
+    whole : whether it will be read at once
     Raises UsageProblem if it cannot be opened, InputProblem if it is no table.
     """
     name = "stdin" if path == STDIN else path
@@ -114,7 +116,9 @@ def open_source(
         else:
             columns = csv_in.column_names(data, name)
     else:
-        schema, columns, units, rows = _guarded(name, found, lambda: _described(data, found, name))
+        schema, columns, units, rows = guarded(
+            name, found, lambda: _described(data, found, name, whole)
+        )
     if not columns:
         raise InputProblem("a table without columns; expected a bench log", file=name)
     for i, column in enumerate(columns):
@@ -174,7 +178,7 @@ def read_source(
         if source.format is Format.PARQUET:
             from erdctl.io import parquet_in
 
-            file = _native(source.data)
+            file = native(source.data)
             assert source.schema is not None
             return parquet_in.read(file, source.size, source.schema, names, labels, source.name)
         if source.layout is not None:
@@ -183,18 +187,18 @@ def read_source(
             return source.layout.table(names, roles or Roles())
         from erdctl.io import arrow_in
 
-        with _native(source.data) as file:
+        with native(source.data) as file:
             return arrow_in.read(file, source.size, source.columns, names, source.name)
 
     try:
         if not want_hash:
-            return _guarded(source.name, source.format, read), ""
+            return guarded(source.name, source.format, read), ""
         from concurrent.futures import ThreadPoolExecutor
 
         with ThreadPoolExecutor(1) as pool:
             # Next to the parsing, hashing takes hardly any time.
-            digest = pool.submit(_sha256, source.data)
-            return _guarded(source.name, source.format, read), digest.result()
+            digest = pool.submit(sha256_of, source.data)
+            return guarded(source.name, source.format, read), digest.result()
     except MemoryError:
         raise ComputationProblem(f"out of memory while reading {source.name}; split it") from None
 
@@ -244,7 +248,8 @@ def _all_of(stream: BinaryIO) -> bytearray:
     return out
 
 
-def _sha256(data: Data) -> str:
+def sha256_of(data: Data) -> str:
+    """SHA-256 of all bytes in hex."""
     import hashlib
 
     if not isinstance(data, str):
@@ -253,7 +258,8 @@ def _sha256(data: Data) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def _guarded(name: str, format: Format, read: Callable[[], T]) -> T:
+def guarded(name: str, format: Format, read: Callable[[], T]) -> T:
+    """What reading gives; InputProblem where the content is damaged."""
     try:
         return read()
     except MemoryError:
@@ -265,22 +271,23 @@ def _guarded(name: str, format: Format, read: Callable[[], T]) -> T:
         ) from None
 
 
-def _native(data: Data) -> Any:
+def native(data: Data) -> Any:
+    """The file as pyarrow reads it."""
     # Not a memory map: if the file were cut while it is in use, the program would crash.
     return pa.OSFile(data) if isinstance(data, str) else pa.BufferReader(pa.py_buffer(data))
 
 
 def _described(
-    data: Data, format: Format, name: str
+    data: Data, format: Format, name: str, whole: bool
 ) -> tuple[pa.Schema, list[str], dict[str, str], int]:
     """Schema, columns, units that the file states for them, and how many rows it says it has."""
     if format is Format.PARQUET:
         from erdctl.io import parquet_in
 
-        schema, rows = parquet_in.described(_native(data))
+        schema, rows = parquet_in.described(native(data))
     else:
         from erdctl.io import arrow_in
 
-        with _native(data) as file:
-            schema, rows = arrow_in.described(file, name)
+        with native(data) as file:
+            schema, rows = arrow_in.described(file, name, held=whole)
     return schema, list(schema.names), units_of(schema), rows

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import BinaryIO
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from typing import Any, BinaryIO
 
 import numpy as np
 import pyarrow as pa
@@ -54,16 +54,60 @@ def write_table(table: pa.Table, path: str, format: str | None = None) -> None:
         with output(path) as stream:
             stream.write(data)
         return
-    if kind is not Format.CSV:
-        table = with_si(csv_out.typed(table))
-    with output(path) as stream, _writable(kind):
+    with table_writer(path, format, parts=False) as write:
+        write(table)
+
+
+@contextmanager
+def table_writer(
+    path: str, format: str | None = None, *, parts: bool = True
+) -> Iterator[Callable[[pa.Table], None]]:
+    """What writes a table in parts, all with the same columns; else as `write_table`.
+
+    Formats of channels (`CONTAINERS`) are written as a whole alone.
+    parts : whether there may be several, of which an Arrow file keeps no dictionaries
+    """
+    kind = output_format(path, format)
+    with output(path) as stream:
+        writer: _Csv | _Parquet | _Arrow
         if kind is Format.CSV:
-            for chunk in csv_out.chunks(table):
-                stream.write(chunk)
+            writer = _Csv(stream)
         elif kind is Format.PARQUET:
-            _write_parquet(table, stream)
+            writer = _Parquet(stream)
         else:
-            _write_arrow(table, stream, file=path.lower().endswith(".feather"))
+            writer = _Arrow(stream, file=path.lower().endswith(".feather"), parts=parts)
+
+        def write(table: pa.Table) -> None:
+            with _writable(kind):
+                writer.write(table)
+
+        try:
+            yield write
+        except BaseException:
+            # Else pyarrow would close it later, into a stream that is no more.
+            with suppress(Exception):
+                writer.close()
+            raise
+        with _writable(kind):
+            writer.close()
+
+
+@contextmanager
+def behind(write: Callable[[pa.Table], None]) -> Iterator[Callable[[pa.Table], None]]:
+    """The same next to other work: a table is written while the next one is made."""
+    from concurrent.futures import Future, ThreadPoolExecutor
+
+    with ThreadPoolExecutor(1) as pool:
+        waiting: list[Future[None]] = []
+
+        def later(table: pa.Table) -> None:
+            while waiting:
+                waiting.pop().result()
+            waiting.append(pool.submit(write, table))
+
+        yield later
+        while waiting:
+            waiting.pop().result()
 
 
 @contextmanager
@@ -115,16 +159,6 @@ def table_of(recording: Recording) -> pa.Table:
     return pa.table(columns)
 
 
-def _write_arrow(table: pa.Table, stream: BinaryIO, *, file: bool) -> None:
-    try:
-        if any(pa.types.is_dictionary(f.type) for f in table.schema):
-            table = table.unify_dictionaries()  # a file holds one for each column, Parquet several
-        with (pa.ipc.new_file if file else pa.ipc.new_stream)(stream, table.schema) as writer:
-            writer.write_table(table, max_chunksize=BATCH)
-    except (pa.ArrowInvalid, pa.ArrowNotImplementedError) as error:
-        raise _cannot(table, "Arrow", ".parquet", error) from None
-
-
 def _cannot(table: pa.Table, kind: str, other: str, error: Exception) -> UsageProblem:
     """What to say of a table that a format cannot hold; a nested column is why, as a rule."""
     nested = [f.name for f in table.schema if pa.types.is_nested(f.type)]
@@ -133,20 +167,79 @@ def _cannot(table: pa.Table, kind: str, other: str, error: Exception) -> UsagePr
     return UsageProblem(f"{kind} cannot hold this table ({reason}); {which}write {other}")
 
 
-def _write_parquet(table: pa.Table, stream: BinaryIO) -> None:
-    import pyarrow.parquet as pq
+class _Csv:
+    def __init__(self, stream: BinaryIO) -> None:
+        self.stream, self.begun = stream, False
 
-    # Dictionaries do not shorten measured floats, and trying takes a third of the time.
-    # Statistics pay only where a reader selects by them.
-    few = [f.name for f in table.schema if f.name == "duty" or not pa.types.is_floating(f.type)]
-    selected = [name for name in ("t", "record") if name in table.column_names]
-    try:
-        pq.write_table(
-            table,
-            stream,
-            use_dictionary=few or False,
-            write_statistics=selected or False,
-            compression="snappy",
-        )
-    except (pa.ArrowInvalid, pa.ArrowNotImplementedError) as error:
-        raise _cannot(table, "Parquet", ".arrow", error) from None
+    def write(self, table: pa.Table) -> None:
+        for chunk in csv_out.chunks(table, head=not self.begun):
+            self.stream.write(chunk)
+        self.begun = True
+
+    def close(self) -> None:
+        pass
+
+
+class _Arrow:
+    def __init__(self, stream: BinaryIO, *, file: bool, parts: bool) -> None:
+        self.stream, self.file, self.parts = stream, file, parts
+        self.writer: Any = None
+
+    def write(self, table: pa.Table) -> None:
+        table = with_si(csv_out.typed(table))
+        try:
+            if self.file and self.parts:
+                table = _decoded(table)
+            if any(pa.types.is_dictionary(f.type) for f in table.schema):
+                # A file holds one for each column, Parquet several.
+                table = table.unify_dictionaries()
+            if self.writer is None:
+                new = pa.ipc.new_file if self.file else pa.ipc.new_stream
+                self.writer = new(self.stream, table.schema)
+            self.writer.write_table(table, max_chunksize=BATCH)
+        except (pa.ArrowInvalid, pa.ArrowNotImplementedError) as error:
+            raise _cannot(table, "Arrow", ".parquet", error) from None
+
+    def close(self) -> None:
+        if self.writer is not None:
+            self.writer.close()
+
+
+def _decoded(table: pa.Table) -> pa.Table:
+    for index, field in enumerate(table.schema):
+        if pa.types.is_dictionary(field.type):
+            kind = field.type.value_type
+            column = table.column(index).cast(kind)
+            table = table.set_column(index, field.with_type(kind), column)
+    return table
+
+
+class _Parquet:
+    def __init__(self, stream: BinaryIO) -> None:
+        self.stream = stream
+        self.writer: Any = None
+
+    def write(self, table: pa.Table) -> None:
+        import pyarrow.parquet as pq
+
+        table = with_si(csv_out.typed(table))
+        # Dictionaries do not shorten measured floats, and trying takes a third of the time.
+        # Statistics pay only where a reader selects by them.
+        few = [f.name for f in table.schema if f.name == "duty" or not pa.types.is_floating(f.type)]
+        selected = [name for name in ("t", "record") if name in table.column_names]
+        try:
+            if self.writer is None:
+                self.writer = pq.ParquetWriter(
+                    self.stream,
+                    table.schema,
+                    use_dictionary=few or False,
+                    write_statistics=selected or False,
+                    compression="snappy",
+                )
+            self.writer.write_table(table, row_group_size=BATCH)
+        except (pa.ArrowInvalid, pa.ArrowNotImplementedError) as error:
+            raise _cannot(table, "Parquet", ".arrow", error) from None
+
+    def close(self) -> None:
+        if self.writer is not None:
+            self.writer.close()

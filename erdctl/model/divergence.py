@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import isfinite
+from math import inf, isfinite
+from typing import NamedTuple
 
 import numpy as np
 
@@ -49,24 +50,68 @@ def diverged(force: Array, model: Model, values: Mapping[str, float], recording:
     return not (isfinite(top) and top <= ABSURD * reach(model, values, recording))
 
 
+class Watch:
+    """The same over one part of a recording after the other.
+
+    What a force may reach is known at the end only, when all of the motion was seen.
+    """
+
+    def __init__(self, model: Model, values: Mapping[str, float]) -> None:
+        self.model, self.values = model, values
+        self.most = 0.0
+        self._suspects: list[_Suspect] = []
+
+    def add(self, force: Array, recording: Recording) -> None:
+        """A force (n,) [N] over the next part of the recording."""
+        self.most = max(self.most, reach(self.model, self.values, recording))
+        top = max(float(force.max()), -float(force.min()))  # NaN if any is
+        if isfinite(top) and top <= max(CALM, ABSURD * self.most):
+            return
+        last = self._suspects[-1].top if self._suspects else 0.0
+        if top <= last:
+            return  # where that one is no divergence, neither is this
+        wild = ~np.isfinite(force) | (np.abs(force) > ABSURD * self.most)
+        i = int(np.flatnonzero(wild)[0])
+        record = int(np.searchsorted(recording.starts, i, side="right")) - 1
+        size = float(np.abs(force[np.isfinite(force)]).max(initial=0.0))
+        finite = isfinite(top)
+        name, t = recording.names[record], float(recording.t[i])
+        self._suspects.append(_Suspect(top if finite else inf, size, finite, name, t))
+
+    def refuse(self) -> None:
+        """Raise ComputationProblem, with the place, if the force `diverged`."""
+        limit = max(CALM, ABSURD * self.most)
+        first = next((s for s in self._suspects if s.top > limit), None)
+        if first is None:
+            return
+        finite = all(s.finite for s in self._suspects)
+        size = max(s.size for s in self._suspects)
+        top = f"{size:.3g} N" if finite else "no finite number"
+        effects = ", ".join(e.name for e in self.model.effects)
+        culprit = f"the effects {effects} and their values" if effects else "the parameters' values"
+        raise ComputationProblem(
+            f"the modelled force reaches {top}, first in record '{first.record}' at"
+            f" t = {first.t:.6g} s, where the motion, the paper's terms and the log account for"
+            f" at most {self.most:.3g} N: the simulation diverged, and nothing is said"
+            f" from it; check {culprit}, and that the motion lies within the ranges that they were"
+            " identified on (provenance.ranges of the parameter file)"
+        )
+
+
+class _Suspect(NamedTuple):
+    """A part with more than had been accounted for: highest, finite or not [N]; where it began."""
+
+    top: float
+    size: float
+    finite: bool
+    record: str
+    t: float
+
+
 def refuse_diverged(
     force: Array, model: Model, values: Mapping[str, float], recording: Recording
 ) -> None:
     """Raise ComputationProblem, with the place, for a force that `diverged`."""
-    if not diverged(force, model, values, recording):
-        return
-    most = reach(model, values, recording)
-    wild = ~np.isfinite(force) | (np.abs(force) > ABSURD * most)
-    i = int(np.flatnonzero(wild)[0])
-    record = int(np.searchsorted(recording.starts, i, side="right")) - 1
-    size = np.abs(force[np.isfinite(force)]).max(initial=0.0)
-    top = f"{size:.3g} N" if np.isfinite(force).all() else "no finite number"
-    effects = ", ".join(e.name for e in model.effects)
-    culprit = f"the effects {effects} and their values" if effects else "the parameters' values"
-    raise ComputationProblem(
-        f"the modelled force reaches {top}, first in record '{recording.names[record]}' at"
-        f" t = {recording.t[i]:.6g} s, where the motion, the paper's terms and the log account for"
-        f" at most {most:.3g} N: the simulation diverged, and nothing is said"
-        f" from it; check {culprit}, and that the motion lies within the ranges that they were"
-        " identified on (provenance.ranges of the parameter file)"
-    )
+    watch = Watch(model, values)
+    watch.add(force, recording)
+    watch.refuse()

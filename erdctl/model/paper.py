@@ -107,7 +107,7 @@ def yield_force(
 
     A step in which the piston turns is solved in two parts, before and after the turn, so the
     error of a sampled solution is of second order in the step. Each record starts at the steady
-    value of its first sample.
+    value of its first sample, or where it goes on from elsewhere (`Signals.begun`) as it was there.
 
     Check: u = 0 then 1, T_d = 43 ms: F = 1 - exp(-1) = 0.6321 at 43 ms after the step.
     >>> u, s = np.array([0.0, 1.0, 1.0]), signals(np.ones(3), step=0.043)
@@ -122,7 +122,7 @@ def yield_force(
     floor = 1e-12  # s; with one time constant 0 that direction follows within any real step
     step = signals.common_step
     # A compiler costs 0.3 s to load. Where that is done, its loop is several times as fast.
-    if lags is not None or "numba" in sys.modules:
+    if lags is not None or ("numba" in sys.modules and signals.begun is None):
         from erdctl.model.recurrences import forming
 
         part = np.zeros(len(up))
@@ -154,4 +154,5 @@ def yield_force(
         )
         if not isinstance(exponent, float):
             exponent[turn] = e_before + e_after
-    return first_order(exponent, source, target[signals.starts[:-1]], signals.starts)
+    initial = target[signals.starts[:-1]] if signals.begun is None else signals.begun
+    return first_order(exponent, source, initial, signals.starts)

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from erdctl.core.cache import parts
 from erdctl.core.recording import DIRECTIONS, Array, Index, Recording
+from erdctl.core.stretches import Stretch, stretches
+from erdctl.score.sums import GroupSums, by, none, over
 
 MAX_LEVELS = 24  # more distinct duty levels than that are a continuous control, and are binned
 BIN = 0.05
+BINS = np.round((np.arange(102) - 0.5) * BIN, 3)
+BINS[0] = 0.0
 
 Codes = npt.NDArray[np.int16]
 
@@ -99,18 +104,110 @@ def duty_levels(duty: Array) -> tuple[Codes, Array]:
     ([0.0, 0.3], [1, 0, 1])
     """
     percent, seen = percents(duty)
-    values = np.arange(101) / 100.0
-    if np.count_nonzero(seen) > MAX_LEVELS:
-        # Not from the rounded duty, which crosses the edges of the bins.
-        percent[:] = np.floor(np.minimum(duty, 1.0 - 1e-12) / BIN) + 1
-        percent[duty == 0.0] = 0
-        values = np.round((np.arange(102) - 0.5) * BIN, 3)
-        values[0] = 0.0
-        seen = np.bincount(percent, minlength=102)
-    present = np.flatnonzero(seen)
-    code = np.zeros(len(seen), dtype=np.int16)
+    values, present = levels_of(seen)
+    if present is None:
+        percent = bins(duty)
+        values, present = bins_of(np.bincount(percent, minlength=len(BINS)))
+    code = np.zeros(len(BINS), dtype=np.int16)
     code[present] = np.arange(len(present))
-    return code[percent], values[present]
+    return code[percent], values
+
+
+def levels_of(seen: npt.NDArray[Any]) -> tuple[Array, Index | None]:
+    """Levels (k,) and which of the whole percents they are; None for a continuous control.
+
+    seen : (101,) samples that have each
+    """
+    present = np.flatnonzero(seen)
+    if len(present) > MAX_LEVELS:
+        return np.empty(0), None
+    return present / 100.0, present
+
+
+def bins_of(seen: npt.NDArray[Any]) -> tuple[Array, Index]:
+    """Middles (k,) of the bins that samples are in, and which they are."""
+    present = np.flatnonzero(seen)
+    return BINS[present], present
+
+
+def bins(duty: Array) -> Codes:
+    """(n,) the bin of 0.05 that each duty is in, from 1, of which BINS are the middles; 0 for 0."""
+    # Not from the rounded duty, which crosses the edges of the bins.
+    code = (np.floor(np.minimum(duty, 1.0 - 1e-12) / BIN) + 1).astype(np.int16)
+    code[duty == 0.0] = 0
+    return code
+
+
+class Scoring:
+    """The scores of a modelled force over one stretch of a log after the other."""
+
+    def __init__(self, normalise: Normalise = Normalise.RANGE) -> None:
+        self.normalise = normalise
+        self._all, self._ways = none(1), none(3)
+        self._percents, self._bins = none(101), none(len(BINS))
+        self._records: list[GroupSums] = []
+        self._names: list[str] = []
+
+    def add(self, stretch: Stretch, modelled: Array) -> None:
+        """The next stretch and its modelled force (n,) [N]."""
+        r = stretch.own
+        if r.force is None:
+            raise ValueError("the recording has no measured force")
+        force, error = r.force, r.force - modelled
+        whole = over(np.zeros(1, dtype=np.intp), force, error)
+        # In pairs, which rounds less than one after the other.
+        whole = whole._replace(squares=np.array([np.sum(error * error)]))
+        self._all = self._all.added(np.zeros(1, dtype=np.intp), whole)
+        way = np.int8(1) * (r.xdot > 0) + np.int8(2) * (r.xdot < 0)
+        self._ways = self._ways.added(*by(way, force, error))
+        self._percents = self._percents.added(*by(percents(r.duty)[0], force, error))
+        self._bins = self._bins.added(*by(bins(r.duty), force, error))
+        records, names = over(r.starts[:-1], force, error), r.names
+        if stretch.begun:
+            self._records[-1] = self._records[-1].added(
+                np.array([len(self._records[-1].samples) - 1]), records
+            )
+            return
+        self._records.append(records)
+        self._names += names
+
+    @property
+    def peak(self) -> float:
+        """The largest measured force, either way [N]."""
+        return max(float(self._all.high[0]), -float(self._all.low[0]))
+
+    def found(self) -> Validation:
+        """The scores of all of it."""
+        levels, present = levels_of(self._percents.samples)
+        duties = self._percents
+        if present is None:
+            (levels, present), duties = bins_of(self._bins.samples), self._bins
+        records = [s for part in self._records for s in self._scores(part)]
+        ways = dict(zip(DIRECTIONS, self._scores(self._ways)[1:], strict=True))
+        by_level = self._scores(duties)
+        return Validation(
+            normalise=self.normalise,
+            overall=self._scores(self._all)[0],
+            by_duty={v: by_level[i] for v, i in zip(levels.tolist(), present, strict=True)},
+            by_direction={name: s for name, s in ways.items() if s.samples},
+            by_record=dict(zip(self._names, records, strict=True)),
+        )
+
+    def _scores(self, sums: GroupSums) -> list[Score]:
+        rms = np.sqrt(sums.squares / np.maximum(sums.samples, 1.0))
+        match self.normalise:
+            case Normalise.RANGE:
+                scale = sums.high - sums.low
+            case Normalise.STD:
+                scale = np.sqrt(sums.spread / np.maximum(sums.samples, 1.0))
+            case Normalise.MEAN:
+                scale = sums.size / np.maximum(sums.samples, 1.0)
+            case Normalise.RMS:
+                scale = np.sqrt(sums.spread / np.maximum(sums.samples, 1.0) + sums.mean**2)
+        return [
+            Score(int(n), e, e / s if s != 0.0 else 0.0 if e == 0.0 else float("inf"))
+            for n, e, s in zip(sums.samples.tolist(), rms.tolist(), scale.tolist(), strict=True)
+        ]
 
 
 def validate(
@@ -126,20 +223,7 @@ def validate(
         names = [recording.names[i] for i in kept]
         usable = recording.take(rows, np.append(ends[kept], ends[-1]), names)
         return validate(replace(usable, excluded=None), modelled[rows], normalise)
-    force = recording.force
-
-    def score(chosen: npt.NDArray[np.bool_] | slice) -> Score:
-        return nrmse(force[chosen], modelled[chosen], normalise)
-
-    codes, levels = duty_levels(recording.duty)
-    by_duty = {v: score(codes == i) for i, v in enumerate(levels.tolist())}
-    moving = {DIRECTIONS[0]: recording.xdot > 0, DIRECTIONS[1]: recording.xdot < 0}
-    return Validation(
-        normalise=normalise,
-        overall=score(slice(None)),
-        by_duty=by_duty,
-        by_direction={name: score(m) for name, m in moving.items() if m.any()},
-        by_record={
-            name: score(part) for name, part in zip(recording.names, recording.slices, strict=True)
-        },
-    )
+    tally = Scoring(normalise)
+    for part in stretches(recording):
+        tally.add(part, modelled[part.first : part.first + len(part)])
+    return tally.found()

@@ -69,7 +69,7 @@ def test_recognised(
 
 def test_no_hash_unless_wanted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write_table(TABLE, str(tmp_path / "a.csv"))
-    monkeypatch.setattr(sources, "_sha256", lambda data: pytest.fail("hashed"))
+    monkeypatch.setattr(sources, "sha256_of", lambda data: pytest.fail("hashed"))
     assert read_source(open_source(str(tmp_path / "a.csv")))[1] == ""
 
 

@@ -1,7 +1,7 @@
 """The rig before the physics: what in a recording no damper does, one file per kind of fault.
 
-`look` runs every check. Each gives `RigFault`s; `Rig.usable` is what a fit may
-use of the recording.
+`look` runs every check, `Looking` over a log that is read in stretches. Each gives `RigFault`s;
+`Rig.usable` is what a fit may use of the recording.
 """
 
 from __future__ import annotations
@@ -20,10 +20,11 @@ from erdctl.bench.rig import (
     velocity,
 )
 from erdctl.bench.rig.fault import Rig, RigFault, sound
-from erdctl.bench.rig.pieces import pieces
-from erdctl.core.recording import Array, Recording
+from erdctl.bench.rig.looking import Looked
+from erdctl.core.recording import Array, Index, Recording
+from erdctl.core.stretches import Stretch, stretches
 
-__all__ = ["Rig", "RigFault", "look"]
+__all__ = ["Looking", "Rig", "RigFault", "look"]
 
 
 def look(recording: Recording, modelled: Array | None = None) -> Rig:
@@ -31,28 +32,54 @@ def look(recording: Recording, modelled: Array | None = None) -> Rig:
 
     modelled : (n,) force of a model that is known to be of this damper [N]
     """
-    found = _look(recording)
-    if modelled is None:
-        return found
-    codes = {f.code for f in found.faults}
-    more = [f for f in against_model.check(recording, modelled) if f.code not in codes]
-    return replace(found, faults=(*found.faults, *more))
+    looking = Looking(recording.starts, recording.names)
+    for part in stretches(recording):
+        end = part.first + len(part)
+        looking.add(part, None if modelled is None else modelled[part.first : end])
+    return replace(looking.rig(), recording=recording)
 
 
-def _look(recording: Recording) -> Rig:
-    found = pieces(recording)
-    looked = sum(len(p) for p in found) / max(len(recording), 1)
-    if not found:
-        return Rig(recording, (), looked)
+class Looking:
+    """The same over one stretch of a log after the other.
+
+    starts, names : offsets and names of its records
+    """
+
+    def __init__(self, starts: Index, names: tuple[str, ...]) -> None:
+        self.names, self.samples = names, int(starts[-1])
+        self._looked = Looked(starts, names)
+        self._both = against_model.Both(self.samples)
+
+    def add(self, stretch: Stretch, modelled: Array | None = None) -> None:
+        """The next stretch, and the modelled force of its samples (n,) [N]."""
+        self._looked.add(stretch)
+        force = stretch.recording.force
+        if modelled is not None and force is not None:
+            self._both.add(stretch.first, force[: len(stretch)], modelled)
+
+    def rig(self) -> Rig:
+        """What is wrong with it."""
+        recording = self._looked.recording()
+        faults: list[RigFault] = []
+        if recording is not None:
+            found = _look(recording, self._looked)
+            faults = [self._looked.placed(f, recording) for f in found]
+        codes = {f.code for f in faults}
+        faults += [f for f in self._both.check() if f.code not in codes]
+        return Rig(self.names, tuple(faults), len(self._looked) / max(self.samples, 1))
+
+
+def _look(recording: Recording, looked: Looked) -> list[RigFault]:
+    found = looked.pieces(recording)
     faults = scale.check(found) + velocity.check(found)
     # What follows is held against the motion, so not against a velocity that is wrong itself.
     if (sounder := sound(recording, faults)) is not recording:
-        found = pieces(sounder)
+        found = looked.pieces(sounder)
     clipped = clipping.check(found, "x")
     faults += clipped + frozen.check(found, "x", clipped)
     faults += losses.gaps(found) + losses.jumps(found, clipped) + spikes.check(found, "x", clipped)
     if recording.force is None:
-        return Rig(recording, tuple(faults), looked)
+        return faults
     faults += sign.check(found)
     clipped = clipping.check(found, "force")
     faults += clipped + frozen.check(found, "force", clipped)
@@ -60,4 +87,4 @@ def _look(recording: Recording) -> Rig:
     wrong = {f.record for f in faults if f.blocks}
     if None not in wrong:
         faults += unlike.check([p for p in found if p.record not in wrong])
-    return Rig(recording, tuple(faults), looked)
+    return faults

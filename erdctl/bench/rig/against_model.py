@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from erdctl.bench.rig.fault import RigFault
-from erdctl.core.recording import Array, Recording
+from erdctl.core.recording import Array
 
 ALIKE = 0.95  # correlation of the two from which their ratio is a number
 CLOSE = 0.05
@@ -15,17 +15,34 @@ UNITS = {
 }  # fmt: skip
 
 
-def check(recording: Recording, modelled: Array) -> list[RigFault]:
+class Both:
+    """Samples of a measured force and of a modelled one, evenly out of a log of so many."""
+
+    def __init__(self, samples: int) -> None:
+        self.every = 1 + samples // SAMPLES
+        self._force: list[Array] = []
+        self._modelled: list[Array] = []
+
+    def add(self, first: int, force: Array, modelled: Array) -> None:
+        """The next samples (n,) [N], which begin with the log's sample `first`."""
+        even = slice(-first % self.every, None, self.every)
+        self._force.append(force[even].copy())
+        self._modelled.append(modelled[even].copy())
+
+    def check(self) -> list[RigFault]:
+        """What they say of the channel; see `check`."""
+        if not self._force:
+            return []
+        return check(np.concatenate(self._force), np.concatenate(self._modelled))
+
+
+def check(F: Array, M: Array) -> list[RigFault]:
     """What the ratio of a measured to a modelled force (n,) [N] says of the channel.
 
         g = sum F M / sum M^2,   both about their means
 
     Nothing, unless the two go together and g is that of a unit, or -1.
     """
-    if recording.force is None:
-        return []
-    every = 1 + len(recording) // SAMPLES
-    F, M = recording.force[::every], modelled[::every]
     F, M = F - F.mean(), M - M.mean()
     both = float(F @ M)
     size = float(np.sqrt((F @ F) * (M @ M)))

@@ -86,5 +86,4 @@ def _with_next(found: Sequence[Piece], samples: np.ndarray) -> np.ndarray:
 
 
 def _record(found: Sequence[Piece], sample: int) -> str:
-    piece = next(p for p in found if p.first <= sample < p.end)
-    return piece.recording.names[piece.record]
+    return next(p.name for p in found if p.first <= sample < p.end)

@@ -28,7 +28,8 @@ class RigFault:
 
     code : e.g. "force_clipped";  record : its number, None for the log as a whole
     text : what, where and how much;  remedy : what to do about it
-    samples : (k,) samples of the recording that a fit leaves out, None for none
+    samples : (k,) samples of the log that a fit leaves out, None for none
+    when : times of the first and the last of them [s]
     blocks : whether no sample of the record (of the log) can be used
     """
 
@@ -38,20 +39,23 @@ class RigFault:
     remedy: str
     samples: Index | None = None
     blocks: bool = False
+    when: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class Rig:
     """Everything that was found wrong with a recording.
 
-    recording : as it was logged;  looked : part of its samples that were looked at [1]
+    names : of its records;  looked : part of its samples that were looked at [1]
     accepted : codes that the user says are right
+    recording : as it was logged, None where it was read in stretches
     """
 
-    recording: Recording
+    names: tuple[str, ...]
     faults: tuple[RigFault, ...]
     looked: float = 1.0
     accepted: tuple[str, ...] = ()
+    recording: Recording | None = None
 
     def accept(self, codes: Collection[str]) -> Rig:
         """Without what the user says is right; UsageProblem for a code that there is not."""
@@ -68,15 +72,15 @@ class Rig:
         if everywhere:
             return tuple(everywhere)
         lost = [f for f in self.faults if f.blocks]
-        return tuple(lost) if len({f.record for f in lost}) == len(self.recording.names) else ()
+        return tuple(lost) if len({f.record for f in lost}) == len(self.names) else ()
 
     def name_of(self, fault: RigFault) -> str | None:
         """The record of a fault by its name."""
-        return None if fault.record is None else self.recording.names[fault.record]
+        return None if fault.record is None else self.names[fault.record]
 
     def lines(self) -> list[str]:
         """One line for each fault, for eyes: where, what, remedy."""
-        only = len(self.recording.names) == 1
+        only = len(self.names) == 1
         out = []
         for f in self.faults:
             where = "" if f.record is None or only else f"record '{self.name_of(f)}': "
@@ -93,16 +97,15 @@ class Rig:
                 "code": f.code, "record": self.name_of(f), "text": f.text, "remedy": f.remedy,
                 "blocks": f.blocks,
             }  # fmt: skip
-            if f.samples is not None and len(f.samples):
-                t = self.recording.t[f.samples]
-                entry |= {"samples": len(f.samples), "first": float(t[0]), "last": float(t[-1])}
+            if f.samples is not None and f.when is not None:
+                entry |= {"samples": len(f.samples), "first": f.when[0], "last": f.when[1]}
             out.append(entry)
         return out
 
     def refuse(self) -> None:
         """Raise InputProblem if nothing of the recording can be fitted."""
         if self.blocking:
-            sources = self.recording.sources
+            sources = () if self.recording is None else self.recording.sources
             raise InputProblem(
                 "nothing can be fitted to it: "
                 + "; ".join(f"{f.text}; {f.remedy}" for f in self.blocking[:REFUSED]),
@@ -115,6 +118,8 @@ class Rig:
         Without the records that cannot be used, unless there are no others; samples at fault are
         marked in `excluded`; a velocity channel at fault is left out for the derivative of x.
         """
+        if self.recording is None:
+            raise ValueError("a log that was read in stretches is not there to be used")
         r = sound(self.recording, self.faults)
         out = marked(r, self.faults)
         if out.any():

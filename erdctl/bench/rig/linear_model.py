@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -47,8 +47,7 @@ def first_of_each(found: Sequence[Piece]) -> list[Piece]:
         first.setdefault(p.record, p)
     keep = min(1.0, SAMPLES / sum(len(p) for p in first.values()))
     return [
-        Piece(p.recording, p.record, p.first, p.first + max(int(keep * len(p)), min(len(p), 400)))
-        for p in first.values()
+        replace(p, end=p.first + max(int(keep * len(p)), min(len(p), 400))) for p in first.values()
     ]
 
 

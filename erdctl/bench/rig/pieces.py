@@ -24,11 +24,13 @@ NEAR = 8  # samples next to a reversal or a duty step, where a force may jump
 class Piece:
     """A stretch of one record, with views of its channels.
 
-    record : its number;  first : sample of the recording at which it begins
+    record, name : number of its record in the log, and what that is called
+    first : sample of the recording at which it begins
     """
 
     recording: Recording
     record: int
+    name: str
     first: int
     end: int
 
@@ -183,10 +185,11 @@ def runs_of_equals(values: Array) -> tuple[Index, Index]:
     return first, end - first + 1
 
 
-def pieces(recording: Recording) -> list[Piece]:
-    """The stretches that are looked at: all records, or an even part of a very long log."""
-    bounds = recording.starts.tolist()
-    count = len(recording.names)
+def looked_at(starts: Index) -> list[tuple[int, int, int]]:
+    """Record, first and end of the stretches that are looked at: all records, or even parts of a
+    very long log; starts : (r + 1,) offsets of its records."""
+    bounds = starts.tolist()
+    count = len(bounds) - 1
     chosen = dict.fromkeys(np.linspace(0, count - 1, min(count, RECORDS)).astype(int).tolist())
     total = sum(bounds[i + 1] - bounds[i] for i in chosen)
     out = []
@@ -199,5 +202,5 @@ def pieces(recording: Recording) -> list[Piece]:
             many = max(1, round((b - a) / total * STRETCHES))
             firsts = np.linspace(a, b - length, many).astype(int).tolist()
             parts = [(f, f + length) for f in firsts]
-        out += [Piece(recording, i, f, e) for f, e in parts if e - f >= FEWEST]
+        out += [(i, f, e) for f, e in parts if e - f >= FEWEST]
     return out
