@@ -1,0 +1,59 @@
+"""The forms that a parameter may follow over time, and where one may set in."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+import numpy as np
+
+from erdctl.core.recording import Array
+
+LEAST = 3  # logs on either side of a change
+PLACES = 200  # at which a change is looked for
+FINER = 4  # places of a bend to one gap between logs
+
+
+class Form(Enum):
+    """How a parameter goes over time."""
+
+    CONSTANT = "constant"
+    LINEAR = "linear"  # from the first log on
+    STEP = "step"
+    RAMP = "ramp"  # constant, then growing or falling since a date
+
+
+def step_edges(t: Array) -> Array:
+    """Dates between two logs at which a step may lie, at least `LEAST` logs from either end.
+
+    Check: of days 0 to 6 a step may lie at 2.5 or 3.5.
+    >>> step_edges(np.arange(7.0)).tolist()
+    [2.5, 3.5]
+    """
+    middle = 0.5 * (t[1:] + t[:-1])[LEAST - 1 : len(t) - LEAST]
+    between = np.unique(middle[(t[1:] > t[:-1])[LEAST - 1 : len(t) - LEAST]])
+    if len(between) > PLACES:
+        between = between[np.linspace(0, len(between) - 1, PLACES).astype(int)]
+    return between
+
+
+def bends(t: Array) -> Array:
+    """Dates at which a ramp may set in: finer than the logs, since what follows tells it."""
+    edges = step_edges(t)
+    if len(edges) < 2:
+        return edges
+    at = np.arange((len(edges) - 1) * FINER + 1) / FINER
+    return np.interp(at, np.arange(len(edges)), edges)
+
+
+def columns(form: Form, t: Array, since: float) -> Array:
+    """(n, k) what a form adds to a constant, per year where it grows.
+
+    since : date at which it sets in [days]; without meaning for a constant or a line
+    """
+    if form is Form.STEP:
+        return (t > since).astype(float)[:, None]
+    if form is Form.RAMP:
+        return np.maximum(t - since, 0.0)[:, None] / 365.25
+    if form is Form.LINEAR:
+        return (t - t[0])[:, None] / 365.25
+    return np.empty((len(t), 0))
