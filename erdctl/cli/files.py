@@ -12,7 +12,7 @@ from typing import Any
 from erdctl.core.errors import InputProblem
 from erdctl.io.identity import STDIN, STDOUT, Named
 
-READS = frozenset({"log", "logs", "params", "before", "geometry", "arguments", "source"})
+READS = frozenset({"log", "logs", "params", "before", "geometry", "arguments", "source", "limits"})
 WRITES = frozenset({"output", "report", "manifest", "plot"})
 # Names a directory that must be empty, so that nothing is in it to write over.
 FOLDERS = frozenset({"keep"})

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import log_ndtr, ndtr
+from scipy.special import log_ndtr
 
 from erdctl.compare.history import Flags
 from erdctl.core.recording import Array
@@ -75,11 +75,12 @@ def _expected(data: Data, f: Array) -> tuple[Array, Array]:
     target = np.broadcast_to(data.value, f.shape)
     if data.named.all():
         return target, weight
-    a, b = (data.low - f) / data.spread, (data.high - f) / data.spread
-    mass = np.exp(_log_mass(a, b))
-    shift = (_density(a) - _density(b)) / np.maximum(mass, 1e-300)
-    mean = np.clip(f + data.spread * shift, data.low, data.high)
-    return np.where(data.named, target, mean), np.where(data.named, weight, 1.0)
+    out, unnamed = target.copy(), ~data.named
+    f, s, low, high = f[:, unnamed], data.spread[unnamed], data.low[unnamed], data.high[unnamed]
+    a, b = (low - f) / s, (high - f) / s
+    shift = (_density(a) - _density(b)) / np.maximum(np.exp(_log_mass(a, b)), 1e-300)
+    out[:, unnamed] = np.clip(f + s * shift, low, high)
+    return out, np.where(data.named, weight, 1.0)
 
 
 def _loss(data: Data, f: Array) -> Array:
@@ -87,10 +88,12 @@ def _loss(data: Data, f: Array) -> Array:
     seen = np.where(z < BEND, z**2, 2 * BEND * z - BEND**2)
     if data.named.all():
         return np.asarray(seen.sum(axis=1))
-    a, b = (data.low - f) / data.spread, (data.high - f) / data.spread
+    unnamed = ~data.named
+    f, s = f[:, unnamed], data.spread[unnamed]
+    a, b = (data.low[unnamed] - f) / s, (data.high[unnamed] - f) / s
     # An outlier counts here as it does there: named where it should not be, or not where it should.
     unseen = np.minimum(-2.0 * _log_mass(a, b), 2 * BEND * np.maximum(np.abs(a), np.abs(b)))
-    return np.asarray(np.where(data.named, seen, unseen).sum(axis=1))
+    return np.asarray(seen[:, data.named].sum(axis=1) + unseen.sum(axis=1))
 
 
 def _log_mass(a: Array, b: Array) -> Array:
@@ -103,8 +106,3 @@ def _log_mass(a: Array, b: Array) -> Array:
 
 def _density(z: Array) -> Array:
     return np.asarray(np.exp(-0.5 * z**2) / np.sqrt(2.0 * np.pi))
-
-
-def inside(data: Data, f: Array) -> Array:
-    """(n,) chance that a log of the model f (n,) does not name the effect."""
-    return np.asarray(ndtr((data.high - f) / data.spread) - ndtr((data.low - f) / data.spread))

@@ -164,14 +164,12 @@ def _scan(series: Series, data: Data) -> Scan:
 
 def _described(series: Series, data: Data, found: Scan, forms: list[Form]) -> Trend:
     best = _best(data, forms, series.off)
-    for _ in range(REFITS):
+    for _ in range(REFITS if len(forms) > 1 else 1):
         data = _respread(data, best.at(data.t)[0])
         best = _best(data, forms, series.off)
     best = _with_errors(data, best)
     f, _ = best.at(data.t)
     ends, errors = best.at(data.t[[0, -1]])
-    if best.form is Form.CONSTANT:
-        found = Scan(found.statistic, found.p)
     since = None
     if best.form in (Form.STEP, Form.RAMP):
         since = (best.since, *best.interval)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pyarrow as pa
 
-from erdctl.compare.history import DAY, History, Series
+from erdctl.compare.history import DAY, Covariance, History, Series
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array
 from erdctl.effects import get, names
@@ -23,35 +23,26 @@ NEEDED = ("log", "parameter", "unit", "value", "stderr", "exit_code")
 LEARNED = "learned."  # parameters of curves, which mean nothing from one curve to the next
 
 
-def read_campaign(path: str) -> tuple[list[History], list[str]]:
-    """The dampers of a campaign table in the order of their names, and remarks on how it was read.
-
-    Raises InputProblem for a file that is no such table, or holds what none can hold.
-    """
+def campaign_table(data: bytes, name: str) -> pa.Table:
+    """The table in the bytes of a file; InputProblem for one that is none."""
     import pyarrow.parquet as pq
 
     try:
-        table = pq.read_table(path)
+        return pq.read_table(pa.BufferReader(data))
     except (pa.ArrowException, OSError) as error:
-        raise InputProblem(f"no campaign table: {error}", file=path) from None
-    return histories(table, path)
+        raise InputProblem(f"no campaign table: {error}", file=name) from None
 
 
-def histories(table: pa.Table, name: str) -> tuple[list[History], list[str]]:
-    """The same of a table; `name` is for messages."""
-    table = _as_declared(table, name)
+def histories(table: pa.Table, covariances: Mapping[str, Covariance] | None = None) -> list[History]:
+    """The dampers of a table with all columns, in the order of their names.
+
+    covariances : by log.  Logs without damper and corner stand each for a damper of its own.
+    """
     rows = table.to_pandas()
-    _check(rows, name)
-    remarks = []
     rows["key"] = _keys(rows)
-    if (rows["damper"].isna() & rows["corner"].isna()).any():
-        remarks.append(
-            f"{name}: logs without damper and corner stand each for a damper of its own; say in"
-            " erdctl.toml how they are read from path, file name or a column"
-        )
     offs = off_values(rows["parameter"].dropna().unique())
     groups = rows.groupby("key", sort=True, observed=True)
-    return [_history(str(key), group, offs) for key, group in groups], remarks
+    return [_history(str(key), group, offs, covariances or {}) for key, group in groups]
 
 
 def off_values(parameters: Iterable[str]) -> dict[str, float]:
@@ -63,8 +54,11 @@ def off_values(parameters: Iterable[str]) -> dict[str, float]:
     return {e.key(q.symbol): q.off for e in map(get, sorted(known)) for q in e.quantities}
 
 
-def _as_declared(table: pa.Table, name: str) -> pa.Table:
-    """With all columns, null where an older table has none."""
+def as_declared(table: pa.Table, name: str) -> pa.Table:
+    """A campaign's table with all columns, null where an older one has none.
+
+    Raises InputProblem for a table that is none, or holds what none can hold.
+    """
     stated = (table.schema.metadata or {}).get(b"schema", b"").decode(errors="replace")
     missing = [c for c in NEEDED if c not in table.column_names]
     if missing or (stated and stated != NAME):
@@ -81,19 +75,16 @@ def _as_declared(table: pa.Table, name: str) -> pa.Table:
             raise InputProblem(
                 f"expected {field.type}: {error}", file=name, column=field.name
             ) from None
-    return pa.table(columns, names=SCHEMA.names)
-
-
-def _check(rows: pd.DataFrame, name: str) -> None:
+    out = pa.table(columns, names=SCHEMA.names)
     for column in ("value", "stderr", "low", "high", *SCORES):
-        wrong = np.isinf(rows[column].to_numpy()) | (
-            (rows[column].to_numpy() < 0) if column == "stderr" else False
-        )
+        values = out.column(column).to_numpy()
+        wrong = np.isinf(values) | (values < 0 if column == "stderr" else False)
         if wrong.any():
+            row = int(wrong.argmax())
             raise InputProblem(
-                f"{rows[column].iloc[int(wrong.argmax())]:g} is no value of it",
-                file=name, row=int(wrong.argmax()) + 1, column=column,
-            )  # fmt: skip
+                f"{values[row]:g} is no value of it", file=name, row=row + 1, column=column
+            )
+    return out
 
 
 def _keys(rows: pd.DataFrame) -> pd.Series:
@@ -102,7 +93,9 @@ def _keys(rows: pd.DataFrame) -> pd.Series:
     return both.str.strip().where(lambda key: key != "", rows["log"])
 
 
-def _history(key: str, rows: pd.DataFrame, offs: dict[str, float]) -> History:
+def _history(
+    key: str, rows: pd.DataFrame, offs: Mapping[str, float], covariances: Mapping[str, Covariance]
+) -> History:
     logs = rows.drop_duplicates("log", keep="first").sort_values("date", kind="stable")
     failed = logs[logs["error"].notna() & ~logs["log"].isin(rows.loc[rows["value"].notna(), "log"])]
     logs = logs[~logs["log"].isin(failed["log"])]
@@ -139,6 +132,7 @@ def _history(key: str, rows: pd.DataFrame, offs: dict[str, float]) -> History:
         effects=tuple(frozenset(_listed(f)) for f in logs["findings"]),
         searched=tuple(verdicts.notna()),
         settled=tuple(verdicts.isin(["adequate", "explained"])),
+        covariances={i: covariances[log] for log, i in number.items() if log in covariances},
         failed=tuple(zip(failed["log"], failed["error"], strict=True)),
         rig=dict(Counter(code for codes in logs["rig"] for code in _listed(codes))),
     )

@@ -59,9 +59,9 @@ def _wear(r: np.random.Generator, names: list[str], months: int) -> list[Wear]:
     both = tuple(f"{d}.{s}" for d in ("compression", "release") for s in ("c_vis", "sigma"))
     form = "step" if r.random() < 0.3 else "ramp"
     left = (months - since[0]) / 12
-    leak = -r.uniform(0.15, 0.3) / (left if form == "ramp" else 1.0)
+    leak = -r.uniform(0.3, 0.5) / (left if form == "ramp" else 1.0)
     play = r.uniform(1.0, 2.5) * 1e-3 / ((months - since[1]) / 12)
-    preload = -r.uniform(0.3, 0.6) * PRELOAD / ((months - since[2]) / 12)
+    preload = -r.uniform(0.5, 0.8) * PRELOAD / ((months - since[2]) / 12)
     return [
         Wear(chosen[0], "leak", both, form, float(since[0]), float(leak)),
         Wear(chosen[1], "play", ("backlash.g",), "ramp", float(since[1]), float(play)),

@@ -11,9 +11,7 @@ import time
 import numpy as np
 from fleets import FIRST, MONTH, Wear, draw
 
-from erdctl.compare.comparison import DamperTrends, over_time
-from erdctl.compare.shape import Form
-from erdctl.compare.trend import Trend
+from erdctl.compare.comparison import compare
 from erdctl.io.campaign_in import histories
 
 
@@ -22,17 +20,13 @@ def months(date: float) -> float:
     return (date - FIRST.timestamp() / 86400.0) / MONTH
 
 
-def scale(name: str, trend: Trend) -> float:
-    return 1.0
-
-
 def main(seeds: range, healthy: bool) -> None:
     wanted = found = near = inside = rates = false = spurious = 0
     off, rate_errors, fleets = [], [], 0
     began = time.time()
     for seed in seeds:
         table, worn = draw(seed, healthy=healthy)
-        fleet = {d.history.damper: d for d in over_time(histories(table, "drawn")[0])}
+        fleet = {d.history.damper: d for d in compare(histories(table)).dampers}
         bad = [w.damper for w in worn]
         alarms = [(n, t.series.name, t.form.value) for n, d in fleet.items() if n not in bad for t in d.changes]
         false += len(alarms)
