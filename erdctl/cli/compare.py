@@ -11,6 +11,8 @@ from erdctl.cli.pages import Report, check_report
 if TYPE_CHECKING:
     from erdctl.compare.comparison import Comparison
 
+NAMED = 40  # unchanged dampers that are listed
+
 
 def command(
     arguments: Annotated[
@@ -184,20 +186,19 @@ def _draw(found: Comparison, plots: list[str]) -> None:
 
 
 def _show(found: Comparison) -> None:
+    from erdctl.compare.comparison import Attention
     from erdctl.compare.tolerance import Holds
     from erdctl.report.changes import damper_texts, head, pair_remarks
     from erdctl.report.text import say, table
 
-    rows = []
+    rows: list[list[str]] = []
     for d in found.dampers:
-        texts = damper_texts(d)
-        for i, text in enumerate(texts or [d.attention.words]):
-            rows.append([d.history.damper if i == 0 else "", d.attention.words if i == 0 else "", text])
-    quiet = [r for r in rows if r[2] == "unchanged"]
-    shown = [r for r in rows if r not in quiet] if len(quiet) > 5 else rows
-    table(head(found), ["damper", "", "what"], shown)
-    if len(shown) < len(rows):
-        say(f"unchanged: {', '.join(r[0] for r in quiet[:40])}{' ...' if len(quiet) > 40 else ''}")
+        texts = damper_texts(d) if d.attention is not Attention.QUIET else []
+        rows += [[f"{d.history.damper}: {text}", d.attention.words] for text in texts]
+    table(head(found), ["damper", "is"], rows)
+    quiet = [d.history.damper for d in found.dampers if d.attention is Attention.QUIET]
+    if quiet:
+        say(f"unchanged: {', '.join(quiet[:NAMED])}{' ...' if len(quiet) > NAMED else ''}")
     for line in dict.fromkeys(r for d in found.dampers for p in d.pairs for r in pair_remarks(p)):
         say(line)
     if any(d.judged for d in found.dampers):

@@ -65,9 +65,10 @@ class Trend:
         half = 1.96 * np.hypot(error, self.spread)
         return f - half, f + half
 
-    def named(self, effect_off: float | None) -> bool:
-        """Whether the effect is there at the last date."""
-        return effect_off is None or not self.absent_after
+    @property
+    def ahead(self) -> float:
+        """Days of a forecast: a year, or a quarter of the time that the logs span."""
+        return float(min(YEAR, 0.25 * (self.series.t[-1] - self.series.t[0])))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

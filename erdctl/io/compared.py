@@ -10,14 +10,12 @@ import msgspec
 import numpy as np
 
 from erdctl.compare.comparison import Comparison, Damper, iso
-from erdctl.compare.history import MONTH
 from erdctl.compare.pair import Difference, Pair, Told
 from erdctl.compare.tolerance import Holds, Judged
 from erdctl.compare.trend import Trend
 from erdctl.core.version import __version__
 
 SCHEMA = "erdctl.comparison/1"
-AHEAD = (12.0, 0.25)  # months of a forecast, at most that part of the time the logs span
 
 
 class WithError(TypedDict):
@@ -239,15 +237,9 @@ def _trend(t: Trend, text: str) -> TrendDocument:
     }
 
 
-def ahead(t: Trend) -> float:
-    """Days of a forecast: a year, or a quarter of the time that the logs span."""
-    span = float(t.series.t[-1] - t.series.t[0])
-    return min(AHEAD[0] * MONTH, AHEAD[1] * span)
-
-
 def forecast(t: Trend) -> Forecast:
     """One log to come."""
-    at = np.array([float(t.series.t[-1]) + ahead(t)])
+    at = np.array([float(t.series.t[-1]) + t.ahead])
     low, high = t.band(at)
     value = float(t.at(at)[0][0])
     return {"date": iso(float(at[0])), "value": value, "low": float(low[0]), "high": float(high[0])}

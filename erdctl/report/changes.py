@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from math import isfinite
+from math import copysign, isfinite
 
 from erdctl.compare.comparison import Comparison, Damper, iso
 from erdctl.compare.pair import Change, Difference, Pair
@@ -74,6 +74,15 @@ def trend_text(t: Trend) -> str:
     return text
 
 
+def relative(t: Trend) -> float:
+    """Change from the first to the last date, over the value at the first; 1 or -1 where that is
+    0, or the effect was not there."""
+    change = t.now[0] - t.start[0]
+    if t.absent_before or t.absent_after or not abs(t.start[0]) > 0.0:
+        return copysign(1.0, change)
+    return change / abs(t.start[0])
+
+
 def difference_text(d: Difference) -> str:
     """One parameter of two logs, in one sentence without a full stop."""
     if d.verdict is Change.APPEARED:
@@ -100,11 +109,9 @@ def pair_texts(p: Pair) -> list[str]:
     """What two logs differ in, and how that was judged."""
     out = [difference_text(d) for d in p.changes]
     if p.together and p.joint is not None:
-        names = ", ".join(noun(n) for n in p.joint.told_by)
         out.append(
-            f"no parameter by itself, but all together differ by more than their errors (chi2"
-            f" {number(p.joint.statistic, 3)} of {p.joint.dof}, p {p.joint.p:.1g}); the change of"
-            f" {names} alone would be enough"
+            "no parameter by itself, but all together differ by more than their errors; the change"
+            f" of {', '.join(noun(n) for n in p.joint.told_by)} alone would be enough"
         )
     return out
 
@@ -114,6 +121,12 @@ def pair_remarks(p: Pair) -> list[str]:
     out = []
     if p.joint is None:
         out.append("judged by standard errors, parameter by parameter: not both tell a covariance")
+    else:
+        j = p.joint
+        out.append(
+            f"{j.dof} parameters judged together, with their covariance: chi2"
+            f" {number(j.statistic, 3)}, p {j.p:.1g}"
+        )
     if p.other_effects:
         out.append(
             f"the models differ by {', '.join(p.other_effects)}: other parameters take a part of"
