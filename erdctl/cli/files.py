@@ -23,7 +23,7 @@ MOST = 3  # files that a message names
 OTHERS = frozenset({
     "maps", "fault", "drive", "kind", "record", "span", "normalise", "only", "exclude", "name",
     "concealment", "motion", "colour", "text", "where", "date", "damper", "operator", "new_name",
-    "emulate",
+    "emulate", "overlay",
 })  # fmt: skip
 
 
