@@ -13,6 +13,7 @@ from erdctl.core.recording import Array
 BEND = 2.0  # spreads from which on the loss grows in proportion (Huber)
 ROUNDS = 60
 DONE = 1e-4  # of the loss
+FAR = 20.0  # beyond the best loss, where a model is out of the question
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -62,7 +63,9 @@ def fit(data: Data, models: Array, fixed: float = 0.0) -> tuple[Array, Array]:
         coefficients = np.linalg.solve(a, (b / scale)[:, :, None])[:, :, 0] / scale
         f = np.einsum("cnk,ck->cn", models, coefficients)
         loss = _loss(data, f + fixed)
-        if (np.abs(before - loss) <= DONE * (1.0 + np.abs(loss))).all():
+        # Models that are far from the best need no last digit.
+        still = np.abs(before - loss) > DONE * (1.0 + np.abs(loss))
+        if not (still & (loss < loss.min() + FAR)).any():
             break
         before = loss
     return coefficients, loss

@@ -27,14 +27,13 @@ def extra_scatter(value: Array, stderr: Array) -> float:
     if not len(steps) or not steps.any():
         return 0.0
 
+    top = float(steps.max()) / MEDIAN_CHI2
+
     def beyond(tau2: float) -> float:
-        # Where two logs agree to the last digit, and have no error, their step says nothing more.
-        ratio = steps / np.maximum(both + 2 * tau2, np.finfo(float).tiny)
-        return float(np.median(ratio)) - MEDIAN_CHI2
+        return float(np.median(steps / np.maximum(both + 2 * tau2, 1e-30 * top))) - MEDIAN_CHI2
 
     if beyond(0.0) <= 0.0:
         return 0.0
-    top = float(steps.max()) / MEDIAN_CHI2
     return float(np.sqrt(brentq(beyond, 0.0, top, rtol=1e-10)))
 
 

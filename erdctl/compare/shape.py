@@ -11,6 +11,7 @@ from erdctl.core.recording import Array
 LEAST = 3  # logs on either side of a change
 PLACES = 200  # at which a change is looked for
 FINER = 4  # places of a bend to one gap between logs
+AROUND = 6  # gaps beyond the interval of a bend in which it is looked for again
 
 
 class Form(Enum):
@@ -36,13 +37,14 @@ def step_edges(t: Array) -> Array:
     return between
 
 
-def bends(t: Array) -> Array:
-    """Dates at which a ramp may set in: finer than the logs, since what follows tells it."""
+def bends(t: Array, first: float, last: float) -> Array:
+    """Dates at which a ramp may set in, around an interval: finer than the logs, since what
+    follows tells it."""
     edges = step_edges(t)
-    if len(edges) < 2:
-        return edges
-    at = np.arange((len(edges) - 1) * FINER + 1) / FINER
-    return np.interp(at, np.arange(len(edges)), edges)
+    low = max(int(np.searchsorted(edges, first)) - AROUND, 0)
+    high = min(int(np.searchsorted(edges, last)) + AROUND, len(edges) - 1)
+    at = low + np.arange((high - low) * FINER + 1) / FINER
+    return np.asarray(np.interp(at, np.arange(len(edges)), edges))
 
 
 def columns(form: Form, t: Array, since: float) -> Array:
