@@ -1,4 +1,5 @@
-"""Fleets drawn at the level of parameters, with what wears in them; shares no code with `compare`."""
+"""Fleets drawn at the level of parameters, with what wears in them; shares no code with what is
+tested."""
 
 from __future__ import annotations
 
@@ -35,7 +36,9 @@ class Wear:
     rate: float
 
 
-def draw(seed: int, *, dampers: int = 20, months: int = 100, healthy: bool = False) -> tuple[pa.Table, list[Wear]]:
+def draw(
+    seed: int, *, dampers: int = 20, months: int = 100, healthy: bool = False
+) -> tuple[pa.Table, list[Wear]]:
     """A campaign table, and what wears.
 
     Each log has errors that are correlated and differ by log, a scatter of its own beyond them
@@ -76,7 +79,9 @@ def _amount(w: Wear, month: float) -> float:
     return w.rate * max(month - w.since, 0.0) / 12
 
 
-def _damper(r: np.random.Generator, name: str, months: int, wear: list[Wear], told: bool) -> list[dict[str, object]]:
+def _damper(
+    r: np.random.Generator, name: str, months: int, wear: list[Wear], told: bool
+) -> list[dict[str, object]]:
     own = {s: 1.0 + 0.05 * r.standard_normal() for s in PAPER}
     side = {d: 1.0 + 0.03 * r.standard_normal() for d in ("compression", "release")}
     preload = PRELOAD * (1.0 + 0.1 * r.standard_normal())
@@ -85,7 +90,9 @@ def _damper(r: np.random.Generator, name: str, months: int, wear: list[Wear], to
         if r.random() < 0.07:
             continue  # nobody tested
         at = month + r.uniform(-0.2, 0.2)
-        quality = r.choice([1.0, 2.0, 4.0], p=[0.6, 0.3, 0.1])  # a long log, a short one, a poor one
+        quality = r.choice(
+            [1.0, 2.0, 4.0], p=[0.6, 0.3, 0.1]
+        )  # a long log, a short one, a poor one
         weather = r.standard_normal()  # moves viscosity and yield together
         outlier = r.random() < 0.02
         common = {
@@ -108,7 +115,11 @@ def _damper(r: np.random.Generator, name: str, months: int, wear: list[Wear], to
                 sign = {"sigma": 1.0, "beta": -1.0}.get(s, 0.0)
                 noise = 0.8 * sign * shared + (0.6 if sign else 1.0) * r.standard_normal()
                 wide = {"c_vis": 0.008, "sigma": 0.006}.get(s, 0.003) * value
-                seen = true + error * noise + wide * (weather if s in ("c_vis", "sigma") else r.standard_normal())
+                seen = (
+                    true
+                    + error * noise
+                    + wide * (weather if s in ("c_vis", "sigma") else r.standard_normal())
+                )
                 if outlier:
                     seen += r.choice([-1, 1]) * r.uniform(5, 15) * error
                 rows.append(_row(common, "identify", f"{d}.{s}", unit, seen, error))
@@ -122,7 +133,9 @@ def _damper(r: np.random.Generator, name: str, months: int, wear: list[Wear], to
             rows.append(_row(common, "diagnose", "backlash.g", "m", seen, error))
         elif told:
             unseen = _row(common, "diagnose", "backlash.g", "m", np.nan, np.nan)
-            rows.append({**unseen, "value": None, "stderr": None, "high": limit, "identified": False})
+            rows.append(
+                {**unseen, "value": None, "stderr": None, "high": limit, "identified": False}
+            )
         f0 = preload + sum(_amount(w, at) for w in wear if w.what == "preload")
         error = 0.25 * quality
         findings.append("gas_preload")
@@ -130,14 +143,18 @@ def _damper(r: np.random.Generator, name: str, months: int, wear: list[Wear], to
         rows.append(_row(common, "diagnose", "gas_preload.F_0", "N", seen, error))
         if r.random() < 0.01:  # named by chance
             findings.append("coulomb_friction")
-            rows.append(_row(common, "diagnose", "coulomb_friction.F_c", "N", r.uniform(0.2, 0.5), 0.05))
+            rows.append(
+                _row(common, "diagnose", "coulomb_friction.F_c", "N", r.uniform(0.2, 0.5), 0.05)
+            )
         for row in rows:
             row["findings"] = findings
         out += rows
     return out
 
 
-def _row(common: dict[str, object], command: str, name: str, unit: str, value: float, error: float) -> dict[str, object]:
+def _row(
+    common: dict[str, object], command: str, name: str, unit: str, value: float, error: float
+) -> dict[str, object]:
     return {
         **common, "command": command, "parameter": name, "unit": unit, "value": float(value),
         "stderr": float(error),

@@ -48,16 +48,20 @@ def command(
     plot: Annotated[
         list[str],
         typer.Option(
-            "--plot", metavar="FILE", help="The fleet at a glance: .png, .svg or .pdf. May be repeated."
+            "--plot",
+            metavar="FILE",
+            help="The fleet at a glance: .png, .svg or .pdf. May be repeated.",
         ),
     ] = [],
     false_alarms: Annotated[
         float,
         typer.Option(
-            metavar="P", min=1e-6, max=0.5,
+            metavar="P",
+            min=1e-6,
+            max=0.5,
             help="Chance that a change over time is told of any damper where none changes.",
         ),
-    ] = 0.02,  # fmt: skip
+    ] = 0.02,
 ) -> None:
     """Say what changed by more than its error: since last time, over months, against tolerances.
 
@@ -103,9 +107,7 @@ def command(
     if not any(h.logs for h in found_histories):
         raise InputProblem("no log with a result in it")
     _remark(given.table)
-    found = compare(
-        found_histories, rules=rules, across=given.documents, false_alarms=false_alarms
-    )
+    found = compare(found_histories, rules=rules, across=given.documents, false_alarms=false_alarms)
     if output is not None:
         _write(found, output)
     if as_json:

@@ -90,8 +90,8 @@ def command(
     from erdctl.cli.pictures import Wanted, draw, prepare, wants
     from erdctl.cli.reading import read_logs
     from erdctl.report import pictures
-    from erdctl.report.picture import suffix
     from erdctl.report.overlays import paths_told
+    from erdctl.report.picture import suffix
     from erdctl.report.subject import part
     from erdctl.report.subjects import PROGRAMME
     from erdctl.report.subjects import overlay as together

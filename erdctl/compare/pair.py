@@ -287,15 +287,11 @@ def wald(names: Sequence[str], change: Array, covariance: Array) -> Joint:
     while p <= SURE and len(chosen) < len(d):
         if stats.chi2.sf(rest, len(d) - len(chosen)) > SURE:
             break
-        left = {
-            i: _rest(d, inverse, [*chosen, i]) for i in range(len(d)) if i not in chosen
-        }
+        left = {i: _rest(d, inverse, [*chosen, i]) for i in range(len(d)) if i not in chosen}
         best = min(left, key=lambda i: left[i])
         chosen.append(best)
         rest = left[best]
-    return Joint(
-        statistic=whole, dof=len(d), p=p, told_by=tuple(names[i] for i in sorted(chosen))
-    )
+    return Joint(statistic=whole, dof=len(d), p=p, told_by=tuple(names[i] for i in sorted(chosen)))
 
 
 def _rest(d: Array, inverse: Array, free: list[int]) -> float:

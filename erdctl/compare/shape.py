@@ -53,7 +53,7 @@ def columns(form: Form, t: Array, since: float) -> Array:
     since : date at which it sets in [days]; without meaning for a constant or a line
     """
     if form is Form.STEP:
-        return (t > since).astype(float)[:, None]
+        return np.asarray(t > since, dtype=float)[:, None]
     if form is Form.RAMP:
         return np.maximum(t - since, 0.0)[:, None] / 365.25
     if form is Form.LINEAR:

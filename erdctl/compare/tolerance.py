@@ -75,9 +75,7 @@ class _Found:
     why: str = ""
 
 
-def judge(
-    history: History, trends: Mapping[str, Trend], rules: Sequence[Rule]
-) -> list[Judged]:
+def judge(history: History, trends: Mapping[str, Trend], rules: Sequence[Rule]) -> list[Judged]:
     """All bands of one damper: by the trend at its last date, or else by its last log.
 
     A score has no error, and its value counts.  An effect that is not named has its off value, and

@@ -33,7 +33,9 @@ def campaign_table(data: bytes, name: str) -> pa.Table:
         raise InputProblem(f"no campaign table: {error}", file=name) from None
 
 
-def histories(table: pa.Table, covariances: Mapping[str, Covariance] | None = None) -> list[History]:
+def histories(
+    table: pa.Table, covariances: Mapping[str, Covariance] | None = None
+) -> list[History]:
     """The dampers of a table with all columns, in the order of their names.
 
     covariances : by log.  Logs without damper and corner stand each for a damper of its own.
@@ -155,10 +157,11 @@ def _series(
 
     value, high = over("value"), over("high")
     at = np.sort(where[named]) if off is None else np.arange(n)
-    limit = np.where(np.isfinite(value), np.nan, high)
+    seen = np.isfinite(value)
+    limit, high = np.where(seen, np.nan, high), np.where(seen, high, np.nan)
     return Series(
         name=name, unit=str(group["unit"].iloc[0]), at=at, t=t[at], value=value[at],
-        stderr=over("stderr")[at], low=over("low")[at], high=np.where(np.isfinite(value), high, np.nan)[at],
+        stderr=over("stderr")[at], low=over("low")[at], high=high[at],
         off=off, limit=limit[at],
     )  # fmt: skip
 

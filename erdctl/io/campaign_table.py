@@ -22,9 +22,7 @@ SCHEMA = pa.schema(
         pa.field("date", pa.timestamp("us")),
         pa.field("conditions", pa.map_(pa.string(), pa.string())),
         pa.field("command", pa.string()),  # identify or diagnose: whose parameter it is
-        pa.field(
-            "parameter", pa.string()
-        ),  # as in parameter files: backlash.g
+        pa.field("parameter", pa.string()),  # as in parameter files: backlash.g
         pa.field("unit", pa.string()),
         pa.field("value", pa.float64()),
         pa.field("stderr", pa.float64()),

@@ -113,7 +113,9 @@ def _end(given: float | str | None, unit: str, name: str, path: str) -> float | 
     else:
         found = _SIZED.fullmatch(given)
         if found is None:
-            raise InputProblem(f"{name}: expected a number with its unit, not '{given[:40]}'", file=path)
+            raise InputProblem(
+                f"{name}: expected a number with its unit, not '{given[:40]}'", file=path
+            )
         factor = 1.0
         if found[2]:
             factor = factor_between(found[2], unit, f"{path}: {name}")

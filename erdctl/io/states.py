@@ -154,7 +154,7 @@ def _covariance(parameters: Parameters) -> Covariance | None:
 
 
 def _limits(document: DiagnosisIn, common: Row) -> list[Row]:
-    """Effects that the diagnosis did not name: no value, and as upper end what it would have seen."""
+    """Effects that were not named: no value, and as upper end the size that would have been."""
     known = {*names()}
     out = []
     for effect, limit in document.limits.items():
@@ -180,7 +180,11 @@ def _date(given: object, name: str) -> datetime | None:
     try:
         found = datetime.fromisoformat(text)
     except ValueError:
-        raise InputProblem(f"provenance.date: expected a date, not {text[:40]!r}", file=name) from None
-    return found.replace(tzinfo=None) if found.tzinfo is None else found.astimezone().replace(tzinfo=None)
-
-
+        raise InputProblem(
+            f"provenance.date: expected a date, not {text[:40]!r}", file=name
+        ) from None
+    return (
+        found.replace(tzinfo=None)
+        if found.tzinfo is None
+        else found.astimezone().replace(tzinfo=None)
+    )

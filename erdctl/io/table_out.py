@@ -80,8 +80,7 @@ def as_latex(header: Sequence[str], rows: Sequence[Sequence[Cell]]) -> str:
 def _numeric(header: Sequence[str], rows: Sequence[Sequence[Cell]]) -> list[bool]:
     """Columns that hold numbers, and nothing else."""
     return [
-        any(row[i] is not None for row in rows)
-        and not any(isinstance(row[i], str) for row in rows)
+        any(row[i] is not None for row in rows) and not any(isinstance(row[i], str) for row in rows)
         for i in range(len(header))
     ]
 

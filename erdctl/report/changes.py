@@ -12,7 +12,11 @@ from erdctl.compare.tolerance import Holds, Judged
 from erdctl.compare.trend import Trend
 from erdctl.report.readable import number, scaled, with_unit
 
-SCORES = {"nrmse": "the NRMSE", "nrmse_worst": "the NRMSE of the worst level", "noise_rms": "the noise"}
+SCORES = {
+    "nrmse": "the NRMSE",
+    "nrmse_worst": "the NRMSE of the worst level",
+    "noise_rms": "the noise",
+}
 _OF = re.compile(r"\{(\w+)(?::%)?\} of (.+)")
 
 
@@ -179,7 +183,9 @@ def damper_texts(d: Damper) -> list[str]:
 
 def head(found: Comparison) -> str:
     """The whole in one sentence."""
-    changed = [d for d in found.dampers if d.changes or any(p.changes or p.together for p in d.pairs)]
+    changed = [
+        d for d in found.dampers if d.changes or any(p.changes or p.together for p in d.pairs)
+    ]
     many, logs = len(found.dampers), found.logs
     text = (
         f"{len(changed) or 'none'} of {many} dampers changed"

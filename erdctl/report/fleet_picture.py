@@ -1,8 +1,7 @@
-"""The fleet at a glance: which parameter of which damper changed, and the surest changes in time."""
+"""The fleet at a glance: which parameter of which damper changed, the surest ones over time."""
 
 from __future__ import annotations
 
-from datetime import datetime, timedelta
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +10,6 @@ from erdctl.compare.comparison import Comparison, Damper
 from erdctl.compare.pair import Change, Pair
 from erdctl.compare.trend import Trend
 from erdctl.core.errors import InputProblem
-from erdctl.core.recording import Array
 from erdctl.report import style
 from erdctl.report.changes import head, noun, relative
 from erdctl.report.readable import scaled
@@ -21,7 +19,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 ROWS, PANELS = 40, 6  # dampers of the chart, changes drawn over time
-EPOCH = datetime(1970, 1, 1)
 
 
 def fleet_figure(found: Comparison) -> Figure:
@@ -49,7 +46,8 @@ def fleet_figure(found: Comparison) -> Figure:
             rows = min(len(found.dampers), ROWS)
             tall = max(3.2, 1.4 + 0.2 * rows, 1.5 * ((min(len(trends), PANELS) + 1) // 2))
             out = Figure(figsize=(12.0, tall), layout="constrained")
-            left, right = out.subfigures(1, 2, width_ratios=(1.0, 1.25))
+            parts: Any = out.subfigures(1, 2, width_ratios=(1.0, 1.25))
+            left, right = parts
             _chart(left.subplots(), found.dampers[:ROWS])
             _panels(right, found, trends[:PANELS])
         out.suptitle(head(found), x=0.01, ha="left")
@@ -59,7 +57,13 @@ def fleet_figure(found: Comparison) -> Figure:
 def _chart(ax: Axes, dampers: Any) -> None:
     """Dampers by parameters: the change from the first to the last date, in per cent."""
     names = list(dict.fromkeys(n for d in dampers for n in d.trends))
-    names.sort(key=lambda n: ("." not in n, not any(d.trends[n].changed for d in dampers if n in d.trends), n))
+    names.sort(
+        key=lambda n: (
+            "." not in n,
+            not any(d.trends[n].changed for d in dampers if n in d.trends),
+            n,
+        )
+    )
     change = np.full((len(dampers), len(names)), np.nan)
     for i, d in enumerate(dampers):
         for j, name in enumerate(names):
@@ -76,7 +80,9 @@ def _chart(ax: Axes, dampers: Any) -> None:
     ax.grid(visible=False)
     ax.set_xticks(range(len(names)), names, rotation=90, size=7)
     ax.set_yticks(range(len(dampers)), [d.history.damper for d in dampers], size=7)
-    ax.set_title("change from first to last date; those that need attention first", loc="left", size=8)
+    ax.set_title(
+        "change from first to last date; those that need attention first", loc="left", size=8
+    )
 
 
 def _panels(figure: Any, found: Comparison, trends: list[Trend]) -> None:
@@ -94,7 +100,7 @@ def _panels(figure: Any, found: Comparison, trends: list[Trend]) -> None:
 
 
 def _panel(ax: Axes, damper: Damper, t: Trend) -> None:
-    from matplotlib.dates import AutoDateLocator, ConciseDateFormatter
+    from matplotlib import dates  # which count days since 1970, too
 
     s = t.series
     factor, unit = scaled(s.unit, float(np.nanmax(np.abs(s.value))))
@@ -103,16 +109,16 @@ def _panel(ax: Axes, damper: Damper, t: Trend) -> None:
     low, high = t.band(grid)
     to_come = grid >= s.t[-1]
     colour = style.series(2)[1][0]
-    ax.fill_between(dates(grid[to_come]), low[to_come] * factor, high[to_come] * factor,
+    ax.fill_between(grid[to_come], low[to_come] * factor, high[to_come] * factor,
                     color=colour, alpha=0.2, lw=0)  # fmt: skip
     named = s.named
     ax.errorbar(
-        dates(s.t[named]), s.value[named] * factor,
+        s.t[named], s.value[named] * factor,
         yerr=1.96 * np.nan_to_num(s.error[named]) * factor, fmt="o", ms=2, lw=0.5, color="0.45",
     )  # fmt: skip
-    ax.plot(dates(grid), f * factor, color=colour, lw=1.4)
+    ax.plot(grid, f * factor, color=colour, lw=1.4)
     if t.since is not None:
-        first, last = dates(np.array(t.since[1:]))
+        first, last = np.array(t.since[1:])
         ax.axvspan(first, last, color="0.85", zorder=0)
     for judged in damper.judged:
         if judged.name == s.name:
@@ -121,14 +127,10 @@ def _panel(ax: Axes, damper: Damper, t: Trend) -> None:
                     ax.axhline(end * factor, color="#D55E00", lw=0.8, ls="--")
     ax.set_title(f"{damper.history.damper}: {noun(s.name)}", loc="left", size=8)
     ax.set_ylabel(unit if unit != "1" else "")
-    locator = AutoDateLocator(maxticks=6)
+    mdates: Any = dates
+    locator = mdates.AutoDateLocator(minticks=3, maxticks=8)
     ax.xaxis.set_major_locator(locator)
-    ax.xaxis.set_major_formatter(ConciseDateFormatter(locator))
-
-
-def dates(days: Array) -> list[datetime]:
-    """Dates of days since 1970."""
-    return [EPOCH + timedelta(days=d) for d in days.tolist()]
+    ax.xaxis.set_major_formatter(mdates.ConciseDateFormatter(locator))
 
 
 def _differences(figure: Figure, pairs: list[Pair]) -> None:
@@ -136,7 +138,9 @@ def _differences(figure: Figure, pairs: list[Pair]) -> None:
     ax = figure.subplots()
     names = list(dict.fromkeys(d.name for p in pairs for d in p.differences if d.error > 0.0))
     row = {name: len(names) - i for i, name in enumerate(names)}
-    for k, (p, (colour, _)) in enumerate(zip(pairs, style.series(len(pairs) + 1)[1:], strict=False)):
+    for k, (p, (colour, _)) in enumerate(
+        zip(pairs, style.series(len(pairs) + 1)[1:], strict=False)
+    ):
         some = [d for d in p.differences if d.error > 0.0]
         y = [row[d.name] - 0.12 * k for d in some]
         sure = [d.verdict not in (Change.SAME, Change.UNKNOWN) for d in some]
@@ -147,5 +151,7 @@ def _differences(figure: Figure, pairs: list[Pair]) -> None:
     ax.axvspan(-1.96, 1.96, color="0.9", zorder=0)
     ax.axvline(0.0, color="0.6", lw=0.8)
     ax.set_yticks(list(row.values()), list(row))
-    ax.set_xlabel("change over its standard error; filled: beyond its error, all parameters counted")
+    ax.set_xlabel(
+        "change over its standard error; filled: beyond its error, all parameters counted"
+    )
     ax.legend(loc="best", fontsize=7)

@@ -33,7 +33,10 @@ def history(
     covariances = {}
     if correlation is not None:
         covariances = {i: Covariance(tuple(rows), correlation) for i in range(n)}
-    named = [frozenset(k for k in rows if np.isfinite(rows[k][i][0]) and k in (offs or {})) for i in range(n)]
+    named = [
+        frozenset(k for k in rows if np.isfinite(rows[k][i][0]) and k in (offs or {}))
+        for i in range(n)
+    ]
     return History(
         damper="D1", logs=tuple(f"{i}.json" for i in range(n)), t=none, series=series,
         effects=tuple(named), searched=(True,) * n, settled=(settled,) * n, covariances=covariances,
@@ -73,7 +76,17 @@ def test_correlated_parameters_together() -> None:
     assert p.together
     assert p.joint is not None
     assert set(p.joint.told_by) < set(NAMES[:2])
-    blind = pair(*[(history({n: [(5.0, 1.0), (5.0 + c, 1.0)] for n, c in zip(NAMES, change, strict=True)}), i) for i in (0, 1)])
+    blind = pair(
+        *[
+            (
+                history(
+                    {n: [(5.0, 1.0), (5.0 + c, 1.0)] for n, c in zip(NAMES, change, strict=True)}
+                ),
+                i,
+            )
+            for i in (0, 1)
+        ]
+    )
     assert blind.joint is None
     assert not blind.together
 

@@ -13,7 +13,9 @@ NONE = np.array([np.nan])
 DAMPER = "backlash.g"
 
 
-def one(value: float, stderr: float, off: float | None = None, limit: float = np.nan, **said: bool) -> History:
+def one(
+    value: float, stderr: float, off: float | None = None, limit: float = np.nan, **said: bool
+) -> History:
     s = Series(
         name=DAMPER, unit="m", at=np.array([0]), t=NONE, value=np.array([value]),
         stderr=np.array([stderr]), low=NONE, high=NONE, off=off, limit=np.array([limit]),
@@ -25,11 +27,14 @@ def one(value: float, stderr: float, off: float | None = None, limit: float = np
 
 
 def judged(history: History, low: float = -np.inf, high: float = np.inf) -> Judged:
-    return judge(history, {}, [Rule(name=DAMPER, unit="m", band=Band(low=low, high=high), off=0.0)])[0]
+    return judge(
+        history, {}, [Rule(name=DAMPER, unit="m", band=Band(low=low, high=high), off=0.0)]
+    )[0]
 
 
 @pytest.mark.parametrize(
-    ("value", "holds"), [(0.2, Holds.PASS), (0.49, Holds.UNKNOWN), (0.51, Holds.UNKNOWN), (0.7, Holds.FAIL)]
+    ("value", "holds"),
+    [(0.2, Holds.PASS), (0.49, Holds.UNKNOWN), (0.51, Holds.UNKNOWN), (0.7, Holds.FAIL)],
 )
 def test_by_the_interval(value: float, holds: Holds) -> None:
     assert judged(one(value, 0.05), high=0.5).holds is holds

@@ -66,7 +66,7 @@ def test_a_ramp_since_a_date(seed: int) -> None:
 @pytest.mark.parametrize("seed", range(3))
 def test_a_step(seed: int) -> None:
     rest, error = noise(seed)
-    t = found(100.0 + 5.0 * (T > T[29] + 1) + rest, error)
+    t = found(100.0 + 5.0 * (T[29] + 1 < T) + rest, error)
     assert t.form is Form.STEP
     assert t.since is not None
     assert abs(t.since[0] - T[29]) < 2 * MONTH

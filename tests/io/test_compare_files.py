@@ -36,7 +36,13 @@ def test_a_diagnosis_wins_over_the_identification_of_the_same_log() -> None:
 
 def test_an_effect_is_absent_where_it_is_not_named() -> None:
     rows = [
-        {"log": "a", "damper": "D", "parameter": "compression.c_vis", "value": 1.0, "unit": "N s/m"},
+        {
+            "log": "a",
+            "damper": "D",
+            "parameter": "compression.c_vis",
+            "value": 1.0,
+            "unit": "N s/m",
+        },
         {"log": "a", "damper": "D", "parameter": "backlash.g", "high": 3e-4, "unit": "m"},
         {"log": "b", "damper": "D", "parameter": "backlash.g", "value": 1e-3, "unit": "m"},
     ]
@@ -92,7 +98,9 @@ def test_documents_become_rows(tmp_path: Path) -> None:
     document["provenance"] = {"date": "2024-05-01T10:00", "damper": "D7", "noise_rms": 0.3}
     document["fits"] = {"correlation": {"parameters": ["compression.k_nom", "release.k_nom"],
                                         "lower": [[], [0.25]]}}  # fmt: skip
-    document["effects"] = [{"effect": "backlash", "parameters": {"g": {"value": 2e-3, "stderr": 1e-5}}}]
+    document["effects"] = [
+        {"effect": "backlash", "parameters": {"g": {"value": 2e-3, "stderr": 1e-5}}}
+    ]
     path = tmp_path / "a.json"
     path.write_text(json.dumps(document))
     given = read_inputs([str(path)])
