@@ -9,7 +9,7 @@ import typer
 from erdctl.cli.pages import Report, check_report
 
 if TYPE_CHECKING:
-    from erdctl.compare.comparison import Comparison
+    from erdctl.compare.comparison import Compared
 
 NAMED = 40  # unchanged dampers that are listed
 
@@ -157,14 +157,14 @@ def _remark(table: object) -> None:
         )
 
 
-def _document(found: Comparison) -> object:
+def _document(found: Compared) -> object:
     from erdctl.io.compared import Words, to_json
     from erdctl.report.changes import damper_texts, difference_text, pair_remarks, trend_text
 
     return to_json(found, Words(trend_text, difference_text, damper_texts, pair_remarks))
 
 
-def _write(found: Comparison, path: str) -> None:
+def _write(found: Compared, path: str) -> None:
     if path == "-" or path.lower().endswith(".json"):
         from erdctl.io import documents
 
@@ -176,7 +176,7 @@ def _write(found: Comparison, path: str) -> None:
     write_table(path, *rows(found, short=not path.lower().endswith(".csv")))
 
 
-def _draw(found: Comparison, plots: list[str]) -> None:
+def _draw(found: Compared, plots: list[str]) -> None:
     from erdctl.io.atomic import output
     from erdctl.report.fleet_picture import fleet_figure
     from erdctl.report.picture import suffix, write
@@ -187,7 +187,7 @@ def _draw(found: Comparison, plots: list[str]) -> None:
             write(figure, stream, suffix(path))
 
 
-def _show(found: Comparison) -> None:
+def _show(found: Compared) -> None:
     from erdctl.compare.comparison import Attention
     from erdctl.compare.tolerance import Holds
     from erdctl.report.changes import damper_texts, head, pair_remarks

@@ -87,7 +87,7 @@ class Damper:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Comparison:
+class Compared:
     """All dampers, the most urgent first.
 
     tests : parameters that were looked at for a change over time
@@ -115,7 +115,7 @@ def compare(
     across: bool = False,
     false_alarms: float = FALSE_ALARMS,
     progress: Callable[[], None] = lambda: None,
-) -> Comparison:
+) -> Compared:
     """Trends where there are enough dated logs, differences where there are two or a few.
 
     across : whether dampers of one log each are compared with the first of them
@@ -136,7 +136,7 @@ def compare(
         judged = judge(history, found, rules)
         out.append(Damper(history=history, trends=found, pairs=pairs, judged=judged))
         progress()
-    return Comparison(
+    return Compared(
         dampers=sorted(out, key=lambda d: d.urgency), tests=tests, false_alarms=false_alarms
     )
 

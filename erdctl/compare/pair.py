@@ -28,7 +28,7 @@ class Change(Enum):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Told:
+class ToldValue:
     """One parameter by one log; value, stderr, low, high are NaN where there is none.
 
     off, limit : of an effect, the value at which it is absent, and the size from which it would
@@ -77,8 +77,8 @@ class Difference:
 
     name: str
     unit: str
-    before: Told
-    after: Told
+    before: ToldValue
+    after: ToldValue
     change: float
     error: float
     p: float
@@ -126,7 +126,7 @@ class Pair:
         return self.joint is not None and self.joint.p <= SURE and not alone
 
 
-def told_by(history: History, log: int) -> dict[str, Told]:
+def told_by(history: History, log: int) -> dict[str, ToldValue]:
     """All that one log of a damper says."""
     out = {}
     for name, s in history.series.items():
@@ -136,7 +136,7 @@ def told_by(history: History, log: int) -> dict[str, Told]:
         i = int(found[0])
         limit = float(s.limit[i]) if len(s.limit) else float("nan")
         looked = not history.searched or history.searched[log]
-        out[name] = Told(
+        out[name] = ToldValue(
             unit=s.unit, value=float(s.value[i]), stderr=float(s.stderr[i]), low=float(s.low[i]),
             high=float(s.high[i]), off=s.off, limit=limit, looked=looked,
         )  # fmt: skip
@@ -164,24 +164,27 @@ def _effects(state: tuple[History, int]) -> frozenset[str]:
 
 
 def _both(
-    a: Told | None, b: Told | None, before: tuple[History, int], after: tuple[History, int]
-) -> tuple[Told, Told]:
+    a: ToldValue | None,
+    b: ToldValue | None,
+    before: tuple[History, int],
+    after: tuple[History, int],
+) -> tuple[ToldValue, ToldValue]:
     """Either state's word; of a state that says nothing of it, that there is no value."""
     some = a or b
     assert some is not None
 
-    def absent(state: tuple[History, int]) -> Told:
+    def absent(state: tuple[History, int]) -> ToldValue:
         history, log = state
         nan = float("nan")
         looked = bool(history.searched[log]) if history.searched else False
-        return Told(
+        return ToldValue(
             unit=some.unit, value=nan, stderr=nan, low=nan, high=nan, off=some.off, looked=looked
         )
 
     return a or absent(before), b or absent(after)
 
 
-def _difference(name: str, a: Told, b: Told) -> Difference:
+def _difference(name: str, a: ToldValue, b: ToldValue) -> Difference:
     nan = float("nan")
     change = error = p = nan
     if a.named and b.named:

@@ -14,7 +14,7 @@ FINER = 4  # places of a bend to one gap between logs
 AROUND = 6  # gaps beyond the interval of a bend in which it is looked for again
 
 
-class Form(Enum):
+class Course(Enum):
     """How a parameter goes over time."""
 
     CONSTANT = "constant"
@@ -47,15 +47,15 @@ def bends(t: Array, first: float, last: float) -> Array:
     return np.asarray(np.interp(at, np.arange(len(edges)), edges))
 
 
-def columns(form: Form, t: Array, since: float) -> Array:
+def columns(form: Course, t: Array, since: float) -> Array:
     """(n, k) what a form adds to a constant, per year where it grows.
 
     since : date at which it sets in [days]; without meaning for a constant or a line
     """
-    if form is Form.STEP:
+    if form is Course.STEP:
         return np.asarray(t > since, dtype=float)[:, None]
-    if form is Form.RAMP:
+    if form is Course.RAMP:
         return np.maximum(t - since, 0.0)[:, None] / 365.25
-    if form is Form.LINEAR:
+    if form is Course.LINEAR:
         return (t - t[0])[:, None] / 365.25
     return np.empty((len(t), 0))

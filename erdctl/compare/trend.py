@@ -11,7 +11,7 @@ from erdctl.compare.history import YEAR, Series
 from erdctl.compare.robust import BEND, Data, fit
 from erdctl.compare.scan import Scan, appears, scan
 from erdctl.compare.scatter import least, spread
-from erdctl.compare.shape import Form, bends, columns, step_edges
+from erdctl.compare.shape import Course, bends, columns, step_edges
 from erdctl.core.recording import Array
 
 FEWEST = 8  # logs with a value that a trend can be seen in
@@ -33,7 +33,7 @@ class Trend:
     """
 
     series: Series
-    form: Form
+    form: Course
     scan: Scan
     start: tuple[float, float]
     now: tuple[float, float]
@@ -48,7 +48,7 @@ class Trend:
     @property
     def changed(self) -> bool:
         """Whether it is no constant."""
-        return self.form is not Form.CONSTANT
+        return self.form is not Course.CONSTANT
 
     @property
     def size(self) -> float:
@@ -56,7 +56,7 @@ class Trend:
         return abs(self.now[0] - self.start[0]) / self.spread if self.changed else 0.0
 
     def at(self, t: Array) -> tuple[Array, Array]:
-        """Form (m,) and its standard error (m,) at any dates, also to come."""
+        """Course (m,) and its standard error (m,) at any dates, also to come."""
         return self.model.at(t)
 
     def band(self, t: Array) -> tuple[Array, Array]:
@@ -79,7 +79,7 @@ class _Fitted:
     coefficients : (k,), level first;  covariance : (k', k') of them, and of the date of a change
     """
 
-    form: Form
+    form: Course
     since: float
     fixed: float
     level: bool
@@ -98,7 +98,7 @@ class _Fitted:
     def gradient(self, t: Array) -> Array:
         """(n, k') of the value by the coefficients, and by the date of a bend [days]."""
         x = self.design(t)
-        if self.form is not Form.RAMP:
+        if self.form is not Course.RAMP:
             return x
         moved = -self.coefficients[-1] / YEAR * (t > self.since)
         return np.hstack([x, moved[:, None]])
@@ -123,7 +123,7 @@ def trend(series: Series, p_most: float) -> Trend | None:
         return None
     data = _data(series)
     found = _scan(series, data)
-    forms = list(Form) if found.p <= p_most else [Form.CONSTANT]
+    forms = list(Course) if found.p <= p_most else [Course.CONSTANT]
     return _described(series, data, found, forms)
 
 
@@ -175,7 +175,7 @@ def _scan(series: Series, data: Data) -> Scan:
     return Scan(max(by_value.statistic, float(stats.norm.isf(max(p, 1e-300) / 2))), p)
 
 
-def _described(series: Series, data: Data, found: Scan, forms: list[Form]) -> Trend:
+def _described(series: Series, data: Data, found: Scan, forms: list[Course]) -> Trend:
     best = _best(data, forms, series.off)
     data = _respread(data, best.at(data.t)[0])
     best = _best(data, forms, series.off)
@@ -184,10 +184,10 @@ def _described(series: Series, data: Data, found: Scan, forms: list[Form]) -> Tr
     f, _ = best.at(data.t)
     ends, errors = best.at(data.t[[0, -1]])
     since = None
-    if best.form in (Form.STEP, Form.RAMP):
+    if best.form in (Course.STEP, Course.RAMP):
         since = (best.since, *best.interval)
     rate = None
-    if best.form in (Form.LINEAR, Form.RAMP):
+    if best.form in (Course.LINEAR, Course.RAMP):
         k = len(best.coefficients) - 1
         rate = (float(best.coefficients[k]), float(np.sqrt(best.covariance[k, k])))
     absent = [False, False]
@@ -212,14 +212,14 @@ def _respread(data: Data, f: Array) -> Data:
     return replace(data, spread=np.maximum(data.spread * ratio, least(data.value)))
 
 
-def _best(data: Data, forms: list[Form], off: float | None) -> _Fitted:
+def _best(data: Data, forms: list[Course], off: float | None) -> _Fitted:
     """By BIC: twice the log-likelihood against log(n) for each number, the date included."""
     found = []
     for form in forms:
         for fixed in [None] if off is None or data.named.all() else [None, off]:
             one = _fitted(data, form, fixed)
             if one is not None:
-                numbers = len(one.coefficients) + (form in (Form.STEP, Form.RAMP))
+                numbers = len(one.coefficients) + (form in (Course.STEP, Course.RAMP))
                 found.append((one.loss + numbers * np.log(len(data)), one))
     return min(found, key=lambda f: f[0])[1]
 
@@ -227,26 +227,26 @@ def _best(data: Data, forms: list[Form], off: float | None) -> _Fitted:
 def _finer(data: Data, found: _Fitted) -> _Fitted:
     """The same form with its last digits: a bend also between two logs."""
     places = None
-    if found.form is Form.RAMP:
+    if found.form is Course.RAMP:
         places = bends(data.t, *found.interval)
     again = _fitted(data, found.form, None if found.level else found.fixed, places)
     return found if again is None else again
 
 
 def _fitted(
-    data: Data, form: Form, fixed: float | None, places: Array | None = None
+    data: Data, form: Course, fixed: float | None, places: Array | None = None
 ) -> _Fitted | None:
     """The best date of one form out of some places, and all dates that are about as good."""
     t = data.t
     if places is None:
-        places = step_edges(t) if form in (Form.STEP, Form.RAMP) else t[:1]
-    if not len(places) or (fixed is not None and form is Form.LINEAR):
+        places = step_edges(t) if form in (Course.STEP, Course.RAMP) else t[:1]
+    if not len(places) or (fixed is not None and form is Course.LINEAR):
         return None
     level = fixed is None
     ones = np.ones((len(t), int(level)))
     models = np.array([np.hstack([ones, columns(form, t, at)]) for at in places.tolist()])
     coefficients, loss = fit(data, models, fixed or 0.0)
-    if level and form in (Form.STEP, Form.RAMP):
+    if level and form in (Course.STEP, Course.RAMP):
         # A level at which hardly a log names the effect is told by none: it is absent there.
         before = np.array([data.named[t <= at].mean() for at in places.tolist()])
         loss = np.where(before < 0.5, np.inf, loss)
@@ -255,9 +255,9 @@ def _fitted(
         return None
     near = np.flatnonzero(loss <= loss[i] + CHI2_95)
     first, last = float(places[near[0]]), float(places[near[-1]])
-    if form is Form.STEP:
+    if form is Course.STEP:
         first, last = float(t[t < first].max()), float(t[t > last].min())
-    k = coefficients.shape[1] + (form is Form.RAMP)
+    k = coefficients.shape[1] + (form is Course.RAMP)
     return _Fitted(
         form=form, since=float(places[i]), fixed=fixed or 0.0, level=level, t0=float(t[0]),
         coefficients=coefficients[i], loss=float(loss[i]), covariance=np.zeros((k, k)),

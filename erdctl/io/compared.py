@@ -9,8 +9,8 @@ from typing import Any, TypedDict
 import msgspec
 import numpy as np
 
-from erdctl.compare.comparison import Comparison, Damper, iso
-from erdctl.compare.pair import Difference, Pair, Told
+from erdctl.compare.comparison import Compared, Damper, iso
+from erdctl.compare.pair import Difference, Pair, ToldValue
 from erdctl.compare.tolerance import Holds, Judged
 from erdctl.compare.trend import Trend
 from erdctl.core.version import __version__
@@ -33,7 +33,7 @@ class Since(TypedDict):
     last: str | None
 
 
-class Forecast(TypedDict):
+class ForecastDocument(TypedDict):
     """Where 95 % of single logs will lie at a date if all goes on so."""
 
     date: str | None
@@ -63,7 +63,7 @@ class TrendDocument(TypedDict):
     vanished: bool
     p: float
     spread: float
-    forecast: Forecast
+    forecast: ForecastDocument
     text: str
 
 
@@ -183,7 +183,7 @@ class Words:
         self.trend, self.difference, self.damper, self.remarks = trend, difference, damper, remarks
 
 
-def to_json(found: Comparison, words: Words) -> ComparisonFile:
+def to_json(found: Compared, words: Words) -> ComparisonFile:
     """The document of a comparison."""
     return {
         "schema": SCHEMA,
@@ -237,7 +237,7 @@ def _trend(t: Trend, text: str) -> TrendDocument:
     }
 
 
-def forecast(t: Trend) -> Forecast:
+def forecast(t: Trend) -> ForecastDocument:
     """One log to come."""
     at = np.array([float(t.series.t[-1]) + t.ahead])
     low, high = t.band(at)
@@ -291,7 +291,7 @@ def _since(dates: tuple[float, float, float]) -> Since:
     return {"date": at, "first": first, "last": last}
 
 
-def _told(t: Told) -> WithError:
+def _told(t: ToldValue) -> WithError:
     return _value(t.value, t.stderr)
 
 

@@ -35,7 +35,7 @@ class _Named(msgspec.Struct):
     effect: str
 
 
-class _Corrected(msgspec.Struct):
+class _CorrectedIn(msgspec.Struct):
     params: dict[str, Any]
 
 
@@ -44,7 +44,7 @@ class DiagnosisIn(msgspec.Struct):
 
     schema: str
     verdict: str
-    corrected: _Corrected
+    corrected: _CorrectedIn
     findings: list[_Named]
     baseline: _Scored = field(default_factory=_Scored)
     noise_rms: float | None = None

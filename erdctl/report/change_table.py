@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import isfinite
 
-from erdctl.compare.comparison import Comparison, Damper, iso
+from erdctl.compare.comparison import Compared, Damper, iso
 from erdctl.compare.pair import Change
 from erdctl.report.changes import difference_text, trend_text
 
@@ -20,7 +20,7 @@ SHORT = [
 ]  # fmt: skip
 
 
-def rows(found: Comparison, *, short: bool = False) -> tuple[list[str], list[list[Cell]]]:
+def rows(found: Compared, *, short: bool = False) -> tuple[list[str], list[list[Cell]]]:
     """Header and rows, the most urgent damper first.
 
     short : for print: only what changed or is judged, and fewer columns

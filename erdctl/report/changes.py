@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from math import copysign, isfinite
 
-from erdctl.compare.comparison import Comparison, Damper, iso
+from erdctl.compare.comparison import Compared, Damper, iso
 from erdctl.compare.pair import Change, Difference, Pair
-from erdctl.compare.shape import Form
+from erdctl.compare.shape import Course
 from erdctl.compare.tolerance import Holds, Judged
 from erdctl.compare.trend import Trend
 from erdctl.report.readable import number, scaled, with_unit
@@ -68,7 +68,7 @@ def trend_text(t: Trend) -> str:
         text = f"{noun(s.name)} vanished, before {with_unit(t.start[0], s.unit, 3)}"
     if t.since is not None:
         at, first, last = (month(d) for d in t.since)
-        word = "in" if t.form is Form.STEP else "since"
+        word = "in" if t.form is Course.STEP else "since"
         text += f" {word} {at}" + (f" ({first} to {last})" if first != last else "")
     else:
         text += f" from {month(float(s.t[0]))} to {month(float(s.t[-1]))}"
@@ -181,7 +181,7 @@ def damper_texts(d: Damper) -> list[str]:
     return out
 
 
-def head(found: Comparison) -> str:
+def head(found: Compared) -> str:
     """The whole in one sentence."""
     changed = [
         d for d in found.dampers if d.changes or any(p.changes or p.together for p in d.pairs)

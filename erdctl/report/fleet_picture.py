@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from erdctl.compare.comparison import Comparison, Damper
+from erdctl.compare.comparison import Compared, Damper
 from erdctl.compare.pair import Change, Pair
 from erdctl.compare.trend import Trend
 from erdctl.core.errors import InputProblem
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 ROWS, PANELS = 40, 6  # dampers of the chart, changes drawn over time
 
 
-def fleet_figure(found: Comparison) -> Figure:
+def fleet_figure(found: Compared) -> Figure:
     """A figure of a comparison.
 
     Raises InputProblem where there is neither a trend nor a difference to draw.
@@ -85,7 +85,7 @@ def _chart(ax: Axes, dampers: Any) -> None:
     )
 
 
-def _panels(figure: Any, found: Comparison, trends: list[Trend]) -> None:
+def _panels(figure: Any, found: Compared, trends: list[Trend]) -> None:
     """The surest changes over time, with the interval of their date and a year to come."""
     if not trends:
         figure.text(0.5, 0.5, "no parameter of any damper changed over time", ha="center")

@@ -8,7 +8,7 @@ import pytest
 from erdctl.compare.history import Series
 from erdctl.compare.scan import appears, scan
 from erdctl.compare.scatter import extra_scatter, spread
-from erdctl.compare.shape import Form
+from erdctl.compare.shape import Course
 from erdctl.compare.trend import Trend, trend
 from erdctl.core.recording import Array
 
@@ -46,7 +46,7 @@ def found(value: Array, stderr: Array) -> Trend:
 def test_nothing_is_said_of_a_constant(seed: int) -> None:
     rest, error = noise(seed)
     t = found(100.0 + rest, error)
-    assert t.form is Form.CONSTANT
+    assert t.form is Course.CONSTANT
     assert abs(t.now[0] - 100.0) < 4 * t.now[1] < 1.5
 
 
@@ -55,7 +55,7 @@ def test_a_ramp_since_a_date(seed: int) -> None:
     rest, error = noise(seed)
     since = T[0] + 42.5 * MONTH
     t = found(100.0 - 8.0 * np.maximum(T - since, 0.0) / 365.25 + rest, error)
-    assert t.form is Form.RAMP
+    assert t.form is Course.RAMP
     assert t.since is not None
     assert abs(t.since[0] - since) < 5 * MONTH
     assert t.since[1] - MONTH < since < t.since[2] + MONTH
@@ -67,7 +67,7 @@ def test_a_ramp_since_a_date(seed: int) -> None:
 def test_a_step(seed: int) -> None:
     rest, error = noise(seed)
     t = found(100.0 + 5.0 * (T[29] + 1 < T) + rest, error)
-    assert t.form is Form.STEP
+    assert t.form is Course.STEP
     assert t.since is not None
     assert abs(t.since[0] - T[29]) < 2 * MONTH
     assert t.since[1] <= T[30]
@@ -79,7 +79,7 @@ def test_a_step(seed: int) -> None:
 def test_a_line() -> None:
     rest, error = noise(5)
     t = found(100.0 + 3.0 * YEARS + rest, error)
-    assert t.form is Form.LINEAR
+    assert t.form is Course.LINEAR
     assert t.rate is not None
     assert abs(t.rate[0] - 3.0) < 3 * t.rate[1]
     later = np.array([T[-1] + 365.25])
@@ -103,7 +103,7 @@ def test_neighbours_that_are_alike_are_no_change() -> None:
     for seed in range(4):
         rest, error = noise(seed, scatter=0.1)
         swing = 2.0 * np.sin(2 * np.pi * YEARS + seed)
-        assert found(100.0 + swing + 0.3 * rest, 0.3 * error).form is Form.CONSTANT
+        assert found(100.0 + swing + 0.3 * rest, 0.3 * error).form is Course.CONSTANT
 
 
 def test_play_that_is_named_once_it_is_large() -> None:
@@ -117,7 +117,7 @@ def test_play_that_is_named_once_it_is_large() -> None:
     for limit in (0.4e-3, np.nan):
         t = trend(series(value, np.full(len(T), 2e-5), 0.0, limit), SURE)
         assert t is not None
-        assert t.form is Form.RAMP
+        assert t.form is Course.RAMP
         assert t.absent_before
         assert t.start == (0.0, 0.0)
         assert t.since is not None
@@ -135,8 +135,8 @@ def test_play_that_earlier_logs_could_not_have_shown() -> None:
     good = trend(series(value, np.full(len(T), 2e-5), 0.0, 0.1e-3), SURE)
     assert poor is not None
     assert good is not None
-    assert poor.form is Form.CONSTANT
-    assert good.form is Form.STEP
+    assert poor.form is Course.CONSTANT
+    assert good.form is Course.STEP
     assert good.absent_before
 
 
@@ -145,7 +145,7 @@ def test_an_effect_named_now_and_then_is_no_change() -> None:
     value = np.where(r.random(len(T)) < 0.2, 0.5e-3, np.nan)
     t = trend(series(value, np.full(len(T), 1e-4), 0.0), SURE)
     assert t is not None
-    assert t.form is Form.CONSTANT
+    assert t.form is Course.CONSTANT
 
 
 def test_an_effect_that_vanishes() -> None:

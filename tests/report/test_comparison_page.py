@@ -10,7 +10,7 @@ import pytest
 from fleets import draw
 from opened import Opened
 
-from erdctl.compare.comparison import Comparison, compare
+from erdctl.compare.comparison import Compared, compare
 from erdctl.io.campaign_in import histories
 from erdctl.report.fleet_picture import fleet_figure
 from erdctl.report.page.comparison import comparison_page
@@ -20,7 +20,7 @@ EVIL = "</script><b onclick=alert(1)>"
 
 
 @pytest.fixture(scope="module")
-def fleet() -> Comparison:
+def fleet() -> Compared:
     table, _ = draw(4)
     found = compare(histories(table))
     assert found.logs > 1800
@@ -28,7 +28,7 @@ def fleet() -> Comparison:
 
 
 @pytest.fixture(scope="module")
-def page(fleet: Comparison, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def page(fleet: Compared, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("page") / "fleet.html"
     path.write_text(comparison_page(fleet, run=Run(words=["compare", EVIL])))
     return path
@@ -48,7 +48,7 @@ def test_small_and_by_itself(opened: Opened, page: Path) -> None:
     assert opened.page.evaluate("document.scrollingElement.scrollWidth") <= 1280
 
 
-def test_what_needs_attention_comes_first(opened: Opened, fleet: Comparison) -> None:
+def test_what_needs_attention_comes_first(opened: Opened, fleet: Compared) -> None:
     names = opened.page.locator("#glance tbody th").all_inner_texts()
     assert names == [d.history.damper for d in fleet.dampers]
     rows = opened.page.locator("#glance tbody tr").all_inner_texts()
@@ -56,7 +56,7 @@ def test_what_needs_attention_comes_first(opened: Opened, fleet: Comparison) -> 
     assert opened.page.locator("#details article").count() == 3
 
 
-def test_by_keyboard(opened: Opened, fleet: Comparison) -> None:
+def test_by_keyboard(opened: Opened, fleet: Compared) -> None:
     """To the worst damper, into its figure, to the values of single logs, and back."""
     focus = "document.activeElement.closest('[id]')?.id"
     page = opened.page
@@ -77,7 +77,7 @@ def test_by_keyboard(opened: Opened, fleet: Comparison) -> None:
     assert opened.drawn("damper-0-0") > 50
 
 
-def test_the_picture_shows_them(fleet: Comparison) -> None:
+def test_the_picture_shows_them(fleet: Compared) -> None:
     figure = fleet_figure(fleet)
     left, *panels = figure.get_axes()
     assert [t.get_text() for t in left.get_yticklabels()] == [

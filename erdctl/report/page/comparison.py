@@ -7,7 +7,7 @@ from math import isfinite
 
 import numpy as np
 
-from erdctl.compare.comparison import Attention, Comparison, Damper, iso
+from erdctl.compare.comparison import Attention, Compared, Damper, iso
 from erdctl.compare.pair import told_by
 from erdctl.compare.tolerance import Holds
 from erdctl.compare.trend import Trend
@@ -30,7 +30,7 @@ SIDE = 200  # dampers side by side
 MONTH = 30.4375  # days
 
 
-def comparison_page(found: Comparison, *, run: Run) -> str:
+def comparison_page(found: Compared, *, run: Run) -> str:
     """The page."""
     dampers = found.dampers[:ROWS]
     detailed = [d for d in dampers if d.attention is not Attention.QUIET][:DETAILS]
@@ -63,27 +63,27 @@ def comparison_page(found: Comparison, *, run: Run) -> str:
     )
 
 
-def _mood(found: Comparison) -> str:
+def _mood(found: Compared) -> str:
     first = min((d.attention for d in found.dampers), default=Attention.QUIET)
     if first is Attention.FAILS:
         return "bad"
     return "good" if first is Attention.QUIET else "mid"
 
 
-def _period(found: Comparison) -> str:
+def _period(found: Compared) -> str:
     t = np.concatenate([d.history.t for d in found.dampers])
     t = t[np.isfinite(t)]
     return f"{iso(float(t.min()))} to {iso(float(t.max()))}" if len(t) else ""
 
 
-def _checks(found: Comparison) -> str:
+def _checks(found: Compared) -> str:
     counts = {h: found.count(h) for h in Holds}
     if not any(counts.values()):
         return ""
     return ", ".join(f"{n} {h.value}" for h, n in counts.items())
 
 
-def _sure(found: Comparison) -> str:
+def _sure(found: Compared) -> str:
     if not found.tests:
         return "By the errors of the fits; see the remarks of each damper."
     return (
