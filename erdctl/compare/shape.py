@@ -6,6 +6,7 @@ from enum import Enum
 
 import numpy as np
 
+from erdctl.compare.history import YEAR
 from erdctl.core.recording import Array
 
 LEAST = 3  # logs on either side of a change
@@ -53,9 +54,9 @@ def columns(form: Course, t: Array, since: float) -> Array:
     since : date at which it sets in [days]; without meaning for a constant or a line
     """
     if form is Course.STEP:
-        return np.asarray(t > since, dtype=float)[:, None]
+        return np.where(t > since, 1.0, 0.0)[:, None]
     if form is Course.RAMP:
-        return np.maximum(t - since, 0.0)[:, None] / 365.25
+        return np.maximum(t - since, 0.0)[:, None] / YEAR
     if form is Course.LINEAR:
-        return (t - t[0])[:, None] / 365.25
+        return (t - t[0])[:, None] / YEAR
     return np.empty((len(t), 0))

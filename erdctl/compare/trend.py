@@ -56,7 +56,7 @@ class Trend:
         return abs(self.now[0] - self.start[0]) / self.spread if self.changed else 0.0
 
     def at(self, t: Array) -> tuple[Array, Array]:
-        """Course (m,) and its standard error (m,) at any dates, also to come."""
+        """Value (m,) and its standard error (m,) at any dates, also to come."""
         return self.model.at(t)
 
     def band(self, t: Array) -> tuple[Array, Array]:
