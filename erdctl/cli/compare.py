@@ -191,13 +191,12 @@ def _show(found: Compared) -> None:
     from erdctl.compare.comparison import Attention
     from erdctl.compare.tolerance import Holds
     from erdctl.report.changes import damper_texts, head, pair_remarks
-    from erdctl.report.text import say, table
+    from erdctl.report.text import listing, say
 
-    rows: list[list[str]] = []
-    for d in found.dampers:
-        texts = damper_texts(d) if d.attention is not Attention.QUIET else []
-        rows += [[f"{d.history.damper}: {text}", d.attention.words] for text in texts]
-    table(head(found), ["damper", "is"], rows)
+    urgent = [d for d in found.dampers if d.attention is not Attention.QUIET]
+    listing(
+        head(found), {f"{d.history.damper}: {d.attention.words}": damper_texts(d) for d in urgent}
+    )
     quiet = [d.history.damper for d in found.dampers if d.attention is Attention.QUIET]
     if quiet:
         say(f"unchanged: {', '.join(quiet[:NAMED])}{' ...' if len(quiet) > NAMED else ''}")

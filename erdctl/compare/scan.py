@@ -63,12 +63,13 @@ def appears(named: Flags) -> float:
 
     named : (n,);  by the hypergeometric distribution, which holds for any share of logs that name
     it by chance; every place and both directions are counted.
-    Check: 2 logs without and 2 with: a place of 3, of 6 ways to choose 2 of 4 one has both at the
-    end: p = 2 x 3 / 6 = 1.
+    Check: of 4 logs the last 2 name it. One of the 6 ways to choose 2 of 4 has both at the end; of
+    3 places and 2 directions p is 3 x 2 / 6 = 1. Of 20 logs the last 10: 19 x 2 / 184756, which is
+    2.1 in 10000.
     >>> appears(np.array([False, False, True, True]))
     1.0
-    >>> round(appears(np.arange(20) >= 10), 6)
-    0.000206
+    >>> round(1e4 * appears(np.arange(20) >= 10), 1)
+    2.1
     """
     n, k = len(named), int(named.sum())
     if not 0 < k < n:

@@ -54,7 +54,8 @@ def columns(form: Course, t: Array, since: float) -> Array:
     since : date at which it sets in [days]; without meaning for a constant or a line
     """
     if form is Course.STEP:
-        return np.where(t > since, 1.0, 0.0)[:, None]
+        after: Array = np.asarray(t > since, dtype=np.float64)
+        return after.reshape(-1, 1)
     if form is Course.RAMP:
         return np.maximum(t - since, 0.0)[:, None] / YEAR
     if form is Course.LINEAR:

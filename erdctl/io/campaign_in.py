@@ -64,7 +64,7 @@ def as_declared(table: pa.Table, name: str) -> pa.Table:
     stated = (table.schema.metadata or {}).get(b"schema", b"").decode(errors="replace")
     missing = [c for c in NEEDED if c not in table.column_names]
     if missing or (stated and stated != NAME):
-        found = f"it says '{stated[:80]}'" if stated else f"it has no column '{missing[0]}'"
+        found = f"it has no column '{missing[0]}'" if missing else f"it says '{stated[:80]}'"
         raise InputProblem(f"expected a table of schema '{NAME}', but {found}", file=name)
     columns = []
     for field in SCHEMA:

@@ -44,6 +44,7 @@ CALLS = {
     "plot": "plot {logs} --params {params} --before {before} -o {output}",
     "convert": "convert {log} {output}",
     "derive": "derive {geometry} -o {output}",
+    "compare": "compare {arguments} --limits {limits} -o {output} --report {report} --plot {plot}",
     "effects": "effects new bore_wear --from {source} -o {output}",
 }
 SUFFIX = {"report": ".html", "plot": ".png"}
