@@ -53,11 +53,10 @@ def columns(form: Course, t: Array, since: float) -> Array:
 
     since : date at which it sets in [days]; without meaning for a constant or a line
     """
+    if form is Course.CONSTANT:
+        return np.empty((len(t), 0))
+    begin = float(t[0]) if form is Course.LINEAR else since
+    grown: Array = np.maximum(t - begin, 0.0) / YEAR
     if form is Course.STEP:
-        after: Array = np.asarray(t > since, dtype=np.float64)
-        return after.reshape(-1, 1)
-    if form is Course.RAMP:
-        return np.maximum(t - since, 0.0)[:, None] / YEAR
-    if form is Course.LINEAR:
-        return (t - t[0])[:, None] / YEAR
-    return np.empty((len(t), 0))
+        grown = np.asarray(t > since, dtype=np.float64)
+    return grown.reshape(-1, 1)

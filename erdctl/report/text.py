@@ -84,11 +84,12 @@ def listing(title: str, parts: Mapping[str, Sequence[str]]) -> None:
     if QUIET.get():
         return
     room = width()
+    inner = None if room is None else room - 4
     tell(wrapped(shown(title), room))
     for heading, sentences in list(parts.items())[:ROWS]:
-        tell(wrapped(f"  {shown(heading)}", room))
+        tell(f"  {wrapped(shown(heading), inner)}")
         for sentence in sentences:
-            tell(wrapped(f"    {shown(sentence)}", room, 6))
+            tell(f"    {wrapped(shown(sentence), inner, 6)}")
     if len(parts) > ROWS:
         tell(f"  and {len(parts) - ROWS} more")
 
