@@ -8,7 +8,7 @@ import numpy as np
 from scipy import stats
 
 from erdctl.compare.history import Flags
-from erdctl.compare.shape import step_edges
+from erdctl.compare.shape import bend_edges, step_edges
 from erdctl.core.recording import Array
 
 CLIP = 4.0  # spreads to which a single log counts: beyond that it is an outlier, or one of a change
@@ -86,7 +86,7 @@ def _steps(t: Array) -> Array:
 
 
 def _ramps(t: Array) -> Array:
-    edges = [t[0], *step_edges(t)] if t[-1] > t[0] else []
+    edges = [t[0], *bend_edges(t)] if t[-1] > t[0] else []
     return np.array([np.maximum(t - edge, 0.0) for edge in edges]).reshape(-1, len(t))
 
 

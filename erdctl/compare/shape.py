@@ -38,10 +38,17 @@ def step_edges(t: Array) -> Array:
     return between
 
 
+def bend_edges(t: Array) -> Array:
+    """Dates between two logs at which a ramp may set in: twice as many logs must follow as after a
+    step, since the last of three has most of the say in how steep it is."""
+    edges = step_edges(t)
+    return edges[edges < t[-2 * LEAST]] if len(t) > 2 * LEAST else edges[:0]
+
+
 def bends(t: Array, first: float, last: float) -> Array:
     """Dates at which a ramp may set in, around an interval: finer than the logs, since what
     follows tells it."""
-    edges = step_edges(t)
+    edges = bend_edges(t)
     low = max(int(np.searchsorted(edges, first)) - AROUND, 0)
     high = min(int(np.searchsorted(edges, last)) + AROUND, len(edges) - 1)
     at = low + np.arange((high - low) * FINER + 1) / FINER

@@ -11,7 +11,7 @@ from erdctl.compare.history import YEAR, Series
 from erdctl.compare.robust import BEND, Data, fit
 from erdctl.compare.scan import Scan, appears, scan
 from erdctl.compare.scatter import least, spread
-from erdctl.compare.shape import Course, bends, columns, step_edges
+from erdctl.compare.shape import Course, bend_edges, bends, columns, step_edges
 from erdctl.core.recording import Array
 
 FEWEST = 8  # logs with a value that a trend can be seen in
@@ -241,7 +241,7 @@ def _fitted(
     """The best date of one form out of some places, and all dates that are about as good."""
     t = data.t
     if places is None:
-        places = step_edges(t) if form in (Course.STEP, Course.RAMP) else t[:1]
+        places = {Course.STEP: step_edges, Course.RAMP: bend_edges}.get(form, lambda t: t[:1])(t)
     if not len(places) or (fixed is not None and form is Course.LINEAR):
         return None
     level = fixed is None
