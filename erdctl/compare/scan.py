@@ -11,7 +11,7 @@ from erdctl.compare.history import Flags
 from erdctl.compare.shape import bend_edges, step_edges
 from erdctl.core.recording import Array
 
-CLIP = 4.0  # spreads to which a single log counts: beyond that it is an outlier, or one of a change
+CLIP = 3.0  # spreads to which a single log counts: two outliers at the end must be no change
 
 
 @dataclass(frozen=True)
