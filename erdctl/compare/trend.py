@@ -241,7 +241,9 @@ def _fitted(
     """The best date of one form out of some places, and all dates that are about as good."""
     t = data.t
     if places is None:
-        places = {Course.STEP: step_edges, Course.RAMP: bend_edges}.get(form, lambda t: t[:1])(t)
+        places = t[:1]
+        if form in (Course.STEP, Course.RAMP):
+            places = step_edges(t) if form is Course.STEP else bend_edges(t)
     if not len(places) or (fixed is not None and form is Course.LINEAR):
         return None
     level = fixed is None
