@@ -18,8 +18,8 @@ FILES = sorted(PACKAGE.rglob("*.py"))
 
 # Each room may import those before it, and its own. `plant` may import none: see the plant's tests.
 ROOMS = (
-    "core", "model", "effects", "score", "bench", "estimate", "diagnose", "mimic", "plant", "io",
-    "export", "report", "prove", "interface", "cli",
+    "core", "model", "effects", "score", "bench", "estimate", "diagnose", "mimic", "compare",
+    "plant", "io", "export", "report", "prove", "interface", "cli",
 )  # fmt: skip
 FLAT = {"__init__", "__main__"}  # the package's face, and `python -m erdctl`
 LONGEST = 320  # lines of a file

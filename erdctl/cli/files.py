@@ -12,7 +12,7 @@ from typing import Any
 from erdctl.core.errors import InputProblem
 from erdctl.io.identity import STDIN, STDOUT, Named
 
-READS = frozenset({"log", "logs", "params", "before", "geometry", "arguments", "source"})
+READS = frozenset({"log", "logs", "params", "before", "geometry", "arguments", "source", "limits"})
 WRITES = frozenset({"output", "report", "manifest", "plot"})
 # Names a directory that must be empty, so that nothing is in it to write over.
 FOLDERS = frozenset({"keep"})
@@ -23,7 +23,7 @@ MOST = 3  # files that a message names
 OTHERS = frozenset({
     "maps", "fault", "drive", "kind", "record", "span", "normalise", "only", "exclude", "name",
     "concealment", "motion", "colour", "text", "where", "date", "damper", "operator", "new_name",
-    "emulate", "project", "corner", "shown",
+    "emulate", "project", "corner", "shown", "overlay",
 })  # fmt: skip
 
 

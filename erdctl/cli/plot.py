@@ -42,6 +42,15 @@ def command(
         str | None,
         typer.Option(metavar="START:END", help="Only this time of each record, in s."),
     ] = None,
+    overlay: Annotated[
+        str,
+        typer.Option(
+            metavar="log|corner|date|folder|NAME=PATTERN",
+            help="What several logs are told apart by: each log, or what their paths say; a"
+            " pattern is a regular expression, its first group or all of it the label, e.g."
+            " 'damper=D[0-9]+'.",
+        ),
+    ] = "log",
     maps: Maps = [],
     text: Text = [],
     where: Where = [],
@@ -74,15 +83,21 @@ def command(
       erdctl plot bench.csv --params new.json --before old.json --kind before-after -o both.pdf
       erdctl plot drive.csv --params damper.json --fault oil=0.5 -o faults.png
       erdctl plot dyno.csv --kind peak-force -o peaks.png
+      erdctl plot a.csv b.csv later.csv --overlay 'test=([a-z]+)[.]csv' -o tests.png
     """
+    from dataclasses import replace
+
     from erdctl.cli.pictures import Wanted, draw, prepare, wants
     from erdctl.cli.reading import read_logs
     from erdctl.report import pictures
+    from erdctl.report.overlays import paths_told
     from erdctl.report.picture import suffix
     from erdctl.report.subject import part
     from erdctl.report.subjects import PROGRAMME
+    from erdctl.report.subjects import overlay as together
     from erdctl.report.text import say
 
+    title, labels = paths_told(logs, overlay)
     chosen = kind or ("faults" if fault else "loops")
     pictures.get(chosen)
     asked = [Wanted(chosen, output, suffix(output))]
@@ -105,6 +120,7 @@ def command(
         report=say,
     )
     subject = _subject(log, params, before, fault, regions=wants(asked, "regions"))
+    subject = replace(subject, overlay=together(log.recording, title, labels))
     draw(asked, part(subject, record, window))
 
 
@@ -115,7 +131,7 @@ def _subject(
     from erdctl.io.parameters import read_parameters
     from erdctl.model.simulate import simulate
     from erdctl.report.subject import Subject
-    from erdctl.report.subjects import about, located, of_faults, overlay, programme
+    from erdctl.report.subjects import about, located, of_faults, programme
 
     recording, modelled, earlier, cases, parameters = log.recording, log.force_model, None, {}, None
     if params is not None:
@@ -137,7 +153,6 @@ def _subject(
         programme=programme(log.others),
         regions=() if not regions or missing is None else located(recording, missing),
         about=about(recording),
-        overlay=overlay(recording),
     )
 
 

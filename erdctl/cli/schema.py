@@ -15,16 +15,16 @@ def command(
         typer.Argument(
             metavar="NAME",
             autocompletion=schema_names,
-            help="parameters, geometry, inspection, validation, diagnosis, pwm, project, proof or"
-            " proof-on.",
+            help="parameters, geometry, inspection, validation, diagnosis, pwm, project, comparison,"
+            " proof or proof-on.",
         ),
     ],
 ) -> None:
     """Print the JSON Schema of a document that erdctl reads or writes.
 
     parameters and geometry files; inspection (inspect --json), validation (validate --json),
-    diagnosis (diagnose), pwm (the manifest that mimic writes), project (erdctl.toml), proof (prove)
-    and proof-on (prove --on).
+    diagnosis (diagnose), pwm (the manifest that mimic writes), project (erdctl.toml), comparison
+    (compare), proof (prove) and proof-on (prove --on).
 
     \b
     Examples:

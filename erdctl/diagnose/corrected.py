@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from erdctl.diagnose.diagnosis import Diagnosis
-from erdctl.estimate.covariance import estimates
+from erdctl.estimate.covariance import estimates, lower_correlation
 from erdctl.estimate.finer import MOST_SAMPLES
 from erdctl.model.parameters import Estimate, Parameters, provenance
 
@@ -15,11 +15,12 @@ def parameters(found: Diagnosis) -> Parameters:
     few = f"at {found.cannot_tell} other effects, with other values, explain the log as well"
     reasons = dict.fromkeys(found.fit.values, few) if found.cannot_tell else {}
     reasons |= {name: lack.reason for name, lack in best.problem.needs.items()}
+    told = estimates(found.fit, reasons)
     return Parameters(
         model=found.fit.model,
-        estimates=estimates(found.fit, reasons),
+        estimates=told,
         provenance=provenance(found.problem.recording, found.noise_rms, found.rig.to_json()),
-        fits={"method": "diagnose"},
+        fits={"method": "diagnose", "correlation": lower_correlation(found.fit, told)},
         warnings=_remarks(found),
     )
 

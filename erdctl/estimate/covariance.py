@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -49,6 +50,19 @@ class Fit:
         scale = np.sqrt(np.diag(self.covariance))
         scale = np.where(scale > 0, scale, 1.0)
         return np.asarray(self.covariance / np.outer(scale, scale))
+
+
+def lower_correlation(found: Fit, estimates: Mapping[str, Estimate]) -> dict[str, Any]:
+    """How the errors go together, as a parameter file has it: of those with a standard error.
+
+    parameters : their names;  lower : row i the correlations of parameter i with those before it
+    """
+    at = [i for i, name in enumerate(found.free) if estimates[name].stderr is not None]
+    whole = found.correlation()[np.ix_(at, at)]
+    return {
+        "parameters": [found.free[i] for i in at],
+        "lower": [np.round(whole[i, :i], 6).tolist() for i in range(len(at))],
+    }
 
 
 def together(found: Fit) -> dict[str, str]:

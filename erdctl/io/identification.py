@@ -8,6 +8,7 @@ from typing import Any
 
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Recording
+from erdctl.estimate.covariance import lower_correlation
 from erdctl.estimate.identify import Identification
 from erdctl.estimate.method import Method
 from erdctl.model.parameters import Parameters, provenance
@@ -36,7 +37,7 @@ def parameters_of(
             if e.identified:
                 value = found.two_step[name]
                 estimates[name] = replace(e, value=value, stderr=None, at_bound=False, within=None)
-    fits = {
+    fits: dict[str, Any] = {
         "joint": {
             "rms": found.fit.rms,
             "samples": found.fit.samples,
@@ -46,6 +47,8 @@ def parameters_of(
         "two_step": {"rms": found.two_step_rms, "values": dict(found.two_step)},
         "method": method.value,
     }
+    if method is Method.JOINT:
+        fits["correlation"] = lower_correlation(found.fit, estimates)
     return Parameters(
         model=found.model,
         estimates=estimates,

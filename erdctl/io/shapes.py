@@ -275,6 +275,12 @@ def _of(shape: type) -> Callable[[], dict[str, Any]]:
     return lambda: msgspec.json.schema(shape)
 
 
+def _comparison() -> dict[str, Any]:
+    from erdctl.io.compared import json_schema  # statistics are imported with it
+
+    return json_schema()
+
+
 SCHEMAS: dict[str, Callable[[], dict[str, Any]]] = {
     "parameters": parameters.json_schema,
     "geometry": geometry.json_schema,
@@ -283,4 +289,5 @@ SCHEMAS: dict[str, Callable[[], dict[str, Any]]] = {
     "diagnosis": _of(DiagnosisFile),
     "pwm": _of(PwmManifest),
     "project": project.json_schema,
+    "comparison": _comparison,
 }

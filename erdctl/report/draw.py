@@ -45,11 +45,15 @@ class Groups:
 def groups(subject: Subject) -> Groups:
     """The groups of a subject."""
     if subject.overlay is not None:
-        names = list(subject.overlay.names)
         from matplotlib.colors import to_rgb
 
-        colours = [to_rgb(colour) for colour, _ in style.series(len(names) + 1)[1:]]
-        return Groups("log", subject.overlay.code, names, colours)
+        told = subject.overlay
+        names = list(told.names)
+        colours: list[Any] = [to_rgb(colour) for colour, _ in style.series(len(names) + 1)[1:]]
+        # Dates are lighter or darker by their order; so are more groups than there are colours.
+        if told.ordered or len(names) >= len(style.SERIES):
+            colours = list(style.shades(len(names)))
+        return Groups(told.title, told.code, names, colours)
     return _levels(subject)
 
 

@@ -43,7 +43,7 @@ def figure(kind: str, subject: Subject) -> Figure:
     if empty is not None:
         raise InputProblem(f"the picture '{kind}' would show nothing: {empty}")
     size = chosen.size(subject) if callable(chosen.size) else chosen.size
-    with mpl.rc_context(fname=_style()):
+    with mpl.rc_context(fname=style_file()):
         out = Figure(figsize=size, layout="constrained")
         chosen.draw(out, subject)
         out.suptitle(chosen.title, x=0.01, ha="left")
@@ -56,7 +56,7 @@ def write(out: Figure, stream: BinaryIO, format: str) -> None:
     """Write a figure; the same figure gives the same bytes."""
     import matplotlib as mpl
 
-    with mpl.rc_context(fname=_style()):
+    with mpl.rc_context(fname=style_file()):
         if format == "png":
             _write_png(out, stream, float(mpl.rcParams["savefig.dpi"]))
         else:
@@ -78,5 +78,6 @@ def _write_png(out: Figure, stream: BinaryIO, dpi: float) -> None:
     few.save(stream, format="png", dpi=(dpi, dpi))
 
 
-def _style() -> str:
+def style_file() -> str:
+    """The style of all pictures, as matplotlib takes it."""
     return os.path.join(os.path.dirname(__file__), "erdctl.mplstyle")

@@ -46,10 +46,16 @@ class Programme:
 
 @dataclass(frozen=True, eq=False)
 class Overlay:
-    """Several logs in one picture.  code : (n,) which of them a sample is of;  names : of each"""
+    """Several logs in one picture, or several groups of logs.
+
+    code : (n,) which of them a sample is of;  names : of each;  title : what they are
+    ordered : whether their order means something, as that of dates does
+    """
 
     code: Codes
     names: tuple[str, ...]
+    title: str = "log"
+    ordered: bool = False
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -147,7 +153,7 @@ def cut(subject: Subject, rows: Index) -> Subject:
         cases={name: force[rows] for name, force in subject.cases.items()},
         acting={name: flags[rows] for name, flags in subject.acting.items()},
         programme=None if p is None else Programme(p.healthy[rows], p.out_of_reach[rows]),
-        overlay=None if several is None else Overlay(several.code[rows], several.names),
+        overlay=None if several is None else replace(several, code=several.code[rows]),
     )
 
 

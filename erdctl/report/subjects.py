@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -23,13 +23,21 @@ if TYPE_CHECKING:
 PROGRAMME = ("duty_healthy", "out_of_reach")  # columns of a log that mimic wrote
 
 
-def overlay(recording: Recording) -> Overlay | None:
-    """Which log each sample is of; None of a single one."""
+def overlay(
+    recording: Recording, title: str = "log", labels: Sequence[str] | None = None
+) -> Overlay | None:
+    """Which log each sample is of, or which group of logs; None of a single log.
+
+    labels : of each log, where logs with the same label are drawn alike; else its name
+    """
     sources = recording.sources
     if len(sources) < 2 or sum(s.rows for s in sources) != len(recording):
         return None
-    code = np.repeat(np.arange(len(sources), dtype=np.int16), [s.rows for s in sources])
-    return Overlay(code, tuple(s.name for s in sources))
+    told = [s.name for s in sources] if labels is None else labels
+    ordered = title == "date"
+    names = sorted(set(told)) if ordered else list(dict.fromkeys(told))
+    number = np.array([names.index(label) for label in told], dtype=np.int16)
+    return Overlay(np.repeat(number, [s.rows for s in sources]), tuple(names), title, ordered)
 
 
 def about(recording: Recording) -> str:

@@ -79,6 +79,21 @@ def table(
         tell(f"  and {left_out} more rows")
 
 
+def listing(title: str, parts: Mapping[str, Sequence[str]]) -> None:
+    """Sentences under headings, broken between words on a narrow screen; of each `ROWS` parts."""
+    if QUIET.get():
+        return
+    room = width()
+    inner = None if room is None else room - 4
+    tell(wrapped(shown(title), room))
+    for heading, sentences in list(parts.items())[:ROWS]:
+        tell(f"  {wrapped(shown(heading), inner)}")
+        for sentence in sentences:
+            tell(f"    {wrapped(shown(sentence), inner, 6)}")
+    if len(parts) > ROWS:
+        tell(f"  and {len(parts) - ROWS} more")
+
+
 def _table(
     title: str,
     header: Sequence[str],

@@ -45,6 +45,7 @@ CALLS = {
     "convert": "convert {log} {output}",
     "derive": "derive {geometry} -o {output}",
     "project": "project init {logs} -o {output}",
+    "compare": "compare {arguments} --limits {limits} -o {output} --report {report} --plot {plot}",
     "effects": "effects new bore_wear --from {source} -o {output}",
 }
 SUFFIX = {"report": ".html", "plot": ".png"}

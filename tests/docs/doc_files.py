@@ -103,9 +103,24 @@ def car(path: Path) -> None:
     pd.DataFrame(columns).to_parquet(path, index=False)
 
 
+def campaign_table(path: Path) -> None:
+    """Four dampers over forty months, three of which wear."""
+    import pyarrow.parquet as pq
+    from fleets import draw
+
+    pq.write_table(draw(3, dampers=4, months=40)[0], path)
+
+
+def bands(path: Path) -> None:
+    """Tolerances that all these dampers hold."""
+    path.write_text("c_vis = { low = 10, high = 90 }\nsigma = { low = 1 }\n")
+
+
 FILES: dict[str, Make] = {
     "raw/A07_20240501_25C.csv": in_mm,
     "car.parquet": car,
+    "results.parquet": campaign_table,
+    "limits.toml": bands,
     "bench.csv": bench("sine_2Hz_11mm_pwm0", "steps_1", "steps_3"),
     "bench.parquet": bench("sine_2Hz_11mm_pwm0", "steps_1", "steps_3"),
     "bench.mf4": converted,

@@ -1,0 +1,190 @@
+"""Parameter files and diagnoses as rows of a campaign's table, so that all are compared alike."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from datetime import datetime
+from typing import Any
+
+import msgspec
+import numpy as np
+import pyarrow as pa
+
+from erdctl.compare.history import Covariance
+from erdctl.core.errors import InputProblem, UsageProblem
+from erdctl.effects import get, names
+from erdctl.io import documents
+from erdctl.io.campaign_in import LEARNED
+from erdctl.io.campaign_table import SCHEMA as TABLE
+from erdctl.io.diagnosis import SCHEMA as DIAGNOSIS
+from erdctl.io.parameters import SCHEMA as PARAMETERS
+from erdctl.io.parameters import parse_parameters
+from erdctl.io.undetected import Limit
+from erdctl.model.parameters import Parameters
+
+PARQUET = b"PAR1"
+Row = dict[str, Any]
+
+
+class _Scored(msgspec.Struct):
+    nrmse: float | None = None
+
+
+class _Named(msgspec.Struct):
+    effect: str
+
+
+class _CorrectedIn(msgspec.Struct):
+    params: dict[str, Any]
+
+
+class DiagnosisIn(msgspec.Struct):
+    """What `compare` reads of a diagnosis."""
+
+    schema: str
+    verdict: str
+    corrected: _CorrectedIn
+    findings: list[_Named]
+    baseline: _Scored = field(default_factory=_Scored)
+    noise_rms: float | None = None
+    limits: dict[str, Limit] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class Inputs:
+    """All that is compared: one table, covariances by log, and whether it is of documents alone."""
+
+    table: pa.Table
+    covariances: dict[str, Covariance]
+    documents: bool
+
+
+def read_inputs(paths: Sequence[str]) -> Inputs:
+    """Campaign tables, parameter files and diagnoses, told apart by content; `-` is stdin.
+
+    Raises UsageProblem for a file given twice or not there, InputProblem for one that is neither.
+    """
+    from erdctl.io.campaign_in import as_declared, campaign_table
+
+    twice = [p for p in paths if list(paths).count(p) > 1]
+    if twice:
+        raise UsageProblem(f"{twice[0]} is given twice")
+    tables, rows, covariances = [], [], {}
+    for path in paths:
+        data = documents.read_bytes(path)
+        name = "stdin" if path == "-" else path
+        if data[:4] == PARQUET:
+            tables.append(as_declared(campaign_table(data, name), name))
+            continue
+        some, covariance = _state(data, name)
+        rows += some
+        if covariance is not None:
+            covariances[name] = covariance
+    if rows:
+        rows = _one_damper(rows)
+        columns = {f.name: [row.get(f.name) for row in rows] for f in TABLE}
+        tables.append(pa.table(columns, schema=TABLE))
+    return Inputs(pa.concat_tables(tables), covariances, len(tables) == bool(rows))
+
+
+def _one_damper(rows: list[Row]) -> list[Row]:
+    """Files that name no damper are taken to be of one."""
+    if any(row["damper"] for row in rows):
+        return rows
+    return [{**row, "damper": "the damper"} for row in rows]
+
+
+def _state(data: bytes, name: str) -> tuple[list[Row], Covariance | None]:
+    raw = documents.parsed(data, name)
+    schema = raw.get("schema") if isinstance(raw, dict) else None
+    common: Row = {"log": name, "exit_code": 0}
+    if schema == PARAMETERS:
+        parameters = parse_parameters(data, name)
+        found = [e.name for e in parameters.model.effects]
+        return _rows(parameters, {**common, "command": "identify", "findings": found})
+    if schema == DIAGNOSIS:
+        document = documents.decode(data, DiagnosisIn, name=name, schema=DIAGNOSIS)
+        parameters = parse_parameters(msgspec.json.encode(document.corrected.params), name)
+        common |= {
+            "command": "diagnose", "verdict": document.verdict, "nrmse": document.baseline.nrmse,
+            "findings": [f.effect for f in document.findings], "noise_rms": document.noise_rms,
+        }  # fmt: skip
+        rows, covariance = _rows(parameters, common)
+        return [*rows, *_limits(document, rows[0])], covariance
+    found_text = f"it says {str(schema)[:80]!r}" if schema else 'it has no field "schema"'
+    raise InputProblem(
+        f"expected a parameter file, a diagnosis or a campaign's table, but {found_text}", file=name
+    )
+
+
+def _rows(parameters: Parameters, common: Row) -> tuple[list[Row], Covariance | None]:
+    origin = parameters.provenance
+    common = {
+        **common, "version": str(origin.get("erdctl", "")), "damper": _text(origin.get("damper")),
+        "date": _date(origin.get("date"), common["log"]),
+    }  # fmt: skip
+    common.setdefault("noise_rms", origin.get("noise_rms"))
+    rows = []
+    for name, e in parameters.estimates.items():
+        if name.startswith(LEARNED):
+            continue
+        low, high = e.within or (None, None)
+        rows.append({
+            **common, "parameter": name, "unit": e.unit, "value": e.value, "stderr": e.stderr,
+            "low": low, "high": high, "identified": e.identified,
+        })  # fmt: skip
+    return rows, _covariance(parameters)
+
+
+def _covariance(parameters: Parameters) -> Covariance | None:
+    """What the fit says of how its errors go together, if the file tells it."""
+    found = parameters.fits.get("correlation")
+    if not isinstance(found, dict):
+        return None
+    listed, lower = found.get("parameters"), found.get("lower")
+    if not isinstance(listed, list) or not isinstance(lower, list) or len(lower) != len(listed):
+        return None
+    out = np.eye(len(listed))
+    for i, row in enumerate(lower):
+        if not isinstance(row, list) or len(row) != i:
+            return None
+        out[i, :i] = out[:i, i] = row
+    return Covariance(tuple(map(str, listed)), out)
+
+
+def _limits(document: DiagnosisIn, common: Row) -> list[Row]:
+    """Effects that were not named: no value, and as upper end the size that would have been."""
+    known = {*names()}
+    out = []
+    for effect, limit in document.limits.items():
+        if effect not in known or limit["parameter"] not in {
+            q.symbol for q in get(effect).quantities
+        }:
+            continue
+        out.append({
+            **common, "parameter": f"{effect}.{limit['parameter']}", "unit": limit["unit"],
+            "value": None, "stderr": None, "low": None, "high": limit["value"], "identified": False,
+        })  # fmt: skip
+    return out
+
+
+def _text(given: object) -> str | None:
+    return given if isinstance(given, str) and given else None
+
+
+def _date(given: object, name: str) -> datetime | None:
+    text = _text(given)
+    if text is None:
+        return None
+    try:
+        found = datetime.fromisoformat(text)
+    except ValueError:
+        raise InputProblem(
+            f"provenance.date: expected a date, not {text[:40]!r}", file=name
+        ) from None
+    return (
+        found.replace(tzinfo=None)
+        if found.tzinfo is None
+        else found.astimezone().replace(tzinfo=None)
+    )

@@ -1,0 +1,161 @@
+"""`erdctl compare`: what it writes, with which exit code, and what it refuses."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pyarrow.parquet as pq
+import pytest
+from fleets import draw
+from places import FIXTURES
+from typer.testing import CliRunner
+
+from erdctl.cli.app import build
+from erdctl.io.compared import json_schema
+
+APP = build(["compare", "identify"])
+TABLE_2 = json.loads((FIXTURES / "table_2.json").read_text())
+
+
+def run(*words: object, data: bytes | None = None) -> Any:
+    return CliRunner().invoke(APP, [str(w) for w in words], input=data)
+
+
+def damper(path: Path, c_vis: float, **labels: str) -> Path:
+    """A parameter file with errors."""
+    document = json.loads(json.dumps(TABLE_2))
+    for d in ("compression", "release"):
+        for symbol, v in document[d].items():
+            value = v if isinstance(v, float | int) else v["value"]
+            document[d][symbol] = {"value": value, "stderr": 0.01 * value}
+    document["compression"]["c_vis"] = {"value": c_vis, "stderr": 0.5}
+    document["provenance"] = labels
+    path.write_text(json.dumps(document))
+    return path
+
+
+@pytest.fixture(scope="module")
+def campaign(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("campaign") / "results.parquet"
+    pq.write_table(draw(3, dampers=4, months=40)[0], path)
+    return path
+
+
+def test_two_parameter_files(tmp_path: Path) -> None:
+    a, b = damper(tmp_path / "a.json", 60.0), damper(tmp_path / "b.json", 50.0)
+    done = run("compare", a, b, "--json")
+    assert done.exit_code == 0, done.stderr
+    document = json.loads(done.stdout)
+    jsonschema.validate(document, json_schema())
+    changed = [
+        d for d in document["dampers"][0]["pairs"][0]["differences"] if d["verdict"] == "changed"
+    ]
+    assert [d["parameter"] for d in changed] == ["compression.c_vis"]
+    assert document["dampers"][0]["said"] == ["c_vis in compression fell from 60 to 50 N s/m"]
+    assert "by standard errors" in done.stderr
+
+
+def test_the_order_is_that_of_dates(tmp_path: Path) -> None:
+    a = damper(tmp_path / "a.json", 60.0, date="2024-06-01")
+    b = damper(tmp_path / "b.json", 50.0, date="2024-01-01")
+    assert "c_vis in compression grew from 50 to 60" in run("compare", a, b).stderr
+
+
+def test_dampers_side_by_side(tmp_path: Path) -> None:
+    files = [damper(tmp_path / f"{n}.json", c, damper=n) for n, c in (("fl", 60.0), ("fr", 40.0))]
+    assert (
+        "c_vis in compression fell from 60 to 40 N s/m (against fl)"
+        in run("compare", *files).stderr
+    )
+
+
+def test_what_identify_writes_tells_a_covariance(tmp_path: Path) -> None:
+    for name in ("schedule_60s", "healthy_campaign"):
+        log = next(FIXTURES.glob(f"{name}.parquet"))
+        assert run("identify", log, "-o", tmp_path / f"{name}.json").exit_code == 0
+    done = run("compare", *sorted(tmp_path.glob("*.json")))
+    assert done.exit_code == 0, done.stderr
+    assert "judged together, with their covariance" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("band", "code", "word"),
+    [
+        ("{ low = 40 }", 0, "pass"),
+        ("{ low = 60.5 }", 0, "cannot tell"),
+        ("{ low = 70 }", 1, "fail"),
+    ],
+)
+def test_exit_codes_of_limits(tmp_path: Path, band: str, code: int, word: str) -> None:
+    limits = tmp_path / "limits.toml"
+    limits.write_text(f'"compression.c_vis" = {band}')
+    done = run("compare", damper(tmp_path / "a.json", 60.0), "--limits", limits, "--json")
+    assert done.exit_code == code
+    document = json.loads(done.stdout)
+    assert document["dampers"][0]["limits"][0]["verdict"] == word
+    assert sum(document["checks"].values()) == 1
+    strict = run("compare", tmp_path / "a.json", "--limits", limits, "--strict")
+    assert strict.exit_code == (0 if word == "pass" else 1)
+
+
+def test_a_campaign_as_document_tables_picture_and_page(tmp_path: Path, campaign: Path) -> None:
+    limits = tmp_path / "limits.json"
+    limits.write_text('{"c_vis": {"low": 10, "high": 90}}')
+    out = [tmp_path / f"c.{s}" for s in ("json", "csv", "md", "tex", "png", "html")]
+    done = run(
+        "compare", campaign, "--limits", limits, "-o", out[0], "--plot", out[4], "--report", out[5]
+    )
+    assert done.exit_code == 0, done.stderr
+    for path in out[1:4]:
+        assert run("compare", campaign, "--limits", limits, "-o", path).exit_code == 0
+    document = json.loads(out[0].read_text())
+    jsonschema.validate(document, json_schema())
+    rows = list(csv.DictReader(out[1].open()))
+    trends = [t for d in document["dampers"] for t in d["trends"]]
+    assert {(r["parameter"], r["change"]) for r in rows} >= {
+        (t["parameter"], t["form"]) for t in trends if not t["appeared"]
+    }
+    assert {r["verdict"] for r in rows if r["parameter"] == "release.c_vis"} == {"pass"}
+    assert out[2].read_text().startswith("| damper | parameter |")
+    assert r"\toprule" in out[3].read_text()
+    assert out[4].read_bytes()[:4] == b"\x89PNG"
+    assert "<h1>" in out[5].read_text()
+
+
+def test_the_same_again(campaign: Path) -> None:
+    assert run("compare", campaign, "--json").stdout == run("compare", campaign, "--json").stdout
+
+
+def test_a_table_on_stdin(campaign: Path) -> None:
+    done = run("compare", "-", "--json", data=campaign.read_bytes())
+    assert done.exit_code == 0, done.stderr
+    assert json.loads(done.stdout)["logs"] > 100
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "said"),
+    [
+        (["nothing.json"], 2, "no such file"),
+        (["a.json", "a.json"], 2, "twice"),
+        (["a.json", "-o", "x.xlsx"], 2, ".csv, .md, .tex"),
+        (["a.json", "--plot", "x.gif"], 2, "a picture is one of"),
+        (["a.json", "--plot", "x.png"], 3, "every damper has one log"),
+        (["a.json", "--limits", "bad.toml"], 3, "nothing is called 'viscosity'"),
+        (["bad.toml"], 3, "not a JSON document"),
+    ],
+)
+def test_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: list[str], code: int, said: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    damper(Path("a.json"), 60.0)
+    Path("bad.toml").write_text("viscosity = { low = 1 }")
+    done = run("compare", *words)
+    assert done.exit_code == code
+    assert said in done.stderr
+    assert "Traceback" not in done.stderr
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["a.json", "bad.toml"]
