@@ -126,7 +126,7 @@ def _full(error: OSError) -> typer.Exit:
 
 COMMANDS = (
     "inspect", "identify", "simulate", "validate", "diagnose", "prove", "mimic", "export", "plot",
-    "convert", "derive", "effects", "schema",
+    "convert", "derive", "effects", "schema", "campaign",
 )  # fmt: skip
 
 
