@@ -30,7 +30,7 @@ class Step(StrEnum):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Asked:
+class StepOptions:
     """What is done of each log: the options of the commands that have them.
 
     steps : in their order
@@ -55,15 +55,17 @@ class Job:
 
     name : what the table calls it: the log's path, or the labels of a group
     problem : why nothing can be done of it;  known : hash of the log as it was done before
+    folder : in which relative paths begin, on a worker too
     """
 
     name: str
     paths: tuple[str, ...]
     labels: LogLabels
-    asked: Asked
+    asked: StepOptions
     version: str = __version__
     problem: str | None = None
     known: str | None = field(default=None, compare=False)
+    folder: str = field(default_factory=os.getcwd, compare=False)
 
     @property
     def key(self) -> str:
@@ -101,7 +103,7 @@ def steps_of(text: str, above: float | None) -> tuple[Step, ...]:
 
 def plan(
     logs: Sequence[str],
-    asked: Asked,
+    asked: StepOptions,
     labelling: Labelling = lambda path: None,
     group_by: Sequence[str] = (),
 ) -> list[Job]:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import chdir, contextmanager
 from dataclasses import dataclass, field
 from threading import Lock
 from time import process_time
 from typing import Any
 
 from erdctl.campaign.plan import Job, Step
-from erdctl.core.errors import ComputationProblem, ErdctlError, ExitCode
+from erdctl.core.errors import ComputationProblem, ErdctlError, ExitCode, UsageProblem
 from erdctl.core.version import __version__
 from erdctl.core.workers import one_thread
 from erdctl.interface.diagnose import diagnose
@@ -53,9 +54,10 @@ def done(job: Job) -> Done | None:
     work = _Work(job)
     with _ALONE, one_thread():
         try:
-            if work.unchanged():
-                return None
-            work.run()
+            with _inside(job.folder, job.paths):
+                if work.unchanged():
+                    return None
+                work.run()
         except ErdctlError as error:
             work.fail(str(error), error.exit_code)
         except MemoryError:
@@ -63,6 +65,22 @@ def done(job: Job) -> Done | None:
         except Exception as error:  # noqa: BLE001  # a defect that one log shows must not end the others
             work.fail(f"internal error: {type(error).__name__}: {error}", ExitCode.NOT_COMPLETED)
     return Done(work.entry, work.documents)
+
+
+@contextmanager
+def _inside(folder: str, paths: Sequence[str]) -> Iterator[None]:
+    """Relative paths begin where the command was given, also for a worker elsewhere."""
+    fixed = all(is_url(path) or os.path.isabs(path) for path in paths)
+    if fixed or os.path.realpath(os.getcwd()) == os.path.realpath(folder):
+        yield
+        return
+    if not os.path.isdir(folder):
+        raise UsageProblem(
+            f"a worker does not see the folder {folder}: run the campaign on a disk that all of"
+            " them share, or give URLs"
+        )
+    with chdir(folder):
+        yield
 
 
 def failed(job: Job, error: str) -> Done:

@@ -119,7 +119,7 @@ def command(
       find lab -name '*.csv' | erdctl campaign run - -o results.parquet --steps inspect
     """
     from erdctl.campaign.labels import labels_of_path, pattern_of
-    from erdctl.campaign.plan import Asked, plan, steps_of
+    from erdctl.campaign.plan import StepOptions, plan, steps_of
     from erdctl.campaign.run import entries, run
     from erdctl.core.errors import CheckFailed, UsageProblem
     from erdctl.effects import candidates
@@ -136,7 +136,7 @@ def command(
     chosen, left = _names(only), _names(exclude)
     candidates(chosen, left)  # an unknown name is refused before anything is begun
     _refuse_wrong(maps, text, where, accept)
-    asked = Asked(
+    asked = StepOptions(
         steps=wanted, diagnose_above=diagnose_above, maps=tuple(maps), text=tuple(text),
         where=tuple(where), accept=tuple(accept), effects=chosen, exclude=left, seed=seed,
     )  # fmt: skip

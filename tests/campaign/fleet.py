@@ -19,7 +19,11 @@ import pyarrow.parquet as pq
 Array = npt.NDArray[np.float64]
 
 RATE, FINE = 200, 10  # Hz; steps of the solution for each sample
-SECONDS = 2.0  # of a record
+SECONDS = 1.5  # of a record
+# Their duty; None for one that is stepped at random.
+RECORDS = {
+    "null-1": 0.0, "null-2": 0.0, "low": 0.1, "held": 0.3, "steps-1": None, "steps-2": None,
+}  # fmt: skip
 NOISE = 0.15  # N rms
 BEGIN = 0.3  # of the months, from which wear grows
 LABEL = r"(?P<damper>D[0-9]+)/(?P<date>[0-9]+-[0-9]+)"
@@ -43,7 +47,7 @@ def health(damper: int, month: int, months: int, wearing: dict[str, int] = WEARI
 
 
 def log(damper: int, month: int, state: Health, noise: float = NOISE) -> pa.Table:
-    """One log of three records: no control, a held duty, duty steps; 6 s at 200 Hz."""
+    """One log of six records: no control, held duties, duty steps; 9 s at 200 Hz."""
     own = np.random.default_rng([20, damper])
     draw = np.random.default_rng([damper, month])
     k, c, sigma, beta, T_d = (
@@ -51,16 +55,16 @@ def log(damper: int, month: int, state: Health, noise: float = NOISE) -> pa.Tabl
     )
     kept = 1.0 - state.leak
     parts = []
-    for name in ("null", "held", "steps"):
+    for name, level in RECORDS.items():
         fine = np.arange(int(SECONDS * RATE * FINE)) / (RATE * FINE)
         tones = [(a, f * draw.uniform(0.9, 1.1), draw.uniform(0, 2 * np.pi))
                  for a, f in ((0.008, 1.1), (0.004, 2.9), (0.002, 5.3))]  # fmt: skip
         x = sum(a * np.sin(2 * np.pi * f * fine + p) for a, f, p in tones)
         v = sum(2 * np.pi * f * a * np.cos(2 * np.pi * f * fine + p) for a, f, p in tones)
         duty = np.zeros_like(fine)
-        if name == "held":
-            duty[:] = 0.3
-        elif name == "steps":
+        if level is not None:
+            duty[:] = level
+        else:
             duty = np.repeat(draw.choice([0.0, 0.1, 0.2, 0.4], 10), len(fine) // 10)
         piston, speed = _behind(x, v, state.play)
         yielding = _lagged(kept * sigma * duty**beta, 1.0 / (RATE * FINE * T_d))

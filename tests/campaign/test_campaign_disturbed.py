@@ -1,0 +1,142 @@
+"""The table is the same bit for bit, whoever did the work and whatever came between."""
+
+from __future__ import annotations
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from campaigns import ENV, begun, entries, rows, run
+from conftest import DAMPERS, MONTHS
+
+ALL = DAMPERS * MONTHS
+
+
+@pytest.fixture
+def here(lab: Path, tmp_path: Path) -> Path:
+    """The same logs, of which nothing is done."""
+    (tmp_path / "lab").symlink_to(lab / "lab")
+    return tmp_path
+
+
+def until(done: int, folder: Path, process: subprocess.Popen[str]) -> None:
+    """Wait for so many logs; the campaign must not be over by then."""
+    end = time.monotonic() + 120.0
+    while len(entries(folder)) < done:
+        assert process.poll() is None, process.communicate()[1]
+        assert time.monotonic() < end, "no progress"
+        time.sleep(0.01)
+
+
+def same(lab: Path, here: Path) -> None:
+    """The table of an undisturbed campaign, no log lost and none there twice."""
+    assert (here / "results.parquet").read_bytes() == (lab / "results.parquet").read_bytes()
+    found = [(r["log"], r["parameter"]) for r in rows(here / "results.parquet")]
+    assert len(found) == len(set(found)) == 10 * ALL
+    assert len(entries(here / "results")) == ALL
+
+
+def test_killed_at_random_moments_and_taken_up(lab: Path, here: Path) -> None:
+    """A kill -9 loses what was in hand; measure_campaign.py does it 50 times."""
+    draw = random.Random(4)
+    before = 0
+    for _ in range(2):
+        process = begun(here, "results.parquet", "--jobs", "2")
+        until(before + draw.randint(1, 12), here / "results", process)
+        process.kill()
+        process.communicate()
+        kept = len(entries(here / "results"))
+        assert before < kept < ALL
+        assert not (here / "results.parquet").exists()
+        before = kept
+    said = run(here, "results.parquet", "--jobs", "1")
+    assert f"{ALL - before} done now, {before} before" in said
+    same(lab, here)
+    assert not [*here.rglob("*.tmp")]
+
+
+def test_nothing_is_done_twice_unless_it_changed(lab: Path, tmp_path: Path) -> None:
+    """By the bytes of a log; by options and version see `test_campaign_plan`."""
+    shutil.copytree(lab / "lab", tmp_path / "lab")
+    shutil.copytree(lab / "results", tmp_path / "results")
+    said = run(tmp_path, "results.parquet", "--jobs", "1")
+    assert f"0 done now, {ALL} before" in said
+    same(lab, tmp_path)
+    changed = tmp_path / "lab" / "D01" / "2020-01.parquet"
+    shutil.copyfile(tmp_path / "lab" / "D04" / "2020-02.parquet", changed)
+    said = run(tmp_path, "again.parquet", "--keep", "results", "--jobs", "1")
+    assert f"1 done now, {ALL - 1} before" in said
+    first = rows(tmp_path / "again.parquet")[0]
+    assert first["log"] == "lab/D01/2020-01.parquet"
+    assert (
+        first["hash"]
+        == {r["log"]: r for r in rows(lab / "results.parquet")}["lab/D04/2020-02.parquet"]["hash"]
+    )
+
+
+def test_one_campaign_at_a_time_in_a_folder(here: Path) -> None:
+    process = begun(here, "results.parquet", "--jobs", "1")
+    until(1, here / "results", process)
+    said = run(here, "other.parquet", "--keep", "results", code=2)
+    assert "another campaign is at work there" in said
+    process.terminate()
+    assert "stopped by SIGTERM" in process.communicate()[1]
+
+
+class Workers:
+    """A Dask scheduler and its workers, each a process."""
+
+    def __init__(self, folder: Path, count: int) -> None:
+        self.file = folder / "scheduler.json"
+        self.folder = folder
+        self.processes = [
+            self._start("dask_scheduler", "--port", "0", "--scheduler-file", str(self.file))
+        ]
+        end = time.monotonic() + 60.0
+        while not self.file.exists():
+            assert time.monotonic() < end, "the scheduler does not come up"
+            time.sleep(0.05)
+        self.workers = [
+            self._start(
+                "dask_worker", "--scheduler-file", str(self.file), "--nthreads", "1", "--no-nanny",
+                "--local-directory", str(folder),
+            )
+            for _ in range(count)
+        ]  # fmt: skip
+
+    def _start(self, program: str, *words: str) -> subprocess.Popen[bytes]:
+        return subprocess.Popen(
+            [sys.executable, "-m", f"distributed.cli.{program}", *words, "--no-dashboard"],
+            env=ENV, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd="/",
+        )  # fmt: skip
+
+    def end(self) -> None:
+        for process in [*self.workers, *self.processes]:
+            process.kill()
+            process.wait()
+
+
+@pytest.fixture
+def three_workers(here: Path) -> Iterator[Workers]:
+    pytest.importorskip("distributed")
+    found = Workers(here, 3)
+    yield found
+    found.end()
+
+
+def test_a_cluster_that_loses_a_worker(lab: Path, here: Path, three_workers: Workers) -> None:
+    """Three workers, one killed half-way."""
+    process = begun(here, "results.parquet", "--cluster", str(three_workers.file))
+    until(ALL // 3, here / "results", process)
+    os.kill(three_workers.workers[0].pid, signal.SIGKILL)
+    said = process.communicate()[1]
+    assert process.returncode == 0, said
+    assert f"{ALL} done now, 0 before" in said
+    same(lab, here)
