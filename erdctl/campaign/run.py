@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 from erdctl.campaign.plan import Job
 from erdctl.campaign.work import Done, done, failed, refused
 from erdctl.core.errors import ComputationProblem, ExitCode
-from erdctl.core.workers import pool
+from erdctl.core.workers import leave, pool
 from erdctl.io.campaign_journal import Entry, Journal
 
 DIED = "its worker process was killed, perhaps for want of memory"
@@ -99,7 +99,7 @@ def _outcomes(jobs: Sequence[Job], crew: Crew) -> Iterator[tuple[Job, Done | Non
             else:
                 suspects.extend(loss.jobs)
         finally:
-            executor.shutdown(wait=False)
+            leave(executor)
 
 
 class _Died(Exception):

@@ -7,14 +7,13 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import chdir, contextmanager
 from dataclasses import dataclass, field
-from threading import Lock
 from time import process_time
 from typing import Any
 
 from erdctl.campaign.plan import Job, Step
 from erdctl.core.errors import ComputationProblem, ErdctlError, ExitCode, UsageProblem
 from erdctl.core.version import __version__
-from erdctl.core.workers import one_thread
+from erdctl.core.workers import alone
 from erdctl.interface.diagnose import diagnose
 from erdctl.interface.identify import Identified, identify
 from erdctl.interface.inspect import inspect
@@ -26,9 +25,6 @@ from erdctl.io.urls import fetch, is_url
 
 MOST_ERROR = 500  # characters of an error in a table
 SIGMAS = 1.96  # half a 95 % interval
-# A worker of a cluster may have several threads. Linear algebra is limited for a whole process, and
-# nothing would be gained: the tasks are the parallelism.
-_ALONE = Lock()
 
 
 @dataclass(frozen=True)
@@ -52,7 +48,7 @@ def done(job: Job) -> Done | None:
     import erdctl.model.recurrences  # noqa: F401
 
     work = _Work(job)
-    with _ALONE, one_thread():
+    with alone():
         try:
             with _inside(job.folder, job.paths):
                 if work.unchanged():

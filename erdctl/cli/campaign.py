@@ -192,15 +192,14 @@ class _Tally:
 @contextmanager
 def _crew(jobs: int | None, address: str | None, most: int) -> Iterator[Crew]:
     from erdctl.campaign.run import Crew, here
+    from erdctl.core.cluster import cluster_or_none
     from erdctl.core.workers import cores
 
-    if address is None:
-        yield here(min(jobs or cores(), most))
-        return
-    from erdctl.core.cluster import cluster
-
-    with cluster(address) as found:
-        yield Crew(found.executor, found.in_hand)
+    with cluster_or_none(address) as there:
+        if there is None:
+            yield here(min(jobs or cores(), most))
+        else:
+            yield Crew(there.executor, there.in_hand)
 
 
 def _refuse_wrong(

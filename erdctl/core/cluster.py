@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import os
 from collections.abc import Iterator
-from concurrent.futures import Executor
+from concurrent.futures import CancelledError, Executor
 from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import import_module
@@ -24,16 +24,37 @@ class Cluster:
 
     client: Any
 
+    @property
+    def lost(self) -> tuple[type[BaseException], ...]:
+        """What a future raises whose worker died again and again, or whose cluster has gone."""
+        return CancelledError, import_module("distributed").KilledWorker
+
     def executor(self) -> Executor:
         """A new executor, whose end is not that of the cluster."""
         # Not "pure", by which equal calls would be one: a call is done when it is asked for.
         found: Executor = self.client.get_executor(pure=False)
         return found
 
+    def shared(self, what: object) -> Any:
+        """What many tasks need, sent to every worker once; as an argument a task gets it whole."""
+        self.client.wait_for_workers(1)
+        (found,) = self.client.scatter([what], broadcast=True, hash=False)
+        return found
+
     def in_hand(self) -> int:
         """How many tasks to have there at a time: of a cluster that grows, more as it does."""
         threads = sum(self.client.nthreads().values())
         return max(FEWEST, EACH * int(threads))
+
+
+@contextmanager
+def cluster_or_none(address: str | None) -> Iterator[Cluster | None]:
+    """The cluster of a scheduler where one is named; see `cluster`."""
+    if address is None:
+        yield None
+        return
+    with cluster(address) as found:
+        yield found
 
 
 @contextmanager

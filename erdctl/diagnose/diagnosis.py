@@ -12,6 +12,7 @@ import numpy as np
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import untestable
 from erdctl.bench.rig import Rig, look
+from erdctl.core.cluster import Cluster
 from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Recording
@@ -114,6 +115,7 @@ def diagnose(
     limits: bool = True,
     learning: bool = True,
     jobs: int = 1,
+    cluster: Cluster | None = None,
     progress: Progress = lambda stage, what: None,
 ) -> Diagnosis:
     """Diagnose a recording with a measured force against a catalogue of effects.
@@ -127,6 +129,7 @@ def diagnose(
     learning : whether to learn what no effect explains; which effects are found does not rest on
         that, but for those that stand in for a law
     jobs : processes that try hypotheses; the results are the same for any number
+    cluster : whose workers try them, in place of this machine's
     """
     rig = look(recording).accept(accepted)
     recording = rig.usable()
@@ -151,11 +154,13 @@ def diagnose(
     for effect in candidates:
         allowed |= effect.allowed(problem.block.signals, problem.block.force)
     with ExitStack() as pools:
-        workers = pools.enter_context(executor((thin, seen, problem), jobs, progress, allowed))
+        workers = pools.enter_context(
+            executor((thin, seen, problem), jobs, progress, allowed, cluster)
+        )
         searched = search(thin, testable, most, workers, seed, given, untested)
         if given is None and to_be_searched_with_lags(thin, searched):
             lagging = [without_lags_held(p) for p in (thin, seen, problem)]
-            others = pools.enter_context(executor(lagging, jobs, progress, allowed))
+            others = pools.enter_context(executor(lagging, jobs, progress, allowed, cluster))
             with_lags = search(lagging[0], testable, most, others, seed, None, untested)
             if earned_by_lags(thin, searched, with_lags):
                 searched, workers = with_lags, others

@@ -7,14 +7,17 @@ import random
 import shutil
 import signal
 import subprocess
-import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from campaigns import ENV, begun, entries, rows, run
+from campaigns import begun, entries, rows, run
 from conftest import DAMPERS, MONTHS
+from dask_workers import DaskWorkers
+from typer.testing import CliRunner
+
+from erdctl.cli.app import build
 
 ALL = DAMPERS * MONTHS
 
@@ -90,49 +93,18 @@ def test_one_campaign_at_a_time_in_a_folder(here: Path) -> None:
     assert "stopped by SIGTERM" in process.communicate()[1]
 
 
-class Workers:
-    """A Dask scheduler and its workers, each a process."""
-
-    def __init__(self, folder: Path, count: int) -> None:
-        self.file = folder / "scheduler.json"
-        self.folder = folder
-        self.processes = [
-            self._start("dask_scheduler", "--port", "0", "--scheduler-file", str(self.file))
-        ]
-        end = time.monotonic() + 60.0
-        while not self.file.exists():
-            assert time.monotonic() < end, "the scheduler does not come up"
-            time.sleep(0.05)
-        self.workers = [
-            self._start(
-                "dask_worker", "--scheduler-file", str(self.file), "--nthreads", "1", "--no-nanny",
-                "--local-directory", str(folder),
-            )
-            for _ in range(count)
-        ]  # fmt: skip
-
-    def _start(self, program: str, *words: str) -> subprocess.Popen[bytes]:
-        return subprocess.Popen(
-            [sys.executable, "-m", f"distributed.cli.{program}", *words, "--no-dashboard"],
-            env=ENV, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd="/",
-        )  # fmt: skip
-
-    def end(self) -> None:
-        for process in [*self.workers, *self.processes]:
-            process.kill()
-            process.wait()
-
-
 @pytest.fixture
-def three_workers(here: Path) -> Iterator[Workers]:
+def three_workers(here: Path) -> Iterator[DaskWorkers]:
     pytest.importorskip("distributed")
-    found = Workers(here, 3)
+    found = DaskWorkers(here, 3)
     yield found
     found.end()
 
 
-def test_a_cluster_that_loses_a_worker(lab: Path, here: Path, three_workers: Workers) -> None:
-    """Three workers, one killed half-way."""
+def test_a_cluster_that_loses_a_worker(
+    lab: Path, here: Path, three_workers: DaskWorkers, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Three workers, one killed half-way; and a diagnosis by those that are left."""
     process = begun(here, "results.parquet", "--cluster", str(three_workers.file))
     until(ALL // 3, here / "results", process)
     os.kill(three_workers.workers[0].pid, signal.SIGKILL)
@@ -140,3 +112,15 @@ def test_a_cluster_that_loses_a_worker(lab: Path, here: Path, three_workers: Wor
     assert process.returncode == 0, said
     assert f"{ALL} done now, 0 before" in said
     same(lab, here)
+    monkeypatch.chdir(here)
+    log = "lab/D02/2020-10.parquet"
+    effects = ("--effects", "backlash,coulomb_friction,input_delay")
+    for name, more in (("here", ("--jobs", "1")), ("there", ("--cluster", "scheduler.json"))):
+        command("diagnose", log, *effects, "-o", f"{name}.json", *more)
+    assert Path("here.json").read_bytes() == Path("there.json").read_bytes()
+
+
+def command(*words: str) -> str:
+    done = CliRunner().invoke(build([words[0]]), [*words], catch_exceptions=False)
+    assert done.exit_code == 0, done.stderr
+    return done.stderr
