@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 
 from erdctl.campaign.plan import Job
 from erdctl.campaign.work import Done, done, failed, refused
+from erdctl.core.cluster import GONE
 from erdctl.core.errors import ComputationProblem, ExitCode
 from erdctl.core.workers import leave, pool
 from erdctl.io.campaign_journal import Entry, Journal
@@ -135,7 +136,7 @@ def _among(
                     lost.append(job)
                 except CancelledError:
                     raise ComputationProblem(
-                        "the cluster has gone; what was done is kept: run it again"
+                        f"{GONE}; what was done is kept: run it again"
                     ) from None
                 except Exception as error:  # noqa: BLE001  # of the cluster's own: a worker that cannot do it
                     yield job, failed(job, f"{type(error).__name__}: {error}")

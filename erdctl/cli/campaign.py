@@ -26,7 +26,7 @@ class Action(StrEnum):
 
 def command(
     action: Annotated[Action, typer.Argument(metavar="run", help="The word run.")],
-    places: Annotated[
+    logs: Annotated[
         list[str],
         typer.Argument(
             metavar="PATH...",
@@ -112,11 +112,11 @@ def command(
 
     \b
     Examples:
-      erdctl campaign run lab -o results.parquet --jobs 2
-      erdctl campaign run 'lab/*/*.csv' -o results.parquet --diagnose-above 0.05 \\
+      erdctl campaign run lab -o results.parquet --diagnose-above 0.05 \\
         --label '(?P<damper>D[0-9]+)/(?P<date>[0-9-]+)'
       erdctl campaign run lab -o dampers.parquet --label '(?P<damper>D[0-9]+)/' --group-by damper
       find lab -name '*.csv' | erdctl campaign run - -o results.parquet --steps inspect
+      erdctl campaign run 's3://bench/2024-05/**/*.parquet' -o may.parquet --cluster tcp://hpc:8786
     """
     from erdctl.campaign.labels import labels_of_path, pattern_of
     from erdctl.campaign.plan import StepOptions, plan, steps_of
@@ -144,7 +144,7 @@ def command(
     groups = _names([group_by] if group_by else [])
     if groups and pattern is None:
         raise UsageProblem("--group-by takes labels: say with --label what a path says of its log")
-    found = find_logs(places, besides=output)
+    found = _without_table(find_logs(logs), output)
     planned = plan(found, asked, lambda path: pattern and labels_of_path(path, pattern), groups)
     folder = keep or _stem(output)
     with journal(folder) as kept:
@@ -218,6 +218,21 @@ def _refuse_wrong(
     unknown = [code for code in accept if code not in CODES]
     if unknown:
         raise UsageProblem(f"no rig check '{unknown[0]}'; there are {', '.join(CODES)}")
+
+
+def _without_table(found: list[str], output: str) -> list[str]:
+    """Logs without the table of an earlier run that lies among them and is written anew."""
+    from os.path import abspath
+
+    from erdctl.core.errors import UsageProblem
+    from erdctl.io.campaign_out import is_table
+
+    among = [path for path in found if abspath(path) == abspath(output)]
+    if among and not is_table(output):
+        raise UsageProblem(
+            f"-o {output} would be written over a log that is read here; name another file"
+        )
+    return [path for path in found if path not in among]
 
 
 def _names(options: Sequence[str]) -> tuple[str, ...]:

@@ -23,7 +23,7 @@ MOST = 3  # files that a message names
 OTHERS = frozenset({
     "maps", "fault", "drive", "kind", "record", "span", "normalise", "only", "exclude", "name",
     "concealment", "motion", "colour", "text", "where", "date", "damper", "operator", "new_name",
-    "emulate", "places", "cluster", "label", "group_by", "steps",
+    "emulate", "cluster", "label", "group_by", "steps",
 })  # fmt: skip
 
 

@@ -15,6 +15,7 @@ from erdctl.core.errors import ComputationProblem, UsageProblem
 
 PATIENCE = 10  # seconds for a scheduler to answer
 FEWEST = 64  # tasks in hand, also of a cluster that has yet to grow
+GONE = "the cluster has gone"
 EACH = 4  # tasks in hand for each thread, so that none waits for the next
 
 
@@ -43,7 +44,10 @@ class Cluster:
 
     def in_hand(self) -> int:
         """How many tasks to have there at a time: of a cluster that grows, more as it does."""
-        threads = sum(self.client.nthreads().values())
+        try:
+            threads = sum(self.client.nthreads().values())
+        except OSError:
+            raise ComputationProblem(f"{GONE}; what was done is kept: run it again") from None
         return max(FEWEST, EACH * int(threads))
 
 
@@ -79,7 +83,8 @@ def cluster(address: str) -> Iterator[Cluster]:
     if is_file and not os.path.isfile(address):
         raise UsageProblem(f"--cluster {address}: no such scheduler file")
     # That a worker was lost is said by Dask in many lines, and it mends it.
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    for name in [n for n in logging.root.manager.loggerDict if n.startswith("distributed")]:
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     try:
         where = {"scheduler_file": address} if is_file else {"address": address}
         client = distributed.Client(timeout=PATIENCE, set_as_default=False, **where)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import partial
 
 import numpy as np
 
@@ -128,8 +129,7 @@ def diagnose(
         rests on that
     learning : whether to learn what no effect explains; which effects are found does not rest on
         that, but for those that stand in for a law
-    jobs : processes that try hypotheses; the results are the same for any number
-    cluster : whose workers try them, in place of this machine's
+    jobs, cluster : processes here, or a cluster, that try hypotheses; the results are the same
     """
     rig = look(recording).accept(accepted)
     recording = rig.usable()
@@ -154,13 +154,12 @@ def diagnose(
     for effect in candidates:
         allowed |= effect.allowed(problem.block.signals, problem.block.force)
     with ExitStack() as pools:
-        workers = pools.enter_context(
-            executor((thin, seen, problem), jobs, progress, allowed, cluster)
-        )
+        given_to = partial(executor, jobs=jobs, progress=progress, most=allowed, cluster=cluster)
+        workers = pools.enter_context(given_to((thin, seen, problem)))
         searched = search(thin, testable, most, workers, seed, given, untested)
         if given is None and to_be_searched_with_lags(thin, searched):
             lagging = [without_lags_held(p) for p in (thin, seen, problem)]
-            others = pools.enter_context(executor(lagging, jobs, progress, allowed, cluster))
+            others = pools.enter_context(given_to(lagging))
             with_lags = search(lagging[0], testable, most, others, seed, None, untested)
             if earned_by_lags(thin, searched, with_lags):
                 searched, workers = with_lags, others

@@ -14,7 +14,7 @@ import pyarrow.parquet as pq
 
 from erdctl.io.atomic import output
 from erdctl.io.campaign_journal import Entry
-from erdctl.io.campaign_table import SCHEMA
+from erdctl.io.campaign_table import NAME, SCHEMA
 
 GROUP = 1 << 16  # rows that are written at a time
 
@@ -44,6 +44,15 @@ def write_table(entries: Iterable[Entry], path: str, folder: str) -> int:
         if rows or not count:
             flush()
     return count
+
+
+def is_table(path: str) -> bool:
+    """Whether a file is the table of a campaign."""
+    try:
+        metadata = pq.read_schema(path).metadata or {}
+    except (OSError, pa.ArrowException):
+        return False
+    return bool(metadata.get(b"schema") == NAME.encode())
 
 
 def rows_of(entry: Entry, beside: str = ".") -> list[dict[str, Any]]:

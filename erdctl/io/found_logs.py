@@ -16,25 +16,20 @@ from erdctl.io.sources import STDIN
 TEXTS = (".txt", ".asc", ".dat")  # suffixes of lab's texts, which say nothing of the format
 
 
-def find_logs(
-    places: Sequence[str], *, listed: TextIO | None = None, besides: str | None = None
-) -> list[str]:
+def find_logs(places: Sequence[str], listed: TextIO | None = None) -> list[str]:
     """Paths and URLs of logs, each once, in order of their names.
 
     places : files, which need not exist; folders, for all logs below them by their suffixes;
         patterns with `*`, `?` and `**`; URLs, also with patterns; and "-" for a list of all these,
         one a line, on standard input (`listed`)
-    besides : a file that is no log wherever it lies: what is about to be written
     Raises UsageProblem for a pattern or folder without a log, and if nothing is named at all.
     """
     found: dict[str, str] = {}
-    left = None if besides is None else os.path.abspath(besides)
     for place in _places(places, listed or sys.stdin):
         # Two ways of writing one path are one log; what is first in order gives its name.
         for path in _at(place):
             key = path if urls.is_url(path) else os.path.abspath(path)
-            if key != left:
-                found[key] = min(found.get(key, path), path)
+            found[key] = min(found.get(key, path), path)
     if not found:
         raise UsageProblem("no log is named: the list is empty")
     return sorted(found.values())

@@ -136,6 +136,10 @@ def test_a_bad_log_is_a_row_with_its_error(tmp_path: Path, monkeypatch: pytest.M
     said = campaign("logs", "logs/gone.csv", "-o", "r.parquet", "--jobs", "1", code=1)
     assert "1 done now, 5 before" in said
     assert rows(tmp_path / "r.parquet") == found
+    # A table among the logs is none of them; a log is not written over.
+    said = campaign("logs/sound.parquet", ".", "-o", "r.parquet", "--jobs", "1", code=1)
+    assert len(rows(tmp_path / "r.parquet")) == len(bad) - 1 + 10
+    assert "written over a log" in campaign("logs", "-o", "logs/sound.parquet", code=2)
 
 
 def test_only_what_falls_short_is_diagnosed(

@@ -44,6 +44,7 @@ CALLS = {
     "plot": "plot {logs} --params {params} --before {before} -o {output}",
     "convert": "convert {log} {output}",
     "derive": "derive {geometry} -o {output}",
+    "campaign": "campaign run {logs} -o {output}",
     "effects": "effects new bore_wear --from {source} -o {output}",
 }
 SUFFIX = {"report": ".html", "plot": ".png"}

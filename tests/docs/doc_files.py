@@ -84,6 +84,14 @@ def learned(path: Path) -> None:
     path.write_text(json.dumps(document))
 
 
+def a_lab(path: Path) -> None:
+    """Logs of two dampers in folders of their own."""
+    for name in ("D01/2024-05.csv", "D02/2024-05.csv"):
+        log = path / name
+        log.parent.mkdir(parents=True)
+        bench("sine_2Hz_11mm_pwm0", "steps_1")(log)
+
+
 FILES: dict[str, Make] = {
     "bench.csv": bench("sine_2Hz_11mm_pwm0", "steps_1", "steps_3"),
     "bench.parquet": bench("sine_2Hz_11mm_pwm0", "steps_1", "steps_3"),
@@ -103,6 +111,7 @@ FILES: dict[str, Make] = {
     "new.json": copy("table_2.json"),
     "geometry.json": copy("geometry_inove.json"),
     "learned.json": learned,
+    "lab": a_lab,
 }
 
 
