@@ -125,8 +125,7 @@ def diagnose(
         contain is not found again
     free : record effects, which are estimated and not named
     accepted : rig checks that the user says are right as they are
-    limits : whether to say from which size on what was not named would have shown; no other answer
-        rests on that
+    limits : say from which size what was not named would have shown; nothing else rests on that
     learning : whether to learn what no effect explains; which effects are found does not rest on
         that, but for those that stand in for a law
     jobs, cluster : processes here, or a cluster, that try hypotheses; the results are the same
