@@ -13,6 +13,7 @@ import msgspec
 
 from erdctl.campaign.labels import LogLabels, common
 from erdctl.core.errors import UsageProblem
+from erdctl.core.messages import as_text
 from erdctl.core.version import __version__
 from erdctl.diagnose.thresholds import MOST_EFFECTS
 
@@ -70,7 +71,8 @@ class Job:
     @property
     def key(self) -> str:
         """SHA-256 of all that the outcome depends on beside the bytes of the logs."""
-        what = (self.name, self.paths, self.labels, self.asked, self.version, self.problem)
+        paths = [as_text(path) for path in self.paths]
+        what = (self.name, paths, self.labels, self.asked, self.version, self.problem)
         return hashlib.sha256(msgspec.json.encode(what)).hexdigest()
 
     def document(self, step: Step) -> str:
@@ -117,17 +119,19 @@ def plan(
     for path in logs:
         problem, labels = None, LogLabels()
         try:
-            labels = labelling(path) or labels
+            labels = labelling(as_text(path)) or labels
         except UsageProblem as error:
             problem = str(error)
         values = tuple(labels.value(name) or "" for name in group_by)
         lacking = [name for name, value in zip(group_by, values, strict=True) if not value]
         if problem is None and lacking:
-            problem = f"{path}: its path does not say {', '.join(lacking)}, see --label"
+            problem = f"{as_text(path)}: its path does not say {', '.join(lacking)}, see --label"
         if group_by and problem is None:
             groups.setdefault(values, []).append((path, labels))
         else:
-            jobs.append(Job(name=path, paths=(path,), labels=labels, asked=asked, problem=problem))
+            jobs.append(
+                Job(name=as_text(path), paths=(path,), labels=labels, asked=asked, problem=problem)
+            )
     for values, members in groups.items():
         name = ",".join(f"{n}={v}" for n, v in zip(group_by, values, strict=True))
         jobs.append(

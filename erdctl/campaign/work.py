@@ -12,6 +12,7 @@ from typing import Any
 
 from erdctl.campaign.plan import Job, Step
 from erdctl.core.errors import ComputationProblem, ErdctlError, ExitCode, UsageProblem
+from erdctl.core.messages import as_text
 from erdctl.core.version import __version__
 from erdctl.core.workers import alone
 from erdctl.interface.diagnose import diagnose
@@ -100,7 +101,7 @@ class _Work:
         self.job, self.asked, self.documents = job, job.asked, dict[str, bytes]()
         labels = job.labels
         self.entry = Entry(
-            key=job.key, log=job.name, logs=[*job.paths], version=job.version,
+            key=job.key, log=job.name, logs=[as_text(path) for path in job.paths], version=job.version,
             damper=labels.damper, corner=labels.corner, date=labels.date,
             conditions=dict(labels.conditions),
         )  # fmt: skip

@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+from concurrent.futures import Executor, Future
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,15 @@ import pyarrow.parquet as pq
 from places import ROOT
 
 ENV = {**os.environ, "PYTHONPATH": str(ROOT), "OPENBLAS_NUM_THREADS": "1"}
+
+
+class AtOnce(Executor):
+    """Does a job in this process, when it is asked to: no worker has to be started."""
+
+    def submit(self, fn: Any, /, *args: Any, **options: Any) -> Future[Any]:
+        out: Future[Any] = Future()
+        out.set_result(fn(*args, **options))
+        return out
 
 
 def words(where: Path, table: str, *more: str) -> list[str]:

@@ -18,17 +18,15 @@ import signal
 import sys
 import time
 from collections import defaultdict
-from concurrent.futures import Executor, Future
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
-from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 import fleet
 import pyarrow.parquet as pq
-from campaigns import begun, entries, rows, run
+from campaigns import AtOnce, begun, entries, rows, run
 from dask_workers import DaskWorkers
 
 ABOVE = "0.01"  # NRMSE: three times what a sound damper has
@@ -80,15 +78,6 @@ def timed(where: Path) -> None:
     run(where, "again.parquet", "--keep", "results", "--jobs", str(WORKERS),
         "--diagnose-above", ABOVE)  # fmt: skip
     print(f"nothing to do: {time.monotonic() - at:.1f} s")
-
-
-class AtOnce(Executor):
-    """Does a job when it is asked to: a process that is forked has no workers of its own."""
-
-    def submit(self, fn: Any, /, *args: Any, **options: Any) -> Future[Any]:
-        out: Future[Any] = Future()
-        out.set_result(fn(*args, **options))
-        return out
 
 
 def killed(sound: Path, where: Path, times: int) -> None:

@@ -11,12 +11,14 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
+import fleet
 import pytest
-from campaigns import begun, entries, rows, run
+from campaigns import AtOnce, begun, entries, rows, run
 from conftest import DAMPERS, MONTHS
 from dask_workers import DaskWorkers
 from typer.testing import CliRunner
 
+from erdctl.campaign import run as room
 from erdctl.cli.app import build
 
 ALL = DAMPERS * MONTHS
@@ -50,11 +52,15 @@ def test_killed_at_random_moments_and_taken_up(lab: Path, here: Path) -> None:
     """A kill -9 loses what was in hand; measure_campaign.py does it 50 times."""
     draw = random.Random(4)
     before = 0
-    for _ in range(2):
+    for by in (signal.SIGKILL, signal.SIGTERM):
         process = begun(here, "results.parquet", "--jobs", "2")
         until(before + draw.randint(1, 12), here / "results", process)
-        process.kill()
-        process.communicate()
+        if by is signal.SIGTERM:  # and one at a time in a folder
+            said = run(here, "other.parquet", "--keep", "results", code=2)
+            assert "another campaign is at work there" in said
+        process.send_signal(by)
+        said = process.communicate()[1]
+        assert ("stopped by SIGTERM" in said) == (by is signal.SIGTERM)
         kept = len(entries(here / "results"))
         assert before < kept < ALL
         assert not (here / "results.parquet").exists()
@@ -65,32 +71,26 @@ def test_killed_at_random_moments_and_taken_up(lab: Path, here: Path) -> None:
     assert not [*here.rglob("*.tmp")]
 
 
-def test_nothing_is_done_twice_unless_it_changed(lab: Path, tmp_path: Path) -> None:
+def test_nothing_is_done_twice_unless_it_changed(
+    lab: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """By the bytes of a log; by options and version see `test_campaign_plan`."""
+    monkeypatch.setattr(room, "here", lambda jobs: room.Crew(AtOnce, lambda: 1))
+    monkeypatch.chdir(tmp_path)
     shutil.copytree(lab / "lab", tmp_path / "lab")
     shutil.copytree(lab / "results", tmp_path / "results")
-    said = run(tmp_path, "results.parquet", "--jobs", "1")
-    assert f"0 done now, {ALL} before" in said
+    again = ("campaign", "run", "lab", "--label", fleet.LABEL, "-o")
+    assert f"0 done now, {ALL} before" in command(*again, "results.parquet")
     same(lab, tmp_path)
-    changed = tmp_path / "lab" / "D01" / "2020-01.parquet"
-    shutil.copyfile(tmp_path / "lab" / "D04" / "2020-02.parquet", changed)
-    said = run(tmp_path, "again.parquet", "--keep", "results", "--jobs", "1")
-    assert f"1 done now, {ALL - 1} before" in said
-    first = rows(tmp_path / "again.parquet")[0]
-    assert first["log"] == "lab/D01/2020-01.parquet"
-    assert (
-        first["hash"]
-        == {r["log"]: r for r in rows(lab / "results.parquet")}["lab/D04/2020-02.parquet"]["hash"]
+    changed, by = (
+        tmp_path / "lab" / name for name in ("D01/2020-01.parquet", "D04/2020-02.parquet")
     )
-
-
-def test_one_campaign_at_a_time_in_a_folder(here: Path) -> None:
-    process = begun(here, "results.parquet", "--jobs", "1")
-    until(1, here / "results", process)
-    said = run(here, "other.parquet", "--keep", "results", code=2)
-    assert "another campaign is at work there" in said
-    process.terminate()
-    assert "stopped by SIGTERM" in process.communicate()[1]
+    shutil.copyfile(by, changed)
+    said = command(*again, "again.parquet", "--keep", "results")
+    assert f"1 done now, {ALL - 1} before" in said
+    hashes = {r["log"]: r["hash"] for r in rows(tmp_path / "again.parquet")}
+    assert hashes["lab/D01/2020-01.parquet"] == hashes["lab/D04/2020-02.parquet"]
+    assert len({*hashes.values()}) == ALL - 1
 
 
 @pytest.fixture

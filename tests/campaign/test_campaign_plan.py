@@ -85,6 +85,14 @@ def test_steps() -> None:
             steps_of(wrong, None)
 
 
+def test_a_name_that_is_no_text() -> None:
+    """Bytes of another encoding, as Python holds them."""
+    (job,) = plan(["lab/m\udcfcll.csv"], StepOptions(), labels)
+    assert job.paths == ("lab/m\udcfcll.csv",)
+    assert job.name == "lab/m\\udcfcll.csv"
+    assert len(job.key) == 64
+
+
 def test_names_of_documents_are_names_of_files() -> None:
     job = Job(
         name="s3://b/ü t/../fl 1.csv?x=/..", paths=(), labels=LogLabels(), asked=StepOptions()

@@ -15,7 +15,7 @@ import numpy as np
 import pyarrow.csv as pc
 import pyarrow.parquet as pq
 import pytest
-from campaigns import document, rows
+from campaigns import AtOnce, document, rows
 from typer.testing import CliRunner
 
 import erdctl
@@ -28,6 +28,12 @@ from erdctl.core import cluster
 from erdctl.core.errors import ComputationProblem
 from erdctl.io.campaign_journal import Entry, journal
 from erdctl.io.campaign_table import NAME, SCHEMA
+
+
+@pytest.fixture(autouse=True)
+def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Worker processes are those of `test_campaign_disturbed` and of the fleet's first table."""
+    monkeypatch.setattr(room, "here", lambda jobs: room.Crew(AtOnce, lambda: 1))
 
 
 def campaign(*words: str, code: int = 0) -> str:
