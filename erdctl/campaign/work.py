@@ -101,8 +101,8 @@ class _Work:
         self.job, self.asked, self.documents = job, job.asked, dict[str, bytes]()
         labels = job.labels
         self.entry = Entry(
-            key=job.key, log=job.name, logs=[as_text(path) for path in job.paths], version=job.version,
-            damper=labels.damper, corner=labels.corner, date=labels.date,
+            key=job.key, log=job.name, logs=[as_text(path) for path in job.paths],
+            version=job.version, damper=labels.damper, corner=labels.corner, date=labels.date,
             conditions=dict(labels.conditions),
         )  # fmt: skip
 

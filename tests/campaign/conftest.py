@@ -8,12 +8,12 @@ import fleet
 import pytest
 from campaigns import run
 
-DAMPERS, MONTHS = 4, 10
+DAMPERS, MONTHS = 4, 6
 
 
 @pytest.fixture(scope="session")
 def lab(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with lab/, 40 logs, and results.parquet."""
+    """A folder with lab/, 24 logs, and results.parquet."""
     where = tmp_path_factory.mktemp("campaign")
     fleet.write(where / "lab", DAMPERS, MONTHS, {"leak": 1, "play": 2, "preload": 3})
     run(where, "results.parquet", "--jobs", "2")

@@ -54,7 +54,7 @@ def test_killed_at_random_moments_and_taken_up(lab: Path, here: Path) -> None:
     before = 0
     for by in (signal.SIGKILL, signal.SIGTERM):
         process = begun(here, "results.parquet", "--jobs", "2")
-        until(before + draw.randint(1, 12), here / "results", process)
+        until(before + draw.randint(1, 7), here / "results", process)
         if by is signal.SIGTERM:  # and one at a time in a folder
             said = run(here, "other.parquet", "--keep", "results", code=2)
             assert "another campaign is at work there" in said
@@ -82,10 +82,7 @@ def test_nothing_is_done_twice_unless_it_changed(
     again = ("campaign", "run", "lab", "--label", fleet.LABEL, "-o")
     assert f"0 done now, {ALL} before" in command(*again, "results.parquet")
     same(lab, tmp_path)
-    changed, by = (
-        tmp_path / "lab" / name for name in ("D01/2020-01.parquet", "D04/2020-02.parquet")
-    )
-    shutil.copyfile(by, changed)
+    shutil.copyfile("lab/D04/2020-02.parquet", "lab/D01/2020-01.parquet")
     said = command(*again, "again.parquet", "--keep", "results")
     assert f"1 done now, {ALL - 1} before" in said
     hashes = {r["log"]: r["hash"] for r in rows(tmp_path / "again.parquet")}
@@ -113,8 +110,8 @@ def test_a_cluster_that_loses_a_worker(
     assert f"{ALL} done now, 0 before" in said
     same(lab, here)
     monkeypatch.chdir(here)
-    log = "lab/D02/2020-10.parquet"
-    effects = ("--effects", "backlash,coulomb_friction,input_delay")
+    log = "lab/D02/2020-06.parquet"
+    effects = ("--effects", "backlash,coulomb_friction")
     for name, more in (("here", ("--jobs", "1")), ("there", ("--cluster", "scheduler.json"))):
         command("diagnose", log, *effects, "-o", f"{name}.json", *more)
     assert Path("here.json").read_bytes() == Path("there.json").read_bytes()

@@ -89,7 +89,7 @@ def test_wear_shows(lab: Path) -> None:
     assert np.ptp(course("D04", "value")) < 0.02 * leak[0]
     for damper in ("D02", "D03"):
         nrmse = course(damper, "nrmse")
-        assert max(nrmse[:3]) < 0.004 < 0.012 < nrmse[-1]
+        assert max(nrmse[:2]) < 0.004 < 0.012 < nrmse[-1]
     assert max(course("D04", "nrmse")) < 0.004
 
 
@@ -154,7 +154,7 @@ def test_only_what_falls_short_is_diagnosed(
     monkeypatch.chdir(tmp_path)
     for damper in ("D02", "D04"):
         (tmp_path / damper).mkdir()
-        shutil.copy(lab / "lab" / damper / "2020-10.parquet", tmp_path / damper)
+        shutil.copy(lab / "lab" / damper / "2020-06.parquet", tmp_path / damper)
     campaign("D0?/*.parquet", "-o", "r.parquet", "--diagnose-above", "0.01", "--jobs", "1",
              "--label", fleet.LABEL, "--effects", "backlash")  # fmt: skip
     found = rows(tmp_path / "r.parquet")
