@@ -87,22 +87,21 @@ def killed(sound: Path, where: Path, times: int) -> None:
     meet it at work. Whenever it is done, it begins again in a new folder.
     """
     from erdctl.campaign import run as room
-    from erdctl.campaign import work  # noqa: F401  # to be there in all forks
     from erdctl.cli.app import run as command
 
-    def campaign(number: int) -> None:
-        os.chdir(where)
-        room.here = lambda jobs: room.Crew(AtOnce, lambda: 1)  # type: ignore[assignment]
-        table = f"{number}.parquet"
-        words = ["campaign", "run", "lab", "-o", table, "--keep", f"r/{number}", "--quiet"]
-        os._exit(command([*words, "--label", fleet.LABEL]))
+    room.here = lambda jobs: room.Crew(AtOnce, lambda: 1)  # type: ignore[assignment]
 
-    run(sound, "0.parquet", "--keep", "r/0", "--jobs", "1")
+    def campaign(place: Path, number: int) -> int:
+        os.chdir(place)
+        words = ["campaign", "run", "lab", "-o", f"{number}.parquet", "--keep", f"r/{number}"]
+        return command([*words, "--label", fleet.LABEL, "--quiet"])
+
+    assert campaign(sound, 0) == 0  # in this process, so that forks find all compiled
     draw, number, kills, done, early = random.Random(0), 0, 0, 0, list[int]()
     while kills < times or not early:
         child = os.fork()
         if not child:
-            campaign(number)
+            os._exit(campaign(where, number))
         before = done
         wait(child, draw.uniform(0.0, 1.0) if kills < times else 600.0)
         os.kill(child, signal.SIGKILL)
