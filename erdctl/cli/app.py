@@ -146,7 +146,7 @@ def _full(error: OSError) -> typer.Exit:
 
 COMMANDS = (
     "inspect", "identify", "simulate", "validate", "diagnose", "prove", "mimic", "export", "plot",
-    "convert", "derive", "effects", "project", "schema", "compare",
+    "convert", "derive", "effects", "project", "schema", "compare", "campaign",
 )  # fmt: skip
 
 

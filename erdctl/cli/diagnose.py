@@ -6,7 +6,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from erdctl.cli.options import Damper, Date, Logs, Maps, Operator, Out, Text, Where, effect_names
+from erdctl.cli.options import (
+    Cluster,
+    Damper,
+    Date,
+    Logs,
+    Maps,
+    Operator,
+    Out,
+    Text,
+    Where,
+    effect_names,
+)
 from erdctl.cli.pages import Report, check_report
 from erdctl.cli.pictures import Plots
 from erdctl.cli.rig import Accept, Strict
@@ -76,6 +87,7 @@ def command(
             " is the same for any number.",
         ),
     ] = None,
+    cluster: Cluster = None,
     fail_on_mismatch: Annotated[
         bool, typer.Option("--fail-on-mismatch", help="Exit 1 unless the verdict is adequate.")
     ] = False,
@@ -124,7 +136,8 @@ def command(
     from erdctl.cli.pictures import draw, wanted
     from erdctl.cli.reading import labelled, read_logs
     from erdctl.cli.rig import fail, show
-    from erdctl.core.errors import CheckFailed
+    from erdctl.core.cluster import cluster_or_none
+    from erdctl.core.errors import CheckFailed, UsageProblem
     from erdctl.core.labels import labels_of
     from erdctl.diagnose.corrected import parameters
     from erdctl.diagnose.diagnosis import Verdict, diagnose
@@ -144,12 +157,14 @@ def command(
     )
     log = labelled(log, labels)
     tested = candidates(_names(only), _names(exclude))
-    with progress() as step:
+    if cluster is not None and jobs is not None:
+        raise UsageProblem("--jobs is for this machine: leave it out with --cluster")
+    with progress() as step, cluster_or_none(cluster) as there:
         found = diagnose(
             log.recording, tested, most=max_effects,
             given=given,
             free=Varying(gain=record_gains, offset=record_offsets), accepted=accept, seed=seed,
-            jobs=jobs or worthwhile(log.recording, tested), progress=step,
+            jobs=jobs or worthwhile(log.recording, tested), cluster=there, progress=step,
         )  # fmt: skip
     document = to_json(found, file)
     documents.write(document, output)

@@ -14,7 +14,7 @@ from erdctl.io.identity import STDIN, STDOUT, Named
 
 READS = frozenset({"log", "logs", "params", "before", "geometry", "arguments", "source", "limits"})
 WRITES = frozenset({"output", "report", "manifest", "plot"})
-# Names a directory that must be empty, so that nothing is in it to write over.
+# Names a directory that is empty or of the same work, so that nothing is in it to write over.
 FOLDERS = frozenset({"keep"})
 # With this flag a document goes to standard output.
 TO_STDOUT = "as_json"
@@ -23,7 +23,7 @@ MOST = 3  # files that a message names
 OTHERS = frozenset({
     "maps", "fault", "drive", "kind", "record", "span", "normalise", "only", "exclude", "name",
     "concealment", "motion", "colour", "text", "where", "date", "damper", "operator", "new_name",
-    "emulate", "project", "corner", "shown", "overlay",
+    "emulate", "project", "corner", "shown", "overlay", "cluster", "label", "group_by", "steps",
 })  # fmt: skip
 
 

@@ -124,6 +124,14 @@ Damper = Annotated[
 Operator = Annotated[
     str | None, typer.Option("--operator", metavar="TEXT", help="Who tested it, for provenance.")
 ]
+Cluster = Annotated[
+    str | None,
+    typer.Option(
+        metavar="ADDRESS",
+        help="Of a Dask scheduler, tcp://HOST:PORT, or its scheduler file (*.json): the work is"
+        " done there.",
+    ),
+]
 EXIT_CODES = (
     "Exit codes: 0 done; 1 a check you asked for failed; 2 wrong usage; 3 bad input data or"
     " parameter file; 4 the computation could not be completed."

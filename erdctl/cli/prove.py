@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from erdctl.cli.options import Maps, effect_names
+from erdctl.cli.options import Cluster, Maps, effect_names
 from erdctl.cli.pages import Report, check_report
 
 if TYPE_CHECKING:
@@ -78,6 +78,7 @@ def command(
     jobs: Annotated[
         int | None, typer.Option(min=1, help="Cases at a time; all cores if not given.")
     ] = None,
+    cluster: Cluster = None,
     as_json: Annotated[bool, typer.Option("--json", help="Results as JSON on stdout.")] = False,
     output: Annotated[
         str | None,
@@ -129,6 +130,7 @@ def command(
       erdctl prove --kind null --colour pink --cases 40
       erdctl prove --kind crowded --cases 100 --seed 7000
       erdctl prove --seed 5017 --cases 1 --keep case
+      erdctl prove --cases 1000 --seed 6000 --keep proof --cluster tcp://login1:8786
       erdctl prove --nulls 90 --seed 9000
       erdctl prove --on bench.parquet --thin 4 -o hidden.json
       erdctl prove --on bench.parquet --effects backlash,coulomb_friction --sizes 1,2 --nulls 0
@@ -139,6 +141,13 @@ def command(
     from erdctl.prove.document import to_json
     from erdctl.prove.kept import Kept
 
+    if cluster is not None:
+        if on is not None or nulls is not None:
+            raise UsageProblem("--cluster is for cases: leave --on and --nulls out")
+        if keep is None or jobs is not None:
+            raise UsageProblem(
+                "--cluster takes --keep DIR, on a disk that its workers share, and no --jobs"
+            )
     if nulls is not None and on is None:
         asked = (only, level, kind, concealment, motion, colour, keep, output, report)
         if any(asked) or as_json or not nulls:
@@ -170,7 +179,7 @@ def command(
     check_report(report)
     with _folder(keep) as folder:
         Kept.of(folder, wish, seed)  # a directory of another proof is refused before all else
-        proof = _run(wish, seeds, folder, jobs)
+        proof = _run(wish, seeds, folder, jobs, cluster)
     document = to_json(proof)
     if as_json:
         documents.write(document, "-")
@@ -210,7 +219,10 @@ def _nulls(seeds: Sequence[int], jobs: int | None) -> None:
         table(title, header, rows)
 
 
-def _run(wish: Wish, seeds: Sequence[int], folder: Path, jobs: int | None) -> Proof:
+def _run(
+    wish: Wish, seeds: Sequence[int], folder: Path, jobs: int | None, address: str | None
+) -> Proof:
+    from erdctl.core.cluster import cluster_or_none
     from erdctl.core.messages import shown, tell
     from erdctl.core.workers import cores
     from erdctl.prove.document import proof_of
@@ -221,7 +233,7 @@ def _run(wish: Wish, seeds: Sequence[int], folder: Path, jobs: int | None) -> Pr
 
     scored = 0
     say("nrmse on fresh records, without noise: paper's model, corrected, best that can be reached")
-    with progress() as step:
+    with cluster_or_none(address) as there, progress() as step:
 
         def on_sealed(number: int, seed: int, sha256: str) -> None:
             say(f"case {number}, seed {seed}: sha256 {sha256}", "sealed")
@@ -235,7 +247,8 @@ def _run(wish: Wish, seeds: Sequence[int], folder: Path, jobs: int | None) -> Pr
 
         step("scored", f"0 of {len(seeds)} (0 %)")
         outcomes = prove(
-            wish, seeds, folder, jobs=min(jobs or cores(), len(seeds)),
+            wish, seeds, folder if there is None else folder.absolute(), cluster=there,
+            jobs=min(there.in_hand() if there else jobs or cores(), len(seeds)),
             on_sealed=lambda s: on_sealed(s.number, s.seed, s.sha256), on_outcome=on_outcome,
         )  # fmt: skip
     return proof_of(wish, seeds, outcomes)

@@ -15,8 +15,8 @@ def command(
         typer.Argument(
             metavar="NAME",
             autocompletion=schema_names,
-            help="parameters, geometry, inspection, validation, diagnosis, pwm, project, comparison,"
-            " proof or proof-on.",
+            help="parameters, geometry, inspection, validation, diagnosis, pwm, project,"
+            " comparison, proof or proof-on.",
         ),
     ],
 ) -> None:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import get_context, parent_process
-from threading import Thread
-from typing import Any
+from threading import Lock, Thread
+from typing import Any, TypeVar
+
+T = TypeVar("T")
 
 
 def cores() -> int:
@@ -39,6 +41,31 @@ def one_thread() -> Iterator[None]:
 
     with threadpool_limits(1, user_api="blas"):
         yield
+
+
+# Linear algebra is limited for a whole process, and a worker of a cluster may have several threads.
+_ALONE = Lock()
+
+
+@contextmanager
+def alone() -> Iterator[None]:
+    """One task at a time in this process, with one thread: the tasks are the parallelism."""
+    with _ALONE, one_thread():
+        yield
+
+
+def alone_with(work: Callable[..., T], *given: Any) -> T:
+    """What a task gives; for a worker that somebody else has started, as those of a cluster."""
+    with alone():
+        return work(*given)
+
+
+def leave(executor: Executor) -> None:
+    """Let the tasks that run end, and drop those that wait; a cluster drops all."""
+    if isinstance(executor, ProcessPoolExecutor):
+        executor.shutdown(cancel_futures=True)
+    else:
+        executor.shutdown(wait=False)
 
 
 def _begin(begin: Callable[..., None] | None, given: tuple[Any, ...]) -> None:

@@ -6,12 +6,14 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import partial
 
 import numpy as np
 
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import untestable
 from erdctl.bench.rig import Rig, look
+from erdctl.core.cluster import Cluster
 from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Recording
@@ -114,6 +116,7 @@ def diagnose(
     limits: bool = True,
     learning: bool = True,
     jobs: int = 1,
+    cluster: Cluster | None = None,
     progress: Progress = lambda stage, what: None,
 ) -> Diagnosis:
     """Diagnose a recording with a measured force against a catalogue of effects.
@@ -122,11 +125,10 @@ def diagnose(
         contain is not found again
     free : record effects, which are estimated and not named
     accepted : rig checks that the user says are right as they are
-    limits : whether to say from which size on what was not named would have shown; no other answer
-        rests on that
+    limits : say from which size what was not named would have shown; nothing else rests on that
     learning : whether to learn what no effect explains; which effects are found does not rest on
         that, but for those that stand in for a law
-    jobs : processes that try hypotheses; the results are the same for any number
+    jobs, cluster : processes here, or a cluster, that try hypotheses; the results are the same
     """
     rig = look(recording).accept(accepted)
     recording = rig.usable()
@@ -151,11 +153,12 @@ def diagnose(
     for effect in candidates:
         allowed |= effect.allowed(problem.block.signals, problem.block.force)
     with ExitStack() as pools:
-        workers = pools.enter_context(executor((thin, seen, problem), jobs, progress, allowed))
+        given_to = partial(executor, jobs=jobs, progress=progress, most=allowed, cluster=cluster)
+        workers = pools.enter_context(given_to((thin, seen, problem)))
         searched = search(thin, testable, most, workers, seed, given, untested)
         if given is None and to_be_searched_with_lags(thin, searched):
             lagging = [without_lags_held(p) for p in (thin, seen, problem)]
-            others = pools.enter_context(executor(lagging, jobs, progress, allowed))
+            others = pools.enter_context(given_to(lagging))
             with_lags = search(lagging[0], testable, most, others, seed, None, untested)
             if earned_by_lags(thin, searched, with_lags):
                 searched, workers = with_lags, others

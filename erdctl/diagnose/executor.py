@@ -1,19 +1,21 @@
-"""Hypotheses fitted here or in worker processes: the same results either way, in order."""
+"""Hypotheses fitted here, in worker processes or on a cluster: the same results, in order."""
 
 from __future__ import annotations
 
 import pickle
-from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor as PoolExecutor
+from concurrent.futures import Future, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
+from erdctl.core.cluster import Cluster
 from erdctl.core.errors import ComputationProblem, EffectFailed, IncompatibleEffects
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Array
-from erdctl.core.workers import pool
+from erdctl.core.workers import alone_with, leave, pool
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis, rank_starts
 from erdctl.diagnose.problem import Problem
@@ -70,10 +72,13 @@ class Executor:
         jobs: int = 1,
         progress: Progress = lambda stage, what: None,
         most: Values | None = None,
+        cluster: Cluster | None = None,
     ) -> None:
         self.problems, self.jobs, self.progress = tuple(problems), jobs, progress
+        self.cluster = cluster
         self.most = most or {}
-        self._pool: ProcessPoolExecutor | None = None
+        self._submit: Callable[[int, Task], Future[Answer | None]] | None = None
+        self._pool: PoolExecutor | None = None
         self._sendable: set[str] = set()
 
     def fit(self, problem: Problem, tasks: Sequence[Task]) -> list[Hypothesis | None]:
@@ -87,19 +92,17 @@ class Executor:
 
     def _fits(self, problem: Problem, tasks: Sequence[Task]) -> list[Hypothesis | None]:
         """A hypothesis for each task; None for effects that no model can hold together."""
-        if self.jobs == 1 or len(tasks) < 2:
+        if (self.jobs == 1 and self.cluster is None) or len(tasks) < 2:
             return [
                 self._here(problem, task, number, len(tasks))
                 for number, task in enumerate(tasks, start=1)
             ]
         for task in tasks:
             self._check_sendable(task)
-        if self._pool is None:
-            # What a parameter would need is for people, and holds functions without a name.
-            sent = [replace(p, needs={}) for p in self.problems]
-            self._pool = pool(self.jobs, _prepare, *sent)
+        lost = () if self.cluster is None else self.cluster.lost
+        submit = self._submit = self._submit or self._begun()
         number = next(i for i, p in enumerate(self.problems) if p is problem)
-        futures = [self._pool.submit(_answer, number, task) for task in tasks]
+        futures = [submit(number, task) for task in tasks]
         of = dict(zip(futures, tasks, strict=True))
         self.progress(tasks[0].stage, part_of(tasks[0].name, 1, len(tasks)))
         try:
@@ -112,6 +115,21 @@ class Executor:
             raise ComputationProblem(
                 "a worker process was killed, perhaps for want of memory; try --jobs 1"
             ) from None
+        except lost:
+            raise ComputationProblem(
+                "the cluster has gone, or its workers were killed, perhaps for want of memory"
+            ) from None
+
+    def _begun(self) -> Callable[[int, Task], Future[Answer | None]]:
+        """Workers that have the problems: what gives one of them a task."""
+        # What a parameter would need is for people, and holds functions without a name.
+        sent = tuple(replace(p, needs={}) for p in self.problems)
+        if self.cluster is not None:
+            there, shared = self.cluster.executor(), self.cluster.shared(sent)
+            self._pool = there
+            return lambda number, task: there.submit(alone_with, _answer_to, shared, number, task)
+        here = self._pool = pool(self.jobs, _prepare, *sent)
+        return lambda number, task: here.submit(_answer, number, task)
 
     def fit_compatible(self, problem: Problem, tasks: Sequence[Task]) -> list[Hypothesis]:
         """The same for effects that have been together in one model before.
@@ -147,23 +165,28 @@ class Executor:
     def leave(self) -> None:
         """End the workers."""
         if self._pool is not None:
-            self._pool.shutdown(cancel_futures=True)
+            leave(self._pool)
 
 
 @contextmanager
 def executor(
-    problems: Sequence[Problem], jobs: int, progress: Progress, most: Values | None = None
+    problems: Sequence[Problem],
+    jobs: int,
+    progress: Progress,
+    most: Values | None = None,
+    cluster: Cluster | None = None,
 ) -> Iterator[Executor]:
     """An executor with so many workers, which begin when there is work for two of them.
 
     jobs : 1 for none, all is then done in this process
     most : values of parameters above which a hypothesis is none, by name
+    cluster : whose workers do it, in place of this machine's
     """
     # The field's lag takes another path, which rounds otherwise, once a compiler is loaded. With it
     # loaded from the beginning results are the same in every process.
     import erdctl.model.recurrences  # noqa: F401  # only to load the compiler
 
-    found = Executor(problems, jobs, progress, most)
+    found = Executor(problems, jobs, progress, most, cluster)
     try:
         yield found
     finally:
@@ -207,7 +230,13 @@ def _prepare(*problems: Problem) -> None:
 
 
 def _answer(number: int, task: Task) -> Answer | None:
-    problem = _problems[number]
+    return _answer_to(_problems, number, task)
+
+
+def _answer_to(problems: Sequence[Problem], number: int, task: Task) -> Answer | None:
+    import erdctl.model.recurrences  # noqa: F401  # see `executor`
+
+    problem = problems[number]
     h = fitted(problem, task)
     if h is None:
         return None

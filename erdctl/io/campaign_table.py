@@ -38,6 +38,8 @@ SCHEMA = pa.schema(
         pa.field("documents", pa.map_(pa.string(), pa.string())),  # command -> its JSON, relative
         pa.field("exit_code", pa.int8(), nullable=False),  # as the commands alone would have ended
         pa.field("error", pa.string()),  # one line
+        pa.field("logs", _TEXTS),  # that were taken together, of a group; else the log alone
+        pa.field("remarks", _TEXTS),  # what was assumed, converted or derived of the log
     ],
     metadata={"schema": NAME},
 )

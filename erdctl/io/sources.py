@@ -14,6 +14,7 @@ import pyarrow as pa
 from erdctl.core.errors import ComputationProblem, InputProblem, UsageProblem
 from erdctl.io.formats import CONTAINERS, Format, by_content
 from erdctl.io.stored import units_of
+from erdctl.io.urls import fetch, is_url
 
 if TYPE_CHECKING:
     from erdctl.io.containers.isolated import Container
@@ -217,6 +218,8 @@ def _data(path: str) -> Data:
                 "'-' is standard input, which is the terminal here; pipe a log into it"
             )
         return _all_of(sys.stdin.buffer)
+    if is_url(path):
+        return fetch(path)
     try:
         mode = os.stat(path).st_mode
         if stat.S_ISDIR(mode):

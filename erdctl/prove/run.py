@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any
 
+from erdctl.core.cluster import Cluster
 from erdctl.core.errors import ComputationProblem
+from erdctl.core.workers import alone_with, leave
 from erdctl.core.workers import pool as workers
 from erdctl.prove.case import Sealed, Wish, seal
 from erdctl.prove.judge import Failed, Result, judge
@@ -23,15 +25,17 @@ def prove(
     folder: Path,
     *,
     jobs: int,
+    cluster: Cluster | None = None,
     on_sealed: Callable[[Sealed], None] = lambda sealed: None,
     on_outcome: Callable[[Outcome], None] = lambda outcome: None,
 ) -> tuple[Outcome, ...]:
     """Outcomes of the cases of some seeds, in their order; the same for any number of jobs.
 
     folder : empty, or of the same proof, whose outcomes are then not worked out again
+    jobs : cases at a time;  cluster : where, if not here; its workers see the folder
     on_sealed : called with each case before its diagnosis starts
     on_outcome : called with each outcome, in the order of the seeds
-    Raises ComputationProblem if a worker dies.
+    Raises ComputationProblem if a worker dies, or the cluster goes.
     """
     kept = Kept.of(folder, wish, seeds[0])
     found = {number: kept.read(number) for number in range(1, len(seeds) + 1)}
@@ -47,7 +51,7 @@ def prove(
 
     report()
     # Also for one job: linear algebra rounds otherwise with several threads.
-    pool = workers(jobs)
+    pool = workers(jobs) if cluster is None else cluster.executor()
     try:
         for outcome in _outcomes(pool, wish, left, folder, jobs, on_sealed):
             if isinstance(outcome, Result):
@@ -58,13 +62,17 @@ def prove(
         raise ComputationProblem(
             "a worker process was killed, perhaps for want of memory; try --jobs 1"
         ) from None
+    except CancelledError:  # what kills its worker is a case that failed, see `_error`
+        raise ComputationProblem(
+            "the cluster has gone; with --keep what was done is taken up again"
+        ) from None
     finally:
-        pool.shutdown(cancel_futures=True)
+        leave(pool)
     return tuple(done[number] for number in sorted(done))
 
 
 def _outcomes(
-    pool: ProcessPoolExecutor,
+    pool: Executor,
     wish: Wish,
     cases: Sequence[tuple[int, int]],
     folder: Path,
@@ -81,7 +89,7 @@ def _outcomes(
 
     def begin() -> None:
         for number, seed in waiting:
-            sealing[pool.submit(seal, wish, seed, number, folder)] = (number, seed)
+            sealing[pool.submit(alone_with, seal, wish, seed, number, folder)] = (number, seed)
             return
 
     for _ in range(jobs):
@@ -95,7 +103,7 @@ def _outcomes(
             if error is None:
                 sealed = future.result()
                 on_sealed(sealed)
-                judging[pool.submit(judge, sealed)] = sealed
+                judging[pool.submit(alone_with, judge, sealed)] = sealed
             else:
                 yield Failed(number, seed, error)
                 begin()

@@ -168,6 +168,39 @@ def progress() -> Iterator[Callable[[str, str], None]]:
         )
 
 
+@contextmanager
+def counting(stage: str, count: int) -> Iterator[Callable[[str], None]]:
+    """A bar on stderr with how many of `count` are done and an estimate of the time left.
+
+    Called with what is done, for each. On a terminal only.
+    """
+    if QUIET.get() or not terminal():
+        yield lambda what: None
+        return
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
+
+    columns = (
+        TextColumn("{task.description}", markup=False), BarColumn(20), MofNCompleteColumn(),
+        TimeElapsedColumn(), TextColumn("left"), TimeRemainingColumn(),
+    )  # fmt: skip
+    console = Console(stderr=True)
+    # What logs take differs by a hundred; the estimate is a mean over the last ten minutes.
+    with Progress(*columns, console=console, transient=True, speed_estimate_period=600.0) as bar:
+        task = bar.add_task(stage, total=count)
+        room = max(console.width // 3, SHORT)
+        yield lambda what: bar.update(
+            task, advance=1, description=_fitting(shown(f"{stage}: {what}"), room), refresh=True
+        )
+
+
 def _fitting(text: str, room: int) -> str:
     """A line of progress in so many characters; what gives way is the middle, not the fraction."""
     if len(text) > room:

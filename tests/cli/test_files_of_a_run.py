@@ -46,6 +46,7 @@ CALLS = {
     "derive": "derive {geometry} -o {output}",
     "project": "project init {logs} -o {output}",
     "compare": "compare {arguments} --limits {limits} -o {output} --report {report} --plot {plot}",
+    "campaign": "campaign run {logs} -o {output}",
     "effects": "effects new bore_wear --from {source} -o {output}",
 }
 SUFFIX = {"report": ".html", "plot": ".png"}

@@ -116,6 +116,14 @@ def bands(path: Path) -> None:
     path.write_text("c_vis = { low = 10, high = 90 }\nsigma = { low = 1 }\n")
 
 
+def a_lab(path: Path) -> None:
+    """Logs of two dampers in folders of their own."""
+    for name in ("D01/2024-05.csv", "D02/2024-05.csv"):
+        log = path / name
+        log.parent.mkdir(parents=True)
+        bench("sine_2Hz_11mm_pwm0", "steps_1")(log)
+
+
 FILES: dict[str, Make] = {
     "raw/A07_20240501_25C.csv": in_mm,
     "car.parquet": car,
@@ -139,6 +147,7 @@ FILES: dict[str, Make] = {
     "new.json": copy("table_2.json"),
     "geometry.json": copy("geometry_inove.json"),
     "learned.json": learned,
+    "lab": a_lab,
 }
 
 

@@ -6,7 +6,9 @@ import hashlib
 import json
 import subprocess
 import sys
+from concurrent.futures import Executor, ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import pyarrow.parquet as pq
 import pytest
@@ -75,11 +77,20 @@ def test_two_cases_from_seed_to_scoreboard(tmp_path: Path) -> None:
     assert len(other.stderr.splitlines()) == 1
 
 
-def test_a_case_that_fails_does_not_take_the_others_with_it(tmp_path: Path) -> None:
+class Elsewhere:
+    """Stands in for a cluster; tests/campaign has a real one."""
+
+    def executor(self) -> Executor:
+        return ThreadPoolExecutor(2)
+
+
+@pytest.mark.parametrize("cluster", [None, Elsewhere()], ids=["here", "elsewhere"])
+def test_a_case_that_fails_does_not_take_the_others_with_it(cluster: Any, tmp_path: Path) -> None:
     numbers: list[int] = []
     outcomes = prove(
-        Wish(kind="triple"), [3, 4], tmp_path, jobs=1, on_outcome=lambda o: numbers.append(o.number)
-    )
+        Wish(kind="triple"), [3, 4], tmp_path, jobs=1, cluster=cluster,
+        on_outcome=lambda o: numbers.append(o.number),
+    )  # fmt: skip
     assert [(o.number, o.seed) for o in outcomes] == [(1, 3), (2, 4)]
     assert numbers == [1, 2]
     assert all(isinstance(o, Failed) and "kind is 'triple'" in o.message for o in outcomes)
@@ -96,6 +107,8 @@ def test_a_case_that_fails_does_not_take_the_others_with_it(tmp_path: Path) -> N
         ["--colour", "mauve"],
         ["--kind", "null", "--effects", "backlash"],
         ["-o", "/no/such/folder/proof.json"],
+        ["--cluster", "tcp://a:1"],
+        ["--cluster", "tcp://a:1", "--nulls", "3"],
     ],
 )
 def test_wrong_usage_is_one_line(arguments: list[str]) -> None:

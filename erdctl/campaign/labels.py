@@ -1,0 +1,92 @@
+"""Whose log it is and when it was taken, as its path says: damper, corner, date, conditions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import datetime
+
+from erdctl.core.errors import UsageProblem
+
+OWN = ("damper", "corner", "date")
+
+
+@dataclass(frozen=True)
+class LogLabels:
+    """What is known of a log beside its samples.
+
+    damper, corner : None where nothing says so;  date : ISO 8601, of the day or with a time
+    conditions : everything else, by name
+    """
+
+    damper: str | None = None
+    corner: str | None = None
+    date: str | None = None
+    conditions: Mapping[str, str] = field(default_factory=dict)
+
+    def value(self, name: str) -> str | None:
+        """A label by its name."""
+        return getattr(self, name) if name in OWN else self.conditions.get(name)
+
+
+def pattern_of(text: str) -> re.Pattern[str]:
+    """The regular expression of `--label`; UsageProblem for one that names nothing."""
+    try:
+        found = re.compile(text)
+    except re.error as error:
+        raise UsageProblem(f"--label {text}: no regular expression ({error})") from None
+    if not found.groupindex:
+        raise UsageProblem(
+            f"--label {text}: name what it finds, e.g. '(?P<damper>[^/]+)/(?P<date>[0-9-]+)'"
+        )
+    return found
+
+
+def labels_of_path(path: str, pattern: re.Pattern[str]) -> LogLabels | None:
+    """The labels that a path has where the pattern first matches; None where it does not.
+
+    pattern : with named groups `damper`, `corner`, `date`; any other name is a condition
+    Raises UsageProblem for a date that is none.
+    Check: damper and day of one path; a month is its first day.
+    >>> p = re.compile(r"(?P<damper>D[0-9]+)/(?P<date>[0-9-]+)_(?P<oil>[0-9]+C)")
+    >>> labels_of_path("lab/D07/2024-05_40C.csv", p)
+    LogLabels(damper='D07', corner=None, date='2024-05-01', conditions={'oil': '40C'})
+    """
+    match = pattern.search(path)
+    if match is None:
+        return None
+    found = {name: text for name, text in match.groupdict().items() if text}
+    own = {name: found.pop(name, None) for name in OWN}
+    if own["date"] is not None:
+        own["date"] = iso_date(own["date"], path)
+    return LogLabels(**own, conditions=dict(sorted(found.items())))
+
+
+def iso_date(text: str, path: str) -> str:
+    """A date as ISO 8601, from the ways in which names of files write it."""
+    digits = text.replace("_", "-")
+    for form in (digits, f"{digits}-01", f"{digits}01"):
+        try:
+            datetime.fromisoformat(form)
+        except ValueError:
+            continue
+        return form
+    raise UsageProblem(
+        f"the date '{text}' is none, e.g. 2024-05-01 or 20240501T1430: see --label {path}"
+    )
+
+
+def common(labels: Sequence[LogLabels]) -> LogLabels:
+    """What several logs have in common."""
+
+    def shared(name: str) -> str | None:
+        values = {each.value(name) for each in labels}
+        return values.pop() if len(values) == 1 else None
+
+    conditions = sorted({name for each in labels for name in each.conditions})
+    found = {name: shared(name) for name in (*OWN, *conditions)}
+    return LogLabels(
+        **{name: found[name] for name in OWN},
+        conditions={name: v for name in conditions if (v := found[name]) is not None},
+    )
