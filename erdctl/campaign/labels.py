@@ -3,31 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
 from datetime import datetime
 
 from erdctl.core.errors import UsageProblem
-
-OWN = ("damper", "corner", "date")
-
-
-@dataclass(frozen=True)
-class LogLabels:
-    """What is known of a log beside its samples.
-
-    damper, corner : None where nothing says so;  date : ISO 8601, of the day or with a time
-    conditions : everything else, by name
-    """
-
-    damper: str | None = None
-    corner: str | None = None
-    date: str | None = None
-    conditions: Mapping[str, str] = field(default_factory=dict)
-
-    def value(self, name: str) -> str | None:
-        """A label by its name."""
-        return getattr(self, name) if name in OWN else self.conditions.get(name)
+from erdctl.io.project.labels import OWN, Labels
 
 
 def pattern_of(text: str) -> re.Pattern[str]:
@@ -43,7 +23,7 @@ def pattern_of(text: str) -> re.Pattern[str]:
     return found
 
 
-def labels_of_path(path: str, pattern: re.Pattern[str]) -> LogLabels | None:
+def labels_of_path(path: str, pattern: re.Pattern[str]) -> Labels | None:
     """The labels that a path has where the pattern first matches; None where it does not.
 
     pattern : with named groups `damper`, `corner`, `date`; any other name is a condition
@@ -51,7 +31,7 @@ def labels_of_path(path: str, pattern: re.Pattern[str]) -> LogLabels | None:
     Check: damper and day of one path; a month is its first day.
     >>> p = re.compile(r"(?P<damper>D[0-9]+)/(?P<date>[0-9-]+)_(?P<oil>[0-9]+C)")
     >>> labels_of_path("lab/D07/2024-05_40C.csv", p)
-    LogLabels(damper='D07', corner=None, date='2024-05-01', conditions={'oil': '40C'})
+    Labels(damper='D07', corner=None, date='2024-05-01', conditions={'oil': '40C'})
     """
     match = pattern.search(path)
     if match is None:
@@ -60,7 +40,7 @@ def labels_of_path(path: str, pattern: re.Pattern[str]) -> LogLabels | None:
     own = {name: found.pop(name, None) for name in OWN}
     if own["date"] is not None:
         own["date"] = iso_date(own["date"], path)
-    return LogLabels(**own, conditions=dict(sorted(found.items())))
+    return Labels(**own, conditions=dict(sorted(found.items())))
 
 
 def iso_date(text: str, path: str) -> str:
@@ -77,7 +57,7 @@ def iso_date(text: str, path: str) -> str:
     )
 
 
-def common(labels: Sequence[LogLabels]) -> LogLabels:
+def common(labels: Sequence[Labels]) -> Labels:
     """What several logs have in common."""
 
     def shared(name: str) -> str | None:
@@ -86,7 +66,7 @@ def common(labels: Sequence[LogLabels]) -> LogLabels:
 
     conditions = sorted({name for each in labels for name in each.conditions})
     found = {name: shared(name) for name in (*OWN, *conditions)}
-    return LogLabels(
+    return Labels(
         **{name: found[name] for name in OWN},
         conditions={name: v for name in conditions if (v := found[name]) is not None},
     )

@@ -11,13 +11,14 @@ from enum import StrEnum
 
 import msgspec
 
-from erdctl.campaign.labels import LogLabels, common
+from erdctl.campaign.labels import common
 from erdctl.core.errors import UsageProblem
 from erdctl.core.messages import as_text
 from erdctl.core.version import __version__
 from erdctl.diagnose.thresholds import MOST_EFFECTS
+from erdctl.io.project.labels import Labels
 
-Labelling = Callable[[str], LogLabels | None]
+Labelling = Callable[[str], Labels | None]
 STEM = 60  # characters of a log's name in the names of its documents
 
 
@@ -50,6 +51,9 @@ class StepOptions:
     seed: int = 0
 
 
+Reading = Callable[[StepOptions, str, Labels], StepOptions]
+
+
 @dataclass(frozen=True, kw_only=True)
 class Job:
     """One log, or several that are taken together, and what is asked of it.
@@ -61,7 +65,7 @@ class Job:
 
     name: str
     paths: tuple[str, ...]
-    labels: LogLabels
+    labels: Labels
     asked: StepOptions
     version: str = __version__
     problem: str | None = None
@@ -108,16 +112,19 @@ def plan(
     asked: StepOptions,
     labelling: Labelling = lambda path: None,
     group_by: Sequence[str] = (),
+    reading: Reading = lambda asked, path, labels: asked,
 ) -> list[Job]:
     """The jobs of a campaign, in the order of the table's rows.
 
     labelling : what is known of a log by its path; None for nothing, UsageProblem for nonsense
     group_by : labels that logs have in common which are taken together as one; each alone if empty
+    reading : what is asked of one log, whose damper may have columns of its own; of a group the
+        first says it
     """
     jobs: list[Job] = []
-    groups: dict[tuple[str, ...], list[tuple[str, LogLabels]]] = {}
+    groups: dict[tuple[str, ...], list[tuple[str, Labels]]] = {}
     for path in logs:
-        problem, labels = None, LogLabels()
+        problem, labels = None, Labels()
         try:
             labels = labelling(as_text(path)) or labels
         except UsageProblem as error:
@@ -130,14 +137,21 @@ def plan(
             groups.setdefault(values, []).append((path, labels))
         else:
             jobs.append(
-                Job(name=as_text(path), paths=(path,), labels=labels, asked=asked, problem=problem)
+                Job(
+                    name=as_text(path),
+                    paths=(path,),
+                    labels=labels,
+                    asked=reading(asked, path, labels),
+                    problem=problem,
+                )
             )
     for values, members in groups.items():
         name = ",".join(f"{n}={v}" for n, v in zip(group_by, values, strict=True))
         jobs.append(
             Job(
                 name=name, paths=tuple(path for path, _ in members),
-                labels=common([labels for _, labels in members]), asked=asked,
+                labels=common([labels for _, labels in members]),
+                asked=reading(asked, *members[0]),
             )
         )  # fmt: skip
     return sorted(jobs, key=lambda job: job.name)

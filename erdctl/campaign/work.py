@@ -187,6 +187,14 @@ class _Work:
         self.entry.findings = [f["effect"] for f in document["findings"]]
         self.entry.noise_rms = document["noise_rms"]
         self.entry.parameters += parameters_in(document["corrected"]["params"], Step.DIAGNOSE)
+        self.entry.parameters += [
+            ParameterEntry(
+                command=Step.DIAGNOSE.value, parameter=f"{effect}.{limit['parameter']}",
+                unit=limit["unit"], value=None, stderr=None, low=None, high=limit["value"],
+                identified=False,
+            )
+            for effect, limit in document["limits"].items()
+        ]  # fmt: skip  # from `high` on it would have been named
 
     def _keep(self, step: Step, document: dict[str, Any], rig: list[dict[str, Any]]) -> None:
         name = self.job.document(step)

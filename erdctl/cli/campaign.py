@@ -13,9 +13,13 @@ from erdctl.cli.rig import Accept
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
+    from re import Pattern
 
+    from erdctl.campaign.plan import Labelling, Reading, StepOptions
     from erdctl.campaign.run import Crew
+    from erdctl.cli.in_force import InForce
     from erdctl.io.campaign_journal import Entry
+    from erdctl.io.project.labels import Labels
 
 
 class Action(StrEnum):
@@ -103,7 +107,8 @@ def command(
 
     What is there and unchanged (by the log's SHA-256, the options and the version of erdctl) is not
     done again: a campaign that was ended anywhere, or to which logs were added, is taken up by the
-    same command. The table does not depend on order, workers or interruptions.
+    same command. The table does not depend on order, workers or interruptions. Where a project
+    file holds (see `erdctl project`), it says how logs are read, and what --label does not.
 
     --cluster takes a Dask cluster in place of this machine: any that Dask starts, on SLURM,
     Kubernetes or a cloud, with erdctl in the workers' environment and one thread each (dask worker
@@ -118,9 +123,10 @@ def command(
       find lab -name '*.csv' | erdctl campaign run - -o results.parquet --steps inspect
       erdctl campaign run 's3://bench/2024-05/**/*.parquet' -o may.parquet --cluster tcp://hpc:8786
     """
-    from erdctl.campaign.labels import labels_of_path, pattern_of
+    from erdctl.campaign.labels import pattern_of
     from erdctl.campaign.plan import StepOptions, plan, steps_of
     from erdctl.campaign.run import entries, run
+    from erdctl.cli.in_force import IN_FORCE
     from erdctl.core.errors import CheckFailed, UsageProblem
     from erdctl.effects import candidates
     from erdctl.io.campaign_journal import journal
@@ -142,10 +148,11 @@ def command(
     )  # fmt: skip
     pattern = None if label is None else pattern_of(label)
     groups = _names([group_by] if group_by else [])
-    if groups and pattern is None:
+    project = IN_FORCE.get()
+    if groups and pattern is None and project is None:
         raise UsageProblem("--group-by takes labels: say with --label what a path says of its log")
     found = _without_table(find_logs(logs), output)
-    planned = plan(found, asked, lambda path: pattern and labels_of_path(path, pattern), groups)
+    planned = plan(found, asked, *_as_said(pattern, project, groups))
     folder = keep or _stem(output)
     with journal(folder) as kept:
         with (
@@ -163,6 +170,44 @@ def command(
         say(f"{silent} paths do not match --label and have no labels", "warning")
     if tally.bad:
         raise CheckFailed(f"{tally.bad} of {len(planned)} could not be done: see column 'error'")
+
+
+def _as_said(
+    pattern: Pattern[str] | None, project: InForce | None, groups: Sequence[str]
+) -> tuple[Labelling, Sequence[str], Reading]:
+    """What paths say of their logs, by --label or the project file, and how that has them read."""
+    from dataclasses import replace
+
+    from erdctl.campaign.labels import labels_of_path
+    from erdctl.core.errors import ErdctlError, UsageProblem
+
+    def labelling(path: str) -> Labels | None:
+        if pattern is not None or project is None:
+            return pattern and labels_of_path(path, pattern)
+        try:
+            return project.reading.labels(path)
+        except ErdctlError as error:  # a date that is none is a row, not the end
+            raise UsageProblem(str(error)) from None
+
+    def reading(asked: StepOptions, path: str, labels: Labels) -> StepOptions:
+        if project is None or not project.project.reads(path):
+            return asked
+        said = project.project
+        columns, text, where = said.columns(labels), said.text(labels), said.where(labels)
+        for what, keys in (("columns", columns), ("text", text), ("where", where)):
+            if keys:
+                project.use(what)
+        given = {one.partition("=")[0].strip() for one in asked.maps}
+        return replace(
+            asked,
+            maps=(*(f"{k}={s.value}" for k, s in columns.items() if k not in given), *asked.maps),
+            text=(*(f"{k}={s.value}" for k, s in text.items()), *asked.text),
+            where=(
+                *(f"{k}={value}" for k, s in where.items() for value in s.value), *asked.where,
+            ),
+        )  # fmt: skip
+
+    return labelling, groups, reading
 
 
 MOST_SAID = 20  # errors of logs on stderr; the table has all

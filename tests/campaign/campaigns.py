@@ -15,6 +15,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from places import ROOT
 
+DAMPERS, MONTHS = 4, 6
 ENV = {**os.environ, "PYTHONPATH": str(ROOT), "OPENBLAS_NUM_THREADS": "1"}
 
 

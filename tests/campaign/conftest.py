@@ -6,9 +6,7 @@ from pathlib import Path
 
 import fleet
 import pytest
-from campaigns import run
-
-DAMPERS, MONTHS = 4, 6
+from campaigns import DAMPERS, MONTHS, run
 
 
 @pytest.fixture(scope="session")

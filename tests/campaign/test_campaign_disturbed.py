@@ -13,8 +13,7 @@ from pathlib import Path
 
 import fleet
 import pytest
-from campaigns import AtOnce, begun, entries, rows, run
-from conftest import DAMPERS, MONTHS
+from campaigns import DAMPERS, MONTHS, AtOnce, begun, entries, rows, run
 from dask_workers import DaskWorkers
 from typer.testing import CliRunner
 

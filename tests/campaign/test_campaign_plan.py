@@ -7,14 +7,14 @@ from dataclasses import replace
 
 import pytest
 
-from erdctl.campaign.labels import LogLabels, common, labels_of_path, pattern_of
+from erdctl.campaign.labels import Labels, common, labels_of_path, pattern_of
 from erdctl.campaign.plan import Job, Step, StepOptions, plan, steps_of
 from erdctl.core.errors import UsageProblem
 
 PATTERN = re.compile(r"(?P<damper>D\d+)/(?P<corner>[a-z]{2})_(?P<date>[\d-]+)_(?P<oil>\d+C)?")
 
 
-def labels(path: str) -> LogLabels | None:
+def labels(path: str) -> Labels | None:
     return labels_of_path(path, PATTERN)
 
 
@@ -25,7 +25,7 @@ def labels(path: str) -> LogLabels | None:
 )  # fmt: skip
 def test_labels_of_a_path(written: str, iso: str) -> None:
     found = labels(f"lab/D7/fl_{written}_40C.csv")
-    assert found == LogLabels("D7", "fl", iso, {"oil": "40C"})
+    assert found == Labels("D7", "fl", iso, {"oil": "40C"})
     assert labels("lab/other.csv") is None
 
 
@@ -39,9 +39,9 @@ def test_no_date_and_no_expression() -> None:
 
 
 def test_a_group_has_what_its_logs_share() -> None:
-    a = LogLabels("D1", "fl", "2024-05-01", {"oil": "40C", "rig": "2"})
-    b = LogLabels("D1", "fr", "2024-05-01", {"oil": "20C", "rig": "2"})
-    assert common([a, b]) == LogLabels("D1", None, "2024-05-01", {"rig": "2"})
+    a = Labels("D1", "fl", "2024-05-01", {"oil": "40C", "rig": "2"})
+    b = Labels("D1", "fr", "2024-05-01", {"oil": "20C", "rig": "2"})
+    assert common([a, b]) == Labels("D1", None, "2024-05-01", {"rig": "2"})
 
 
 def test_groups_are_one_job_each_and_what_has_no_label_is_refused() -> None:
@@ -53,7 +53,7 @@ def test_groups_are_one_job_each_and_what_has_no_label_is_refused() -> None:
         ("other.csv", ("other.csv",)),
     ]
     assert "does not say damper" in str(jobs[2].problem)
-    assert jobs[0].labels == LogLabels("D1")
+    assert jobs[0].labels == Labels("D1")
 
 
 def test_one_wrong_date_is_the_problem_of_its_log() -> None:
@@ -63,9 +63,9 @@ def test_one_wrong_date_is_the_problem_of_its_log() -> None:
 
 def test_a_key_is_of_all_that_the_outcome_depends_on() -> None:
     """But not of where the command was given, nor of what was done before."""
-    job = Job(name="a.csv", paths=("a.csv",), labels=LogLabels("D1"), asked=StepOptions())
+    job = Job(name="a.csv", paths=("a.csv",), labels=Labels("D1"), asked=StepOptions())
     others = [
-        replace(job, labels=LogLabels("D2")),
+        replace(job, labels=Labels("D2")),
         replace(job, version="0.0.0"),
         replace(job, paths=("b.csv",)),
         replace(job, asked=StepOptions(steps=(Step.INSPECT,))),
@@ -94,8 +94,6 @@ def test_a_name_that_is_no_text() -> None:
 
 
 def test_names_of_documents_are_names_of_files() -> None:
-    job = Job(
-        name="s3://b/ü t/../fl 1.csv?x=/..", paths=(), labels=LogLabels(), asked=StepOptions()
-    )
+    job = Job(name="s3://b/ü t/../fl 1.csv?x=/..", paths=(), labels=Labels(), asked=StepOptions())
     assert re.fullmatch(r"[0-9a-f]{2}/[\w.=-]+-[0-9a-f]{16}\.identify\.json",
                         job.document(Step.IDENTIFY))  # fmt: skip

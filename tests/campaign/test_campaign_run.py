@@ -12,6 +12,7 @@ from typing import Any
 
 import fleet
 import numpy as np
+import pyarrow as pa
 import pyarrow.csv as pc
 import pyarrow.parquet as pq
 import pytest
@@ -20,7 +21,7 @@ from typer.testing import CliRunner
 
 import erdctl
 from erdctl.campaign import run as room
-from erdctl.campaign.labels import LogLabels
+from erdctl.campaign.labels import Labels
 from erdctl.campaign.plan import Job, StepOptions
 from erdctl.campaign.work import Done, failed
 from erdctl.cli.app import build
@@ -156,15 +157,17 @@ def test_only_what_falls_short_is_diagnosed(
         (tmp_path / damper).mkdir()
         shutil.copy(lab / "lab" / damper / "2020-06.parquet", tmp_path / damper)
     campaign("D0?/*.parquet", "-o", "r.parquet", "--diagnose-above", "0.01", "--jobs", "1",
-             "--label", fleet.LABEL, "--effects", "backlash")  # fmt: skip
+             "--label", fleet.LABEL, "--effects", "backlash,coulomb_friction")  # fmt: skip
     found = rows(tmp_path / "r.parquet")
     worn = [r for r in found if r["damper"] == "D02"]
     sound = [r for r in found if r["damper"] == "D04"]
     assert {r["command"] for r in sound} == {"identify"}
     assert sound[0]["findings"] is None
-    assert [r["command"] for r in worn] == ["identify"] * 10 + ["diagnose"] * 11
+    assert [r["command"] for r in worn] == ["identify"] * 10 + ["diagnose"] * 12
     assert (worn[0]["verdict"], worn[0]["findings"]) == ("explained", ["backlash"])
-    named = worn[-1]
+    named, unnamed = worn[-2:]
+    assert (unnamed["parameter"], unnamed["value"]) == ("coulomb_friction.F_c", None)
+    assert 0.0 < unnamed["high"] < 1.0  # from so much on it would have been named
     assert (named["parameter"], named["unit"]) == ("backlash.g", "m")
     assert named["value"] == pytest.approx(2e-3, rel=0.05)
     assert document(tmp_path / "r.parquet", named, "diagnose")["verdict"] == "explained"
@@ -227,7 +230,7 @@ def test_no_cluster_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def job(name: str) -> Job:
-    return Job(name=name, paths=(name,), labels=LogLabels(), asked=StepOptions())
+    return Job(name=name, paths=(name,), labels=Labels(), asked=StepOptions())
 
 
 class Fragile(Executor):
@@ -268,3 +271,26 @@ def test_a_cluster_that_has_gone(tmp_path: Path) -> None:
         with pytest.raises(ComputationProblem, match="what was done is kept"):
             room.run(jobs, kept, crew)
         assert [kept.read(j.key) is not None for j in jobs] == [True, True, False, False]
+
+
+def test_a_project_file_says_how_logs_are_read_and_of_which_damper(
+    lab: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    log = pq.read_table(min((lab / "lab").rglob("*.parquet")))
+    plain, foreign = (tmp_path / name for name in ("plain.csv", "raw/D07_20240501.csv"))
+    foreign.parent.mkdir()
+    pc.write_csv(log, plain)
+    millimetres = pa.array(1e3 * log["x"].to_numpy())
+    other = log.set_column(log.column_names.index("x"), "Weg (mm)", millimetres)
+    pc.write_csv(other, foreign)
+    (tmp_path / "erdctl.toml").write_text(
+        "[labels]\npath = '(?P<damper>D[0-9]+)_(?P<date>[0-9]+)'\ndate = '%Y%m%d'\n"
+        "[damper.D07.columns]\nx = 'Weg (mm)[mm]'\nduty = 'duty'\nt = 't'\nforce = 'force'\n"
+    )
+    monkeypatch.chdir(tmp_path)
+    said = campaign("raw", "-o", "by_project.parquet")
+    assert "erdctl.toml: columns" in said
+    campaign("plain.csv", "-o", "plain.parquet", "--no-project")
+    ours, theirs = rows(tmp_path / "by_project.parquet"), rows(tmp_path / "plain.parquet")
+    assert {(r["damper"], str(r["date"])[:10]) for r in ours} == {("D07", "2024-05-01")}
+    assert [r["value"] for r in ours] == pytest.approx([r["value"] for r in theirs], rel=1e-9)

@@ -28,6 +28,10 @@ class Labels:
     date: str | None = None
     conditions: Mapping[str, str] = field(default_factory=dict)
 
+    def value(self, name: str) -> str | None:
+        """A label by its name."""
+        return getattr(self, name) if name in OWN else self.conditions.get(name)
+
     def texts(self) -> dict[str, str]:
         """As provenance has them, without those that are None."""
         given = {name: getattr(self, name) for name in OWN}
