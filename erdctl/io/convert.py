@@ -17,7 +17,7 @@ from erdctl.io.checks import Place, check_growth, check_values
 from erdctl.io.columns import to_numbers
 from erdctl.io.maps import parse_maps
 from erdctl.io.memory import check_fits
-from erdctl.io.outline import Labels, place_behind
+from erdctl.io.outline import ByColumn, place_behind
 from erdctl.io.plan import ColumnPlan, in_contract_names, plan_columns, read_planned
 from erdctl.io.sources import TableSource, open_source
 from erdctl.io.stored import si, units_apart, with_unit
@@ -144,7 +144,7 @@ class _Checks:
 
     def __init__(self, plan: ColumnPlan, warn: Callable[[str], None]) -> None:
         self.plan, self.warn = plan, warn
-        self._labels = Labels(plan[RECORD][0]) if RECORD in plan else None
+        self._labels = ByColumn(plan[RECORD][0]) if RECORD in plan else None
         self._rows = 0
         self._last: tuple[float, str | None] | None = None  # time and record
         self._warned: set[str] = set()

@@ -47,12 +47,12 @@ def outline(
     names = list(dict.fromkeys([column, *choosing]))
     labels = [c for c in names if c != column or RECORD in plan]
     chosen = {name: dict[str | None, None]() for name in choosing}
-    look: Labels | _Times = Labels(column) if RECORD in plan else _Times()
+    look: ByColumn | _Times = ByColumn(column) if RECORD in plan else _Times()
     rows = 0
     for table in read_batches(source, names, labels):
         place = place_behind(source.name, rows)
         values = table.column(column)
-        if isinstance(look, Labels):
+        if isinstance(look, ByColumn):
             look.add(values, place, rows)
         else:
             look.add(convert(to_numbers(values, column, place)), rows)
@@ -63,7 +63,7 @@ def outline(
         raise InputProblem("a header but no samples", file=source.name)
     if not _all_rows(chosen, where, source.name):
         return None
-    if isinstance(look, Labels):
+    if isinstance(look, ByColumn):
         return Outline(np.array([*look.starts, rows], dtype=np.intp), tuple(look.names), True)
     starts = look.runs(rows)
     if starts is None:
@@ -98,7 +98,7 @@ def _all_rows(chosen: dict[str, dict[str | None, None]], where: Sequence[Where],
     )
 
 
-class Labels:
+class ByColumn:
     """Records by a column that names them."""
 
     def __init__(self, column: str) -> None:
