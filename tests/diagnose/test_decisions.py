@@ -109,7 +109,7 @@ def test_two_duties_and_two_motions_tell_one_effect_and_not_two() -> None:
     assert [f.effect.name for f in one.findings] == ["coulomb_friction"]
 
     both = noisy(plus(r, 1.5 * np.sign(r.xdot) + 2.0), seed=2, rms=NOISE)
-    found = diagnose(both, catalogue)
+    found = diagnose(both, catalogue, limits=False)
     assert {f.effect.name for f in found.findings} == {"coulomb_friction", "gas_preload"}
     assert found.verdict is Verdict.UNEXPLAINED
     assert to_json(found)["cannot_tell"]

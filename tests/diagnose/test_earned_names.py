@@ -46,6 +46,7 @@ def test_what_leaves_more_than_it_takes_is_not_named() -> None:
     assert to_json(it)["withdrawn"] == names
 
 
+@pytest.mark.long
 def test_once_a_law_takes_the_rest_the_effect_has_its_name() -> None:
     it = found(0.15)
     assert it.verdict is Verdict.UNEXPLAINED
