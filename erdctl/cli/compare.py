@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -142,13 +142,13 @@ def _check_outputs(output: str | None, plots: list[str]) -> None:
         suffix(path)
 
 
-def _remark(table: object) -> None:
+def _remark(table: Any) -> None:
     """Logs that nothing says the damper of."""
     import pyarrow.compute as pc
 
     from erdctl.report.text import say
 
-    columns = [table.column(name) for name in ("damper", "corner")]  # type: ignore[attr-defined]
+    columns = [table.column(name) for name in ("damper", "corner")]
     lonely = pc.and_(*[pc.is_null(c) for c in columns])
     if pc.any(lonely).as_py():
         say(

@@ -194,7 +194,7 @@ def _put(found: InForce, context: Any, values: Chosen) -> None:
         context.default_map = {name: value}
         try:
             parameter.handle_parse_result(context, {}, [])
-        except Exception as error:
+        except Exception as error:  # of whichever Click Typer has; raised again if not
             message = getattr(error, "message", None)
             if message is None:
                 raise
