@@ -178,7 +178,7 @@ def diagnose(
             idle = next((e for e in selection.named if _idle(e, fit, workers)), None)
             chosen = refit(seen, chosen, workers, idle) if idle else None
         progress("lack of fit", part_of("regression of the residual", 1, 1))
-        lack_of_fit, taken = _left(selection, seed), None
+        lack_of_fit, taken = lack_of_fit_of(selection.best, seed), None
         if selection.named and _matters(problem, selection, lack_of_fit):
             part = part_taken(problem, selection, lack_of_fit)
             if not earned(part):
@@ -186,7 +186,7 @@ def diagnose(
                 selection, kept = selection.nothing, kept.nothing
                 base = selection.base
                 unseen = on_unseen(problem.of(aside) if aside else None, base, base)
-                lack_of_fit = _left(selection, seed)
+                lack_of_fit = lack_of_fit_of(selection.best, seed)
                 fit, record_effects = fit_errors(problem, selection.best)
         left = _matters(problem, selection, lack_of_fit)
         untold = "one duty and one speed" if selection.named and one_condition(recording) else ""
@@ -265,11 +265,6 @@ def _idle(effect: Effect, fit: Fit, workers: Executor) -> bool:
     """
     own = {effect.key(q.symbol): fit.values[effect.key(q.symbol)] for q in effect.quantities}
     return may_be_absent(effect, fit) or not workers.possible(own)
-
-
-def _left(selection: Selection, seed: int) -> LackOfFit:
-    best = selection.best
-    return selection.left or lack_of_fit_of(best, seed)
 
 
 def _matters(problem: Problem, selection: Selection, lack_of_fit: LackOfFit) -> bool:

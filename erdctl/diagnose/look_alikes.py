@@ -10,7 +10,7 @@ from erdctl.diagnose.executor import Task
 from erdctl.diagnose.forward_step import Exploration, key_of, with_effect
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
-from erdctl.diagnose.residual.predictability import lack_of_fit_of
+from erdctl.diagnose.residual.predictability import misfit_is_left
 from erdctl.diagnose.screening import Screen
 from erdctl.model.effect import Effect
 
@@ -84,7 +84,7 @@ def _misfit_leaves(x: Exploration, rest: frozenset[str], best: Hypothesis) -> fl
     the scatter of a mean square over the groups does, of what is left, or of what the effect takes
     if that is less.
     """
-    if not lack_of_fit_of(best).significant:
+    if not misfit_is_left(best):
         return 0.0
     worth = compare(x.problem, x.explored[rest], best)
     return worth.scatter * min(worth.after, worth.before - worth.after)

@@ -27,7 +27,7 @@ from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.levels_of_records import not_of_records
 from erdctl.diagnose.look_alikes import is_preferred, look_alikes
 from erdctl.diagnose.problem import Problem
-from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_of
+from erdctl.diagnose.residual.predictability import misfit_is_left, search_is_worthwhile
 from erdctl.diagnose.resolved import resolved
 from erdctl.estimate.starts import fresh_start
 from erdctl.model.effect import Effect
@@ -42,7 +42,6 @@ class Selection:
     singles : the base with every effect alone, the best first
     without : for each chosen effect, the best model that lacks it
     look_alikes : for each chosen effect, those that would do as well in its place, best first
-    left : what `best` leaves, if that was tested
     """
 
     base: Hypothesis
@@ -50,7 +49,6 @@ class Selection:
     singles: tuple[Hypothesis, ...]
     without: Mapping[str, Hypothesis]
     look_alikes: Mapping[str, tuple[tuple[str, Hypothesis], ...]]
-    left: LackOfFit | None = None
 
     @property
     def named(self) -> tuple[Effect, ...]:
@@ -60,7 +58,7 @@ class Selection:
     @property
     def nothing(self) -> Selection:
         """The same search with nothing named."""
-        return replace(self, best=self.base, without={}, look_alikes={}, left=None)
+        return replace(self, best=self.base, without={}, look_alikes={})
 
 
 def search(
@@ -78,9 +76,8 @@ def search(
     """
     base = _base(problem, given, executor)
     x = Exploration(problem, base, Explored([base]), executor)
-    best, left, singles = _forward_selection(x, base, candidates, most, seed)
-    tested = best
-    if left.significant:
+    best, singles = _forward_selection(x, base, candidates, most, seed)
+    if misfit_is_left(best, seed):
         alone = best
         joint = [joint_task(problem, base, effects) for effects in companion_sets(candidates)]
         for hypothesis in executor.fit(problem, joint):
@@ -89,8 +86,7 @@ def search(
                 x.explored.keep(hypothesis)
         if best is not alone:
             more = most - len(x.added(best))
-            best, left, _ = _forward_selection(x, best, candidates, more, seed)
-            tested = best
+            best, _ = _forward_selection(x, best, candidates, more, seed)
     best = eliminate(x, best)
     best = second_pass(x, best, most)
     best = as_good_as_explored(x, best)
@@ -115,8 +111,7 @@ def search(
         alike[name] = tuple(found[: thresholds.LOOK_ALIKES_LISTED])
     without = dict(zip((e.name for e in x.added(best)), without_each(x, best), strict=True))
     return Selection(
-        x.explored[key_of(base.effects)], best, tuple(singles), without, alike,
-        left if best is tested else None,
+        x.explored[key_of(base.effects)], best, tuple(singles), without, alike
     )  # fmt: skip
 
 
@@ -146,8 +141,7 @@ def refit(
     names = [e.name for e in x.added(best)]
     without = {n: explored[key_of(best.effects) - {n}] for n in names}
     alike = {n: found.look_alikes[n] for n in names}
-    left = found.left if best is found.best else None
-    return Selection(base, best, found.singles, without, alike, left)
+    return Selection(base, best, found.singles, without, alike)
 
 
 def _on_all_samples(
@@ -170,36 +164,34 @@ def on_all(problem: Problem, found: Selection, executor: Executor) -> Selection:
         for h in ((found.base, found.best) if found.named else (found.base,))
     ]
     fits = executor.fit_compatible(problem, tasks)
-    return replace(found, base=fits[0], best=fits[-1], left=None)
+    return replace(found, base=fits[0], best=fits[-1])
 
 
 def _forward_selection(
     x: Exploration, best: Hypothesis, candidates: Sequence[Effect], most: int, seed: int
-) -> tuple[Hypothesis, LackOfFit, list[Hypothesis]]:
+) -> tuple[Hypothesis, list[Hypothesis]]:
     """Up to `most` effects more than those of a hypothesis, one by one, in a beam.
 
-    Returns the best hypothesis, its lack of fit, and the hypotheses with a single effect more.
+    Returns the best hypothesis, and the hypotheses with a single effect more.
     """
     parents, singles = [best], list[Hypothesis]()
-    rest: LackOfFit | None = None
     for depth in range(most):
-        if depth or x.explored.keys() > {key_of(best.effects)}:
-            rest = lack_of_fit_of(best, seed)
-            if not rest.hint:
-                break  # more effects would have nothing to explain
+        begun = depth or x.explored.keys() > {key_of(best.effects)}
+        if begun and not search_is_worthwhile(best, seed):
+            break  # more effects would have nothing to explain
         stage = f"{depth + 1} effects" if depth else "each effect"
         more = ranked(forward_step(x, parents, candidates, stage))
         singles = singles if depth else more
         critical = critical_of(x.problem, best, more)
         better = [h for h in more if compare_alike(x.problem, best, h).beyond(critical)]
         if better:
-            best, rest = better[0], None
+            best = better[0]
         elif depth:
             break
         # Also hypotheses that gain nothing alone: together with another one may.
         beam = thresholds.BEAM if depth + 1 < thresholds.BEAM_DEPTH else 1
         parents = (better or more)[:beam]
-    return best, rest or lack_of_fit_of(best, seed), singles
+    return best, singles
 
 
 def _base(problem: Problem, given: Parameters | None, executor: Executor) -> Hypothesis:

@@ -16,7 +16,7 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import compare
 from erdctl.diagnose.hypothesis import LAGS, Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem
-from erdctl.diagnose.residual.predictability import lack_of_fit_of
+from erdctl.diagnose.residual.predictability import lack_of_fit_of, misfit_is_left
 from erdctl.diagnose.search import Selection
 from erdctl.diagnose.thin import thinned
 from erdctl.estimate.starts import fresh_start
@@ -90,4 +90,4 @@ def _short(names: list[str], hypothesis: Hypothesis) -> bool:
 
 
 def _leaves_a_misfit(hypothesis: Hypothesis) -> bool:
-    return lack_of_fit_of(hypothesis).significant
+    return misfit_is_left(hypothesis)

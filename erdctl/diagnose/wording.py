@@ -9,7 +9,7 @@ from typing import Any
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import Bench
 from erdctl.diagnose import thresholds
-from erdctl.diagnose.conditions import one_condition
+from erdctl.diagnose.conditions import one_condition, one_motion
 from erdctl.diagnose.detectable import Detectable
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.findings import Finding
@@ -52,7 +52,11 @@ def unseen_text(u: Unseen) -> str:
 
 
 def remaining_text(found: Diagnosis) -> str:
-    """What is left, in words."""
+    """What is left, in words, and what of the motion nothing has tested."""
+    return _left(found) + _one_motion(found)
+
+
+def _left(found: Diagnosis) -> str:
     left = found.lack_of_fit
     if found.rig.blocking:
         return (
@@ -101,6 +105,18 @@ def remaining_text(found: Diagnosis) -> str:
         words += f"; it is most like {resembles.form} (correlation {resembles.correlation:+.2f})"
     words += _hum(left) + _withdrawn(found)
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
+
+
+def _one_motion(found: Diagnosis) -> str:
+    """That what is named or learned was tested on no other motion, where the log has one alone."""
+    corrected = bool(found.findings) or found.learned is not None
+    if not corrected or found.cannot_tell or not one_motion(found.problem.recording):
+        return ""
+    bench = Bench.of(Survey.of(found.problem.recording))
+    return (
+        "; all strokes are alike, so that nothing here tests the corrected model on another motion:"
+        f" before it is used on one, record --drive {bench.sweep}, and validate it there"
+    )
 
 
 def _laws(found: Diagnosis) -> str:

@@ -10,7 +10,7 @@ import trajectories
 from rig import campaign, noisy, recording
 
 from erdctl.core.recording import Recording, concatenate
-from erdctl.diagnose.conditions import few_conditions, one_condition
+from erdctl.diagnose.conditions import few_conditions, one_condition, one_motion
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Verdict, diagnose
 from erdctl.diagnose.wording import remaining_text
@@ -117,6 +117,29 @@ def test_two_duties_and_two_motions_tell_one_effect_and_not_two() -> None:
     said = remaining_text(found)
     assert "two duties and two kinds of motion at most" in said
     assert "--drive sweep:" in said
+
+
+def test_of_one_motion_it_is_said_that_nothing_tests_another() -> None:
+    levels = (0.0, 0.15, 0.3, 0.45)
+    r = concatenate([sine(0.8, 0.015, d, f"r{i}") for i, d in enumerate(levels)])
+    catalogue, said = (
+        few("coulomb_friction", "gas_preload"),
+        "nothing here tests the corrected model",
+    )
+    found = diagnose(noisy(plus(r, 1.5 * np.sign(r.xdot)), seed=2, rms=NOISE), catalogue)
+    assert [f.effect.name for f in found.findings] == ["coulomb_friction"]
+    assert said in remaining_text(found)
+    nothing = diagnose(noisy(r, seed=2, rms=NOISE), catalogue)
+    assert not nothing.findings
+    assert said not in remaining_text(nothing)
+
+
+def test_what_is_more_than_one_motion() -> None:
+    slow, fast, wide = (sine(f, x, 0.0, "r") for f, x in ((0.8, 0.015), (1.6, 0.015), (0.8, 0.03)))
+    high = sine(0.8, 0.015, 0.3, "r")
+    assert one_motion(concatenate([slow, high, high]))
+    assert not one_motion(concatenate([slow, fast]))
+    assert not one_motion(concatenate([slow, wide]))
 
 
 def test_what_is_more_than_few_conditions() -> None:

@@ -28,7 +28,7 @@ def run(*arguments: object, code: int = 0) -> subprocess.CompletedProcess[str]:
 
 @pytest.fixture
 def log(tmp_path: Path) -> Path:
-    r = noisy(campaign(50.0, 8.0), seed=77)
+    r = noisy(campaign(50.0, 5.0), seed=77)
     path = tmp_path / "bench.csv"
     records = [name for name, part in zip(r.names, r.slices, strict=True) for _ in r.t[part]]
     columns = {"t": r.t, "x": r.x, "xdot": r.xdot, "duty": r.duty, "force": r.force}

@@ -25,7 +25,7 @@ from erdctl.diagnose.learning.laws import finer, laws, plain_laws, surfaces, swi
 from erdctl.diagnose.levels_of_records import beyond_levels
 from erdctl.diagnose.look_alikes import is_preferred
 from erdctl.diagnose.problem import Problem
-from erdctl.diagnose.residual.predictability import lack_of_fit_of
+from erdctl.diagnose.residual.predictability import search_is_worthwhile
 from erdctl.diagnose.screening import Candidate
 from erdctl.diagnose.search import Selection
 from erdctl.estimate.least_squares import at_bound
@@ -55,7 +55,7 @@ def learn(
     """
     x = Exploration(problem, base, Explored([base, named]), executor)
     best, rivals = _laws(x, named, candidates, line, seed, wide=False)
-    if _leaves_more(best, seed):
+    if search_is_worthwhile(best, seed):
         # A law over two coordinates can be an effect and a law at once: it comes where these fail.
         wide, others = _laws(x, named, candidates, line, seed, wide=True)
         if wide is not named and is_preferred(problem, wide, best):
@@ -79,11 +79,16 @@ def _laws(
     """
     best, rivals, taken = named, dict[str, list[Hypothesis]](), list[float]()
     for number in range(1, thresholds.MOST_LAWS + 1):
-        if number > 1 and not _leaves_more(best, seed):
+        if number > 1 and not search_is_worthwhile(best, seed):
             break
         stage = f"law {number}"
         found, others = _beside(x, best, line, stage, wide=wide)
-        if wide and number == 1 and x.added(named) and (found is None or _leaves_more(found, seed)):
+        if (
+            wide
+            and number == 1
+            and x.added(named)
+            and (found is None or search_is_worthwhile(found, seed))
+        ):
             anew, instead = _in_place_of_names(x, named, line, stage)
             if anew and is_preferred(x.problem, anew, found or named):
                 found, others = anew, instead
@@ -96,11 +101,6 @@ def _laws(
         rivals[learned_in(found.effects)[-1].name] = others
         best = found
     return (best if best is named else _catalogued(x, best, candidates)), rivals
-
-
-def _leaves_more(found: Hypothesis, seed: int) -> bool:
-    """Whether a rest is more than noise."""
-    return lack_of_fit_of(found, seed).hint
 
 
 def _beside(

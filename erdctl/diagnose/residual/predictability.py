@@ -58,29 +58,54 @@ class LackOfFit:
         return (found + self.predicted) ** 2 + np.maximum(self.excess - self.predicted**2, 0.0)
 
 
-@lru_cache(maxsize=4)  # search, look-alikes and laws ask in turn for the same few
+# Search, look-alikes and laws ask in turn for the same few.
+@lru_cache(maxsize=8)
 def lack_of_fit_of(hypothesis: Hypothesis, seed: int = 0) -> LackOfFit:
     """The misfit in what a hypothesis leaves."""
-    return lack_of_fit_test(hypothesis.problem, hypothesis.residual, seed)
+    first = _predicted_by_groups(hypothesis, seed)
+    return lack_of_fit_test(hypothesis.problem, hypothesis.residual, seed, first)
 
 
-def lack_of_fit_test(problem: Problem, residual: Array, seed: int = 0) -> LackOfFit:
-    """The misfit in a residual (n,) [N]."""
-    rng = np.random.default_rng(seed)
+def misfit_is_left(hypothesis: Hypothesis, seed: int = 0) -> bool:
+    """`lack_of_fit_of(...).significant`, which the first of its regressions mostly settles."""
+    return (
+        _predicted_by_groups(hypothesis, seed).significant
+        or lack_of_fit_of(hypothesis, seed).significant
+    )
+
+
+def search_is_worthwhile(hypothesis: Hypothesis, seed: int = 0) -> bool:
+    """`lack_of_fit_of(...).hint`, as far as needed to say so."""
+    weight = hypothesis.problem.block.weight
+    return (
+        _heavy_tailed(hypothesis.residual[weight > 0])
+        or _predicted_by_groups(hypothesis, seed).hint
+        or lack_of_fit_of(hypothesis, seed).hint
+    )
+
+
+def lack_of_fit_test(
+    problem: Problem, residual: Array, seed: int = 0, first: _Prediction | None = None
+) -> LackOfFit:
+    """The misfit in a residual (n,) [N].
+
+    first : what the first of the regressions has predicted, where that is known
+    """
+    by_groups, by_stretches, by_variance = _seeds(seed)
     s, weight = problem.block.signals, problem.block.weight
     inputs, since = features(s)
+    everything = np.column_stack([inputs, since])
     # Slow states (heat, wear, sediment) show over time or travel, which a regression must not have
     # from next door: noise has a memory too. So those are left out by groups, and states of motion
     # by stretches.
-    splits = (
-        (np.column_stack([inputs, since]), problem.group),
-        (inputs, problem.stretch),
+    predictions = (
+        first or _predicted(problem, everything, problem.group, residual, by_groups),
+        _predicted(problem, inputs, problem.stretch, residual, by_stretches),
     )
     predicted = np.zeros_like(residual)
     measures: dict[str, float] = {}
     best, hint = 0.0, _heavy_tailed(residual[weight > 0])
-    for columns, group in splits:
-        found = _predicted(problem, columns, group, residual, rng)
+    for found in predictions:
         hint = hint or found.hint
         if found.t_stretches > measures.get("T_PREDICTED", 0.0):
             measures |= {
@@ -92,7 +117,7 @@ def lack_of_fit_test(problem: Problem, residual: Array, seed: int = 0) -> LackOf
     rest = residual - predicted
     total = float(problem.weight_of.sum())
     square = float(np.dot(weight, residual**2)) / total
-    beyond, noise = _variance(problem, splits[0][0], rest, rng, measures)
+    beyond, noise = _variance(problem, everything, rest, by_variance, measures)
     line, hum = spectral_lines(problem, rest)
     left = float(np.dot(weight, rest**2)) / total
     excess = predicted**2 + beyond
@@ -149,12 +174,26 @@ class _Prediction:
         return self.share > thresholds.SHARE_HINT and self.t_stretches > thresholds.T_HINT
 
 
+@lru_cache(maxsize=8)
+def _predicted_by_groups(hypothesis: Hypothesis, seed: int) -> _Prediction:
+    """The first regression of `lack_of_fit_test`."""
+    problem = hypothesis.problem
+    columns = np.column_stack(features(problem.block.signals))
+    return _predicted(problem, columns, problem.group, hypothesis.residual, _seeds(seed)[0])
+
+
+def _seeds(seed: int) -> list[int]:
+    """Of the folds of each regression."""
+    rng = np.random.default_rng(seed)
+    return [int(rng.integers(2**31)) for _ in range(3)]
+
+
 def _predicted(
-    problem: Problem, inputs: Array, group: Index, residual: Array, rng: np.random.Generator
+    problem: Problem, inputs: Array, group: Index, residual: Array, seed: int
 ) -> _Prediction:
     """The predicted part of a residual (n,)."""
     weight = problem.block.weight
-    predicted = cross_predicted(weight, inputs, group, residual, rng)
+    predicted = cross_predicted(weight, inputs, group, residual, seed)
     # A regression also learns noise; scaled by what holds on unseen groups, that costs nothing.
     cross, power = np.dot(weight, residual * predicted), np.dot(weight, predicted**2)
     predicted *= float(np.clip(cross / max(power, 1e-300), 0.0, 1.0))
@@ -167,7 +206,7 @@ def _variance(
     problem: Problem,
     inputs: Array,
     rest: Array,
-    rng: np.random.Generator,
+    seed: int,
     measures: dict[str, float],
 ) -> tuple[Array, float]:
     """The mean square beyond noise to be expected at each sample (n,), and the noise's own.
@@ -184,7 +223,7 @@ def _variance(
     if mean <= 0.0:
         return nothing, mean
     logarithm = np.log(square + thresholds.LOG_FLOOR * mean)
-    order = cross_predicted(weight, inputs, problem.group, logarithm, rng)
+    order = cross_predicted(weight, inputs, problem.group, logarithm, seed)
     use = weight > 0
     cells = round(1 / thresholds.NOISE_PART)
     edges = np.quantile(order[use], np.linspace(0, 1, cells + 1)[1:-1])

@@ -9,9 +9,7 @@ from erdctl.core.signals import Signals
 from erdctl.diagnose import thresholds
 
 
-def cross_predicted(
-    weight: Array, inputs: Array, group: Index, target: Array, rng: np.random.Generator
-) -> Array:
+def cross_predicted(weight: Array, inputs: Array, group: Index, target: Array, seed: int) -> Array:
     """(n,) target as predicted from inputs (n, m) by regressions that have not seen its group."""
     from sklearn.ensemble import HistGradientBoostingRegressor
     from sklearn.model_selection import GroupKFold, cross_val_predict
@@ -21,7 +19,7 @@ def cross_predicted(
     learn = np.zeros(len(target), dtype=np.bool_)
     learn[used[:: max(1, len(used) // thresholds.REGRESSION_SAMPLES)]] = True
     count = min(thresholds.FOLDS, len(np.unique(group)))
-    folds = GroupKFold(count, shuffle=True, random_state=int(rng.integers(2**31)))
+    folds = GroupKFold(count, shuffle=True, random_state=seed)
     splits = [(train[learn[train]], test) for train, test in folds.split(inputs, groups=group)]
     machine = HistGradientBoostingRegressor(
         max_iter=thresholds.TREES, learning_rate=thresholds.RATE,
