@@ -11,6 +11,7 @@ import numpy as np
 
 from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
+from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
 from erdctl.effects import candidates
 from erdctl.io import documents
@@ -221,8 +222,8 @@ def _errors(sealed: Sealed, found: Diagnosis, key: Mapping[str, Any]) -> Errors:
         missed: Array = true - model.force(signals, values)
         return float(np.sqrt(np.mean(missed**2)))
 
-    end = found.selection if found.learned is None else found.learned.selection
-    base, corrected = found.selection.base, end.best
+    # What a user is given: the last step may have moved what the search ended with.
+    base, corrected = found.selection.base, parameters(found)
     best = None
     if key["effects"] and all(e["catalogued"] for e in key["effects"]):
         truth = [structure(e["name"]) for e in key["effects"]]
