@@ -20,9 +20,9 @@ from erdctl.model.slots import Values
 OUTLYING = 2.0  # standard deviations of the noise: no single sample rises beyond 1.96^2
 ROUNDING = 1e-4  # of the force, below which nothing is told apart
 REFITS = 12  # evaluations of a search for all other parameters
-# Of the squares left, what single samples may add where the others leave less. A guess: next to
-# turns it was a third, rightly (`test_leap`), and twice as much, wrongly, where a misfit was left.
-SINGLE = 1.0
+# Part of all samples that may be farther off where the others leave less: next to turns. Where a
+# misfit is left, a sixth of them lies beyond the limit, and is no single samples.
+SINGLE = 0.01
 GUESS = 1e-3  # of a value or a start, where there is no error to begin with
 
 
@@ -151,22 +151,26 @@ class _Data:
     def best(
         self, values: dict[str, float], others: Sequence[dict[str, float]]
     ) -> dict[str, float]:
-        """The values, or others that leave less of samples up to the limit, and not twice of all.
+        """The values, or others that leave less of samples up to the limit, and no more of all.
 
-        Where a misfit is left, what lies beyond the limit is not single samples: it may grow there
-        without end.
+        Of all but the few that grow most. Where a misfit is left, what lies beyond the limit
+        is not single samples: it would grow there without end.
         """
+        single = round(SINGLE * len(self.measured))
 
-        def squares(at: Values) -> tuple[float, float]:
-            left = np.abs(self.measured - self.force(at)) * self.root
-            most = self.limit * self.root
-            return float(np.sum(np.minimum(left, most) ** 2)), float(left @ left)
+        def off(at: Values) -> Array:
+            return np.abs(self.measured - self.force(at)) * self.root
 
-        least, whole = squares(values)
+        def limited(left: Array) -> float:
+            return float(np.sum(np.minimum(left, self.limit * self.root) ** 2))
+
+        here = off(values)
+        least = limited(here)
         for other in others:
-            limited, all_of_it = squares(other)
-            if limited < least and all_of_it <= (1.0 + SINGLE) * whole:
-                values, least = other, limited
+            left = off(other)
+            grown = np.sort(left**2 - here**2)[: len(left) - single]
+            if limited(left) < least and float(grown.sum()) <= 0.0:
+                values, least = other, limited(left)
         return values
 
     def taken_up(self, values: dict[str, float], name: str, rest: Linear) -> dict[str, float]:

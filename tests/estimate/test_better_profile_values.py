@@ -34,6 +34,13 @@ def test_a_misfit_may_not_grow_beyond_the_limit() -> None:
     assert data().best(here, (worse,)) is here
 
 
+def test_nor_by_a_little() -> None:
+    """A law of the wrong form left 8 % more of all, and predicted other motion worse than none."""
+    here = {"many": 5.0, "few": 0.1}
+    worse = {"many": 5.1, "few": 0.05}
+    assert data().best(here, (worse,)) is here
+
+
 def test_a_single_sample_may() -> None:
     """A contact that falls to the other side of one sample must not decide."""
     here = {"many": 5.0, "few": 0.1}

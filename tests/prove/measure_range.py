@@ -40,7 +40,7 @@ def case(folder: Path, result: dict[str, Any], work: Path) -> dict[str, Any]:
     rows = fresh["record"].isin(inside).to_numpy()
     return {
         "effect": result["hidden"][0]["effect"], "level": result["level"],
-        "learned": bool(result["learned"]), "right": bool(result["lies"]),
+        "learned": bool(result["learned"]), "right": result["lies"],
         "all": removed(missed), "inside": removed([m[rows] for m in missed]) if any(rows) else None,
     }  # fmt: skip
 
@@ -51,9 +51,9 @@ def removed(missed: list[np.ndarray[Any, Any]]) -> float:
 
 
 def line(what: str, cases: pd.DataFrame) -> str:
-    inside = cases["inside"].dropna().astype(float)
+    inside, right = cases["inside"].dropna().astype(float), cases["right"].dropna()
     return (
-        f"| {what} | {len(cases)} | {cases['learned'].sum()} | {cases['right'].sum()}"
+        f"| {what} | {len(cases)} | {cases['learned'].sum()} | {sum(right)} of {len(right)}"
         f" | {100 * cases['all'].median():.0f} % | {100 * inside.median():.0f} % ({len(inside)})"
         f" | {(cases['all'] < -0.02).sum()}, {(inside < -0.02).sum()} |"
     )
