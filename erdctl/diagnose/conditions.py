@@ -28,8 +28,8 @@ def one_condition(recording: Recording) -> bool:
 def one_motion(recording: Recording) -> bool:
     """Whether all records are of one kind of motion, and half of the strokes or more alike.
 
-    Then no law of the motion is tested on another one. A real damper's five effects of 5 mm at
-    3 Hz predict 25 mm at 0.5 Hz worse (0.21 of the range) than the paper's model does (0.14).
+    Then no law of the motion is tested on another one. What a real damper's log of 5 mm at
+    3 Hz names predicts 25 mm at 0.5 Hz worse (0.21 of the range) than the paper's model (0.14).
     """
     found = strokes(recording)
     if motions(recording) > 1 or not len(found):

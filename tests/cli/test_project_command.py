@@ -25,7 +25,7 @@ ERDCTL = [sys.executable, "-m", "erdctl"]
 COLUMNS = '[columns]\nt = "Time"\nx = "Defl FL[mm]"\nduty = "PWM[%]"\nforce = "F_fl[N]"\n'
 BY_MAP = ["--map", "t=Time", "--map", "x=Defl FL[mm]", "--map", "duty=PWM[%]",
           "--map", "force=F_fl[N]"]  # fmt: skip
-ALL: dict[str, Any] = typer.main.get_command(build()).commands  # type: ignore[attr-defined]
+ALL: dict[str, Any] = typer.main.get_command(build()).commands  # type: ignore[attr-defined]  # a group
 
 
 @pytest.fixture
