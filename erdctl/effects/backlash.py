@@ -6,13 +6,11 @@
 x, x_p : (n,) stroke of the rod and of the piston [m];  g : free play [m], g >= 0, off at 0
 A record begins on the flank of its first motion, or, from rest, in the middle. Where contact closes
 between two samples, the motion of the nearer one sets in in part, so that the force is continuous
-in g.
+in g; one that it lies ahead of takes it to come at its own speed.
 Valid for a joint without damping of its own, with a clamp much stiffer than the damper.
 With a compliance in series the joint is its: after a reversal the spring unloads, then the play is
 crossed without force, then it loads again (`erdctl.model.series_compliance`).
 The play is followed along the integral of xdot: noise in x does not open the joint.
-In C, which does not know what comes, contact that falls less than a tenth of a step behind a sample
-sets in at the next one.
 Check: x = 0, 1, 2, 1, 0 mm from the lower flank, g = 2 mm gives x_p - x_p0 = 0, 1, 2, 2, 2 mm.
 >>> t = np.linspace(0.0, 4.0, 4001)
 >>> s = signals(np.where(t < 2.0, 1e-3, -1e-3), x=2e-3 - 1e-3 * abs(t - 2.0), t=t)
@@ -32,7 +30,7 @@ from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.c_law import CLaw
-from erdctl.model.effect import Causal, Effect, Requirement, Stage, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import MotionSlot, Values
 
 
@@ -44,15 +42,6 @@ def backlash(s: Signals, p: Values) -> Signals:
 
     lost, engaged = play(s.xdot, s.step, s.starts, s.compressing, s.rests, p["g"])
     return s.with_motion(s.x - lost, s.xdot * engaged, engaged)
-
-
-def felt_late(s: Signals, p: Values) -> Signals:
-    """The same where contact that falls just behind a sample shows in the next one only."""
-    moved = backlash(s, p)
-    if moved.engaged is None:
-        return s
-    engaged = np.where(moved.engaged < 0.5, 0.0, moved.engaged)
-    return s.with_motion(moved.x, s.xdot * engaged, engaged)
 
 
 def free_play(p: Values) -> float:
@@ -87,13 +76,10 @@ EFFECT = Effect(
         ),
     ),
     guesses=gaps,
-    causal=Causal(slot=MotionSlot(felt_late, free_play=free_play)),
     companions=("mount_compliance", "coulomb_friction"),
     c=CLaw(
         state=("lost", "past", "free"),
         code="""
-        /* Contact that falls just behind the sample before is not known there yet, and sets in at
-         * this one. */
         const real blur = K(0.2);  /* part of a step over which contact sets in */
         real half = K(0.5) * p->g, v0 = z->past, v1 = s->xdot, h = s->h;
         real before, a, b, span, travel, flank, room, met, contact = K(-1.0), edge = blur * h;
@@ -142,11 +128,15 @@ EFFECT = Effect(
         m->engaged = pressing ? K(1.0) : K(0.0);
         if (pressing && contact >= K(0.0))
             m->engaged = FMIN(K(1.0), K(0.5) + (h - contact) / edge);
+        if (!pressing && FABS(v1) > K(0.0)) {
+            /* Contact just ahead, at the speed of this sample. */
+            met = FABS((v1 > K(0.0) ? half : -half) - z->lost) / FABS(v1);
+            edge = FMAX(FMIN(blur * h, K(2.0) * (z->free + met)), K(1e-12));
+            m->engaged = FMAX(K(0.0), K(0.5) - met / edge);
+        }
         m->x -= z->lost;
         m->xdot *= m->engaged;
         """,
         play="return p->g;",
-        note="contact that falls less than a tenth of a step behind a sample sets in at the next "
-        "one",
     ),
 )  # fmt: skip

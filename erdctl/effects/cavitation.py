@@ -7,9 +7,8 @@ dx : travel of the piston [m];  V : what of the void release has yet to take up 
 begins;  x_v : the largest void [m], x_v >= 0, off at 0
 g : void left by a metre of compression [1];  lambda : part of the force that is lost [1], 0..1
 e : part of x_v over which the force returns [1], 0..1; all of it as the mean over the travel of one
-sample, so that it is continuous in x_v also at e = 0
+sample (its speed times the step before it), so that it is continuous in x_v also at e = 0
 Valid for a void that forms and is taken up whatever the speed.
-In C, which does not know what comes, the travel of a sample is its speed times the step before it.
 Check: x_v = 2 mm, g = 100, lambda = 0.8, e = 0: 1 mm and 3 mm after full compression 0.2 and 1 of
 both forces; g = 0.5, after 2 mm of compression: 0.5 mm and 1.5 mm into release 0.2 and 1.
 >>> xdot = np.array([0.0, 1.0, 1.0, 0.0, -1.0, -1.0])  # 2 mm up, 0.5 and 1.5 mm down
@@ -33,7 +32,7 @@ from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.c_law import CLaw
-from erdctl.model.effect import Causal, Effect, Requirement, Stage, Variable
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import ScaleSlot, Values
 
 NEGLIGIBLE = 1e-12  # m
@@ -41,21 +40,12 @@ NEGLIGIBLE = 1e-12  # m
 
 def cavitation(s: Signals, p: Values) -> dict[str, Array]:
     """Factors of the viscous and the yield force, (n,) each [1]."""
-    return _left(s, p, s.path[0])
-
-
-def at_this_speed(s: Signals, p: Values) -> dict[str, Array]:
-    """The same with a coming step that goes as far as the last one would at this speed."""
-    return _left(s, p, np.abs(s.xdot) * s.step_before)
-
-
-def _left(s: Signals, p: Values, travel: Array) -> dict[str, Array]:
-    """The factors; a sample stands for the void within half of travel (n,) each way [m]."""
     x_v = p["x_v"]
     if x_v == 0.0:
         return {}
     void, gone = _void(s, x_v, p["g"])
     edge, to_go = p["e"] * x_v, void - gone
+    travel = np.abs(s.xdot) * s.step_before  # a sample stands for half of it each way
     sample = np.minimum(np.maximum(travel - edge, 0.0), 2.0 * void)
     over = _area(to_go + 0.5 * sample, edge) - _area(to_go - 0.5 * sample, edge)
     here = np.clip(to_go / max(edge, NEGLIGIBLE), 0.0, 1.0)  # of a sample that does not travel
@@ -132,12 +122,10 @@ EFFECT = Effect(
         ),
     ),
     guesses=guesses,
-    causal=Causal(slot=ScaleSlot(at_this_speed)),
     c=CLaw(
         state=("hollow", "gone"),
         code="""
-        /* hollow: the void as this stroke began; gone: travelled in it since. How far the next step
-         * goes is not known yet: as far as the last one would at this speed. */
+        /* hollow: the void as this stroke began; gone: travelled in it since. */
         real edge = p->e * p->x_v, to_go, sample, lost, travel;
 
         if (!(p->x_v > K(0.0)))
@@ -163,7 +151,5 @@ EFFECT = Effect(
         f->viscous *= lost;
         f->yield *= lost;
         """,
-        note="the travel of the coming step, over which the edge of the void is averaged, is taken"
-        " from the speed",
     ),
 )  # fmt: skip

@@ -23,8 +23,8 @@ from __future__ import annotations
 
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.effect import Causal, Effect, Requirement, Stage, Variable
-from erdctl.model.faults import FaultKind, set_in, set_in_by_steps, set_in_c
+from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.faults import FaultKind, set_in, set_in_c
 from erdctl.model.onset import ONSET, anywhere
 from erdctl.model.slots import ScaleSlot, Values
 
@@ -32,11 +32,6 @@ from erdctl.model.slots import ScaleSlot, Values
 def electrical_fault(s: Signals, p: Values) -> dict[str, Array]:
     """Factors of the groups, (n,) each [1]."""
     return set_in(FaultKind.ELECTRICAL, s, p)
-
-
-def by_steps(s: Signals, p: Values) -> dict[str, Array]:
-    """The same where the samples ahead are not known."""
-    return set_in_by_steps(FaultKind.ELECTRICAL, s, p)
 
 
 EFFECT = Effect(
@@ -56,5 +51,4 @@ EFFECT = Effect(
     earlier=(("t_r", 0.0),),
     sets_in=FaultKind.ELECTRICAL.groups,
     c=set_in_c(FaultKind.ELECTRICAL),
-    causal=Causal(slot=ScaleSlot(by_steps)),
 )

@@ -20,8 +20,9 @@ from erdctl.core.errors import UsageProblem
 from erdctl.core.recording import Array, Index
 from erdctl.core.signals import Signals
 from erdctl.model.c_law import CLaw
-from erdctl.model.onset import AMOUNT, RAMP, START, onset_by_steps, onset_weight
+from erdctl.model.onset import AMOUNT, RAMP, START, onset_weight
 
+A_GAP = 2.0  # times the typical step: no longer is what a sample stands for
 EXAMPLE = "write for instance oil=0.5@15:31 or electrical=0.8@31,ramp=2,channel=fr"
 
 
@@ -198,17 +199,9 @@ def set_in(kind: FaultKind, s: Signals, p: Mapping[str, float]) -> dict[str, Arr
     f = p[AMOUNT]
     if f == 1.0:
         return {}
-    weight = onset_weight(s.t, p[START], p[RAMP], s.typical_step)
-    factor: Array = (1.0 - weight) + weight * f
-    return dict.fromkeys(kind.groups, factor)
-
-
-def set_in_by_steps(kind: FaultKind, s: Signals, p: Mapping[str, float]) -> dict[str, Array]:
-    """The same over the step before each sample, where those ahead are not known."""
-    f = p[AMOUNT]
-    if f == 1.0:
-        return {}
-    weight = onset_by_steps(s.t - p[START], p[RAMP], s.step_before)
+    # As long as the one before it, which an exported block knows; a gap in the clock is no step.
+    own = np.minimum(s.step_before, A_GAP * s.typical_step)
+    weight = onset_weight(s.t, p[START], p[RAMP], own)
     factor: Array = (1.0 - weight) + weight * f
     return dict.fromkeys(kind.groups, factor)
 
@@ -221,7 +214,7 @@ def set_in_c(kind: FaultKind) -> CLaw:
         "",
         *(f"f->{group} *= left;" for group in kind.groups),
     ]
-    return CLaw(code="\n".join(lines), note="sets in over its own step, where steps vary")
+    return CLaw(code="\n".join(lines), note="a gap in the clock is a step as any other")
 
 
 def leakage(xdot: Array, flow: float) -> Array:

@@ -1,6 +1,6 @@
 """What sets in at a time in the record, at once or over a ramp, and stays.
 
-    w(t) = mean over a sampling step about t of  min(1, max(0, (t - t_0) / t_r))
+    w(t) = mean over its sampling step about t of  min(1, max(0, (t - t_0) / t_r))
     factor of the groups that fail: 1 - (1 - f) w(t)
 
 At a sample the mean over its own step says as much as a log can: between which two samples a step
@@ -38,25 +38,11 @@ def anywhere(s: Signals, rest: Array) -> list[dict[str, float]]:
     return [{AMOUNT: 0.7, START: float(np.median(s.t)), RAMP: 0.0}]
 
 
-def onset_by_steps(since: Array, t_r: float, step: Array) -> Array:
-    """The same where each sample stands for a step of its own, as long as the one before it.
-
-    since : (n,) time after the onset [s];  step : (n,) [s], 0 at the first sample of a record
-    Check: at once, 0.1 s after the onset, steps of 1 s and 0.1 s: 0.6 and 1.
-    >>> onset_by_steps(np.array([0.1, 0.1]), 0.0, np.array([1.0, 0.1])).round(9).tolist()
-    [0.6, 1.0]
-    """
-    low, high = np.clip(since - 0.5 * step, 0.0, t_r), np.clip(since + 0.5 * step, 0.0, t_r)
-    area = 0.5 * (high**2 - low**2) / (t_r or 1.0) + np.clip(since + 0.5 * step - t_r, 0.0, step)
-    at_once = np.where(since >= t_r, 1.0, np.clip(since, 0.0, t_r) / (t_r or 1.0))
-    mean = np.clip(area / np.where(step > 0.0, step, 1.0), 0.0, 1.0)
-    return np.where(step > 0.0, mean, at_once)
-
-
-def onset_weight(t: Array, t_0: float, t_r: float, step: float) -> Array:
+def onset_weight(t: Array, t_0: float, t_r: float, step: Array | float) -> Array:
     """How far a change has set in at the samples of a log.
 
-    t : (n,) time [s];  t_0 : onset [s];  t_r : ramp [s] >= 0;  step : between samples [s]
+    t : (n,) time [s];  t_0 : onset [s];  t_r : ramp [s] >= 0
+    step : that a sample stands for, (n,) or one for all [s]; where it is 0, its moment alone
     Returns (n,) w [1] in 0..1.
     Check: t = 9, 10, 11, 12, 13 s, onset at 10.5 s, 1 s between samples. At once: 0, 0, 1, 1, 1.
     Over 2 s: the mean over 10.5 to 11.5 s is 0.25, over 11.5 to 12.5 s 0.75.
@@ -67,10 +53,11 @@ def onset_weight(t: Array, t_0: float, t_r: float, step: float) -> Array:
     [0.0, 0.0, 0.25, 0.75, 1.0]
     """
     since = t - t_0
-    if step <= 0.0:  # no record has two samples
-        return np.where(since >= t_r, 1.0, np.clip(since, 0.0, t_r) / (t_r or 1.0))
-    low, high = since - 0.5 * step, since + 0.5 * step
+    low, high = np.clip(since - 0.5 * step, 0.0, t_r), np.clip(since + 0.5 * step, 0.0, t_r)
     # The area under the ramp, from its foot to each end of the step and beyond its top.
-    area = 0.5 * (np.clip(high, 0.0, t_r) ** 2 - np.clip(low, 0.0, t_r) ** 2) / (t_r or 1.0)
-    beyond = np.clip(high - t_r, 0.0, step)
-    return np.clip((area + beyond) / step, 0.0, 1.0)
+    area = 0.5 * (high**2 - low**2) / (t_r or 1.0) + np.clip(since + 0.5 * step - t_r, 0.0, step)
+    if np.all(step):
+        return np.clip(area / step, 0.0, 1.0)
+    at_once = np.where(since >= t_r, 1.0, np.clip(since, 0.0, t_r) / (t_r or 1.0))
+    mean = np.clip(area / np.where(step > 0.0, step, 1.0), 0.0, 1.0)
+    return np.where(step > 0.0, mean, at_once)
