@@ -351,9 +351,10 @@ CURVE_POINTS = 33
 # Origin: none; it decides words only.
 FLAT = 0.01
 
-# Time constants of a memory that are tried, the shortest in steps of the log.
+# Time constants of a memory that are tried, the shortest in steps of the log; of one that goes by
+# the way the shortest travel, over the stroke.
 # Origin: budget; the fit moves them.
-LATE_TIMES, LATE_STEPS = 6, 5.0
+LATE_TIMES, LATE_STEPS, LEAST_OF_STROKE = 6, 5.0, 3e-3
 
 # Closed forms that are fitted of those like a curve; starts of each of their parameters; and what
 # is left at least of a factor in the place at which it is taken to be 1.

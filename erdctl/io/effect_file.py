@@ -37,6 +37,8 @@ REQUIRES = {
     "since_duty_step": ("STEPS", "SINCE_DUTY_STEP"),
     "since_reversal": ("REVERSALS", "SINCE_REVERSAL"),
     "path_since_reversal": ("REVERSALS", "SINCE_REVERSAL"),
+    "settled_time": ("REVERSALS", "SINCE_REVERSAL"),
+    "settled_way": ("REVERSALS", "SINCE_REVERSAL"),
     "xdot": ("SPEEDS", "XDOT"),
     "abs_xdot": ("SPEEDS", "XDOT"),
     "largest_xdot": ("SPEEDS", "XDOT"),

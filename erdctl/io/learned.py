@@ -19,7 +19,7 @@ NAME = "learned"  # of the effect that a law is, in a parameter file
 
 
 class LawCoordinate(msgspec.Struct, omit_defaults=True):
-    """What a law depends on; one that remembers has a parameter `tau` [s].
+    """What a law depends on; one that remembers has a parameter `tau` [s], or [m] of travel.
 
     knots : of the second coordinate of two
     """

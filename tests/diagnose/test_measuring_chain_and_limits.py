@@ -84,6 +84,7 @@ def test_a_damped_stop_at_one_end(low: bool, dashpot: bool) -> None:
     assert removed(found, stopped) >= 0.95
 
 
+@pytest.mark.long
 def test_a_knee_as_sharp_as_a_corner() -> None:
     clean = log()
     parts = []

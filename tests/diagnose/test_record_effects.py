@@ -143,6 +143,7 @@ def test_values_are_drawn_by_their_errors() -> None:
     assert shrunk(np.array([1.0, 3.0]), np.array([1.0, np.inf])).tolist() == [0.0, 0.0]
 
 
+@pytest.mark.long
 def test_the_same_for_any_number_of_jobs() -> None:
     r = recording(concealed(EFFECT))
     few = [get(n) for n in FEW]

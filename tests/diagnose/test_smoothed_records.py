@@ -41,6 +41,7 @@ def recording(frequency: float, amplitude: float, duty: float) -> Recording:
     )  # fmt: skip
 
 
+@pytest.mark.long
 def test_the_smoothing_is_found_beside_a_damper() -> None:
     log = concatenate(
         [recording(f, a, duty) for f, a in ((0.5, 0.02), (1.2, 0.012), (3.0, 0.006))

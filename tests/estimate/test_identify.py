@@ -31,6 +31,7 @@ def test_estimates_are_near_the_truth(correlation: float) -> None:
         assert found.joint[name].value == pytest.approx(truth, rel=tolerance), name
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("correlation", [0.9])
 def test_intervals_cover_the_truth(correlation: float) -> None:
     """Over 100 noise draws the 95 % intervals of all parameters cover it in 90 to 99 %."""

@@ -27,6 +27,8 @@ def laws(problem: Problem) -> Iterator[Law]:
     longest = float((s.t[s.starts[1:] - 1] - s.t[s.starts[:-1]]).max())
     shortest = min(thresholds.LATE_STEPS * s.typical_step, longest)
     taus = np.geomspace(shortest, longest, thresholds.LATE_TIMES).tolist()
+    stroke = float(np.ptp(s.x))
+    ways = np.geomspace(thresholds.LEAST_OF_STROKE * stroke, stroke, thresholds.LATE_TIMES).tolist()
     ends = thresholds.RING_STEPS * s.typical_step, thresholds.RING_LONGEST * longest
     rates = np.geomspace(min(ends), ends[1], thresholds.RING_TIMES).tolist()
     for name, kind in _told(problem):
@@ -34,7 +36,7 @@ def laws(problem: Problem) -> Iterator[Law]:
             continue
         found = []
         if kind.late:
-            times = rates if kind.rings else taus
+            times = rates if kind.rings else ways if kind.by_way else taus
             few = thresholds.FEW_KNOTS
             found = [(spread(problem, name, few, Memory(tau)), tau) for tau in times]
         else:

@@ -32,7 +32,7 @@ class LearnedLaw:
 
     finding : what it is worth, and the drive that would tell it from its look-alikes
     alike : laws that would do as well in its place
-    tau : the time constant of its coordinate, if that has one [s]
+    tau : the time constant of its coordinate, if that has one [s], or its travel [m]
     z : of each coordinate (k,) values;  f : (k,) or (k, m) the curve [N], [m], or [1] of a factor
         less 1
     """

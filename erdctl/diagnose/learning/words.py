@@ -25,11 +25,12 @@ UNITS = {"m": (1e3, "mm"), "m/s": (1e3, "mm/s"), "1": (1.0, "")}
 
 
 def law_words(law: Law, tau: float | None = None) -> str:
-    """Which law it is; tau : the time constant of its memory [s]."""
+    """Which law it is; tau : the time constant of its memory [s], or its travel [m]."""
     beside = law.unit != "1"
     verb = "depends" if beside else "change" if law.slot is LawSlot.FLUID else "changes"
     by = "on" if beside else "with"
-    over = "" if tau is None else f" (over {tau:.3g} s)"
+    factor, unit = UNITS.get(law.curve.kind.forgets, (1.0, law.curve.kind.forgets))
+    over = "" if tau is None else f" (over {factor * tau:.3g} {unit})"
     that = " that" if beside else ""
     others = "".join(f" and {axis.kind.words}" for axis in law.curve.axes[1:])
     return f"{OF[law.slot]}{that} {verb} {by} {law.curve.kind.words}{over}{others}"

@@ -94,21 +94,23 @@ def _largest(of: str) -> str:
     return f"@most = s->first ? FABS({of}) : FMAX(@most, FABS({of}));\nVALUE = @most;"
 
 
-def _late(of: str, *, less: bool = False) -> CCoordinate:
+def _late(of: str, *, less: bool = False, settles: bool = False, gone: str = "s->h") -> CCoordinate:
     """dy/dt = (value - y) / tau, the value a straight line whose mean counts in each step."""
-    value = "now - @lag" if less else "@lag"
+    value = "now - @lag" if less else "s->sign * @lag" if settles else "@lag"
     code = f"""\
 {{
     const real now = {of};
     if (s->first) {{
-        @lag = {"now" if less else "K(0.0)"};
+        @lag = {"now" if less or settles else "K(0.0)"};
     }} else {{
-        const real gone = -EXPM1(-s->h / FMAX(p->tau, K(1e-9)));
+        const real gone = -EXPM1(-{gone} / FMAX(p->tau, K(1e-9)));
         @lag += gone * (K(0.5) * (@was + now) - @lag);
     }}
     @was = now;
     VALUE = {value};
 }}"""
+    if settles:
+        return CCoordinate(("lag", "was"), code)
     move = "FMIN(h / FMAX(p->tau, K(1e-9)), K(1.0)) * (@was - @lag)"
     with_x = "s->xdot * h - " if of == "s->x" else "-"
     return CCoordinate(("lag", "was"), code, f"{with_x}({move})" if less else move)
@@ -240,6 +242,8 @@ WRITTEN: Mapping[str, CCoordinate] = {
     "late_xdot2": _late("s->xdot * s->xdot"),
     "late_flow": _late("s->xdot * FABS(s->xdot)"),
     "fresh_x": _late("s->x", less=True),
+    "settled_time": _late("s->sign", settles=True),
+    "settled_way": _late("s->sign", settles=True, gone="s->path"),
     "ringing_xdot": _ringing("s->xdot", cosine=False),
     "ringing_field": _ringing("s->duty * s->sign", cosine=True),
     "fresh_duty": _late("s->duty", less=True),

@@ -27,6 +27,8 @@ Function = Callable[[Signals], Array]
 class Memory(NamedTuple):
     """Of a coordinate that has one: time constant [s], and the damping ratio of what rings [1].
 
+    Of what forgets as it goes the first is a travel [m].
+
     What rings has the natural frequency 1 / (2 pi tau).
     """
 
@@ -44,6 +46,9 @@ class CoordinateKind(NamedTuple):
 
     late : whether it has a time constant, and `of` gives what a first-order lag follows
     less : the same, and the lag is taken from what it follows
+    settles : the same, and the lag is taken times the direction: from -1 behind a turn to 1 where
+        the motion has gone its way for long
+    by_way : the lag is over the travel and not over the time
     steady : whether it changes no faster than the motion, so that a deflection can go with it
     rings : `of` gives what an oscillator with that time constant is driven by: "sine", as a mass on
         a spring, or "cosine", as what a measuring chain adds to what it measures
@@ -56,10 +61,17 @@ class CoordinateKind(NamedTuple):
     of: Function
     late: bool = False
     less: bool = False
+    settles: bool = False
+    by_way: bool = False
     steady: bool = False
     logged: bool = False
     sides: bool = False
     rings: str = ""
+
+    @property
+    def forgets(self) -> str:
+        """Unit of what its memory goes by."""
+        return "m" if self.by_way else "s"
 
 
 def along(kind: str, s: Signals, memory: Memory | None) -> Array:
@@ -77,7 +89,10 @@ def along(kind: str, s: Signals, memory: Memory | None) -> Array:
     assert memory is not None
     if known.rings:
         return _ringing(s, values, memory, cosine=known.rings == "cosine")
-    lagged = _lagged(s, values, memory.tau, at_rest=not known.less)
+    at_rest = not (known.less or known.settles)
+    lagged = _lagged(s, values, (s.path[0] if known.by_way else s.step) / memory.tau, at_rest)
+    if known.settles:
+        return s.sign * lagged
     return values - lagged if known.less else lagged
 
 
@@ -87,11 +102,14 @@ def _plain(kind: str, s: Signals) -> Array:
     return KINDS[kind].of(s)
 
 
-def _lagged(s: Signals, values: Array, tau: float, *, at_rest: bool) -> Array:
-    """(n,) dy/dt = (values - y) / tau, from 0 in each record, or from its first value."""
+def _lagged(s: Signals, values: Array, decay: Array, at_rest: bool) -> Array:
+    """(n,) what follows values by a part 1 - exp(-decay) in each step, from 0 in each record, or
+    from its first value.
+
+    With decay = h / tau it is dy/dt = (values - y) / tau.
+    """
     first = s.starts[:-1]
     initial = np.zeros(len(first)) if at_rest else values[first]
-    decay = s.step / tau
     mean = 0.5 * (values + np.append(values[1:], 0.0))
     return first_order(decay, -np.expm1(-decay) * mean, initial, s.starts)
 
@@ -256,6 +274,14 @@ KINDS: Mapping[str, CoordinateKind] = {
     ),
     "fresh_x": CoordinateKind(
         "m", "the deflection beyond its mean of late", lambda s: s.x, late=True, less=True
+    ),
+    "settled_time": CoordinateKind(
+        "1", "how long the motion has gone its way of late", lambda s: s.sign, late=True,
+        settles=True,
+    ),
+    "settled_way": CoordinateKind(
+        "1", "how far the motion has gone its way of late", lambda s: s.sign, late=True,
+        settles=True, by_way=True,
     ),
     "ringing_xdot": CoordinateKind(
         "m/s", "the swing of a mass that the velocity moves", lambda s: s.xdot, late=True,

@@ -21,6 +21,7 @@ MOST = {"N": 1e9, "m": 1.0, "1": 10.0}  # of an added force, a deflection, a fac
 REMEMBERED = 100_000  # samples, up to which a spline is not evaluated again
 MARGIN = 0.05  # of a range, that is no extrapolation yet
 SHORTEST, LONGEST = 1e-4, 1e5  # s, of a memory
+LEAST_WAY, MOST_WAY = 1e-7, 1.0  # m, of one over the travel
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ class Curve:
         each knot
     zero_first : whether a spline is 0 at the first knot, where another parameter of the model makes
         up for a constant
-    tau : where the search of the coordinate's time constant begins [s]
+    tau : where the search of the coordinate's time constant, or travel, begins [s], [m]
     """
 
     coordinate: str
@@ -83,10 +84,14 @@ class Curve:
         """All other parameters."""
         out = []
         if self.kind.late:
+            way = self.kind.by_way
+            low, high = (LEAST_WAY, MOST_WAY) if way else (SHORTEST, LONGEST)
+            at = min(max(self.tau, low), high)
             out.append(
                 Quantity(
-                    symbol="tau", unit="s", title="time constant of the memory",
-                    low=SHORTEST, high=LONGEST, start=self.tau, off=self.tau, scale=Scale.LOG,
+                    symbol="tau", unit=self.kind.forgets, low=low, high=high, start=at, off=at,
+                    title="travel of the memory" if way else "time constant of the memory",
+                    scale=Scale.LOG,
                 )
             )  # fmt: skip
         if self.kind.rings:

@@ -37,6 +37,7 @@ def pulled() -> tuple[Law, dict[str, float]]:
     return law, dict(zip(symbols, values, strict=True))
 
 
+@pytest.mark.long
 def test_a_law_over_two_coordinates_is_learned_and_right_where_it_was_not_fitted() -> None:
     law, own = pulled()
     values = {**TRUTH, **{law.effect.key(k): v for k, v in own.items()}}

@@ -97,6 +97,7 @@ def test_what_the_catalogue_explains_is_not_learned() -> None:
     assert friction.learned is None
 
 
+@pytest.mark.long
 @pytest.mark.untraced
 def test_an_effect_beside_a_law_keeps_its_name() -> None:
     r = noisy(gas_that_warms(campaign(100.0, 8.0), STIFFNESS, TAU), seed=34)

@@ -51,6 +51,7 @@ def thinned() -> Diagnosis:
     return diagnose(r, [get("thermal_fade"), get("coulomb_friction")], limits=False)
 
 
+@pytest.mark.long
 def test_the_law_is_one_of_the_temperature(thinned: Diagnosis) -> None:
     assert thinned.verdict is Verdict.UNEXPLAINED
     assert thinned.learned is not None
