@@ -96,7 +96,7 @@ def _largest(of: str) -> str:
 
 def _late(of: str, *, less: bool = False, settles: bool = False, gone: str = "s->h") -> CCoordinate:
     """dy/dt = (value - y) / tau, the value a straight line whose mean counts in each step."""
-    value = "now - @lag" if less else "s->sign * @lag" if settles else "@lag"
+    value = "now - @lag" if less else "K(0.5) * (K(1.0) - s->sign * @lag)" if settles else "@lag"
     code = f"""\
 {{
     const real now = {of};
@@ -242,8 +242,8 @@ WRITTEN: Mapping[str, CCoordinate] = {
     "late_xdot2": _late("s->xdot * s->xdot"),
     "late_flow": _late("s->xdot * FABS(s->xdot)"),
     "fresh_x": _late("s->x", less=True),
-    "settled_time": _late("s->sign", settles=True),
-    "settled_way": _late("s->sign", settles=True, gone="s->path"),
+    "unsettled_time": _late("s->sign", settles=True),
+    "unsettled_way": _late("s->sign", settles=True, gone="s->path"),
     "ringing_xdot": _ringing("s->xdot", cosine=False),
     "ringing_field": _ringing("s->duty * s->sign", cosine=True),
     "fresh_duty": _late("s->duty", less=True),

@@ -50,7 +50,7 @@ def c_law(law: Law) -> CLaw:
         for name, axis in zip(NAMES, law.curve.axes, strict=False)
     ]
     curve = curve_in_c(law.curve, law.unit)
-    code = _deflection(axes, curve) if moves else _acts(slot, axes, curve)
+    code = _deflection(axes, curve) if moves else _acts(slot, axes, curve, law.curve.kind.least)
     more = ("past[4]",) if moves else ("held",) if slot is LawSlot.DUTY else ()
     notes = [NOTES[axis.coordinate] for axis in law.curve.axes if axis.coordinate in NOTES]
     return CLaw(
@@ -74,7 +74,7 @@ def _value(axes: list[CCoordinate], curve: CCurve) -> str:
     return "\n".join([_coordinates(axes), curve.declared, *places, "real value;", curve.code])
 
 
-def _acts(slot: LawSlot, axes: list[CCoordinate], curve: CCurve) -> str:
+def _acts(slot: LawSlot, axes: list[CCoordinate], curve: CCurve, least: float) -> str:
     value = _value(axes, curve)
     if slot is LawSlot.DUTY:
         # What acts over the step that has ended was decided as it began.
@@ -85,7 +85,7 @@ def _acts(slot: LawSlot, axes: list[CCoordinate], curve: CCurve) -> str:
     if slot.adds:
         return f"{value}\nreturn value{' * s->sign' if slot is LawSlot.FRICTION else ''};"
     factors = [f"f->{group} *= value;" for group in slot.groups]
-    return "\n".join([value, "value = FMAX(K(1.0) + value, K(0.0));", *factors])
+    return "\n".join([value, f"value = FMAX(K(1.0) + value, K({least!r}));", *factors])
 
 
 def _deflection(axes: list[CCoordinate], curve: CCurve) -> str:

@@ -46,8 +46,8 @@ class CoordinateKind(NamedTuple):
 
     late : whether it has a time constant, and `of` gives what a first-order lag follows
     less : the same, and the lag is taken from what it follows
-    settles : the same, and the lag is taken times the direction: from -1 behind a turn to 1 where
-        the motion has gone its way for long
+    settles : `of` gives the direction, and what is left of the former one counts,
+        (1 - sign lag) / 2: 1 behind a turn, and 0 where the motion has gone its way for long
     by_way : the lag is over the travel and not over the time
     steady : whether it changes no faster than the motion, so that a deflection can go with it
     rings : `of` gives what an oscillator with that time constant is driven by: "sine", as a mass on
@@ -67,6 +67,13 @@ class CoordinateKind(NamedTuple):
     logged: bool = False
     sides: bool = False
     rings: str = ""
+
+    @property
+    def least(self) -> float:
+        """Of a factor of a force that goes with it: behind a turn a force may still have the sign
+        that it had.
+        """
+        return -1.0 if self.settles else 0.0
 
     @property
     def forgets(self) -> str:
@@ -92,7 +99,7 @@ def along(kind: str, s: Signals, memory: Memory | None) -> Array:
     at_rest = not (known.less or known.settles)
     lagged = _lagged(s, values, (s.path[0] if known.by_way else s.step) / memory.tau, at_rest)
     if known.settles:
-        return s.sign * lagged
+        return 0.5 * (1.0 - s.sign * lagged)
     return values - lagged if known.less else lagged
 
 
@@ -275,12 +282,12 @@ KINDS: Mapping[str, CoordinateKind] = {
     "fresh_x": CoordinateKind(
         "m", "the deflection beyond its mean of late", lambda s: s.x, late=True, less=True
     ),
-    "settled_time": CoordinateKind(
-        "1", "how long the motion has gone its way of late", lambda s: s.sign, late=True,
+    "unsettled_time": CoordinateKind(
+        "1", "what time has left of the direction before a turn", lambda s: s.sign, late=True,
         settles=True,
     ),
-    "settled_way": CoordinateKind(
-        "1", "how far the motion has gone its way of late", lambda s: s.sign, late=True,
+    "unsettled_way": CoordinateKind(
+        "1", "what the travel has left of the direction before a turn", lambda s: s.sign, late=True,
         settles=True, by_way=True,
     ),
     "ringing_xdot": CoordinateKind(

@@ -62,8 +62,8 @@ class Curve:
     def amplitudes(self, unit: str) -> list[Quantity]:
         """Those of the rows, in a unit: N, m, or 1 of a factor."""
         most = MOST[unit]
-        # A factor that is 1 at the first knot is never negative.
-        low = -1.0 if unit == "1" and self.form is None else -most
+        # A factor is 1 at the first knot.
+        low = self.kind.least - 1.0 if unit == "1" and self.form is None else -most
         if self.form is not None:
             titles = {"a": "size"}
         else:

@@ -2,7 +2,8 @@
 
     force       F -> F + f(z)
     friction    F -> F + f(z) sign(xdot)
-    yield       F_yield -> max(1 + f(z), 0) F_yield, and so of viscous and gas
+    yield       F_yield -> max(1 + f(z), 0) F_yield, and so of viscous and gas; at least -1 where z
+                is what is left of the direction before a turn
     fluid       the same of F_viscous and F_yield together
     lag         T_d -> max(1 + f(z), 0.01) T_d
     duty        v -> max(1 + f(z), 0) v, at most 1
@@ -67,7 +68,8 @@ class Law:
         }
         if self.slot in written:
             return written[self.slot]
-        return ", ".join(f"F_{g} -> max(1 + {f}, 0) F_{g}" for g in self.slot.groups)
+        least = self.curve.kind.least
+        return ", ".join(f"F_{g} -> max(1 + {f}, {least:g}) F_{g}" for g in self.slot.groups)
 
     def columns(self, s: Signals, p: Values) -> Array:
         """(k, n) added forces at unit amplitudes [N]."""
@@ -79,7 +81,7 @@ class Law:
         change = self._change(s, p)
         if change is None:
             return {}
-        return dict.fromkeys(self.slot.groups, np.maximum(1.0 + change, 0.0))
+        return dict.fromkeys(self.slot.groups, np.maximum(1.0 + change, self.curve.kind.least))
 
     def lag(self, s: Signals, p: Values) -> Array:
         """(n,) factor of T_d [1]."""
