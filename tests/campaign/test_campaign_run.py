@@ -33,7 +33,7 @@ from erdctl.io.campaign_table import NAME, SCHEMA
 
 @pytest.fixture(autouse=True)
 def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Worker processes are those of `test_campaign_disturbed` and of the fleet's first table."""
+    """Worker processes are those of `test_campaign_disturbed`."""
     monkeypatch.setattr(room, "here", lambda jobs: room.Crew(AtOnce, lambda: 1))
 
 

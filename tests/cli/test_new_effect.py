@@ -156,7 +156,7 @@ def log_of(r: Recording, path: Path) -> str:
 
 def test_from_learned_to_named(tmp_path: Path) -> None:
     """A law learned in one log is written, declared by a package, and named in another log."""
-    logs = [noisy(gas_that_warms(campaign(100.0, 8.0), STIFFNESS, TAU), seed=s) for s in (31, 32)]
+    logs = [noisy(gas_that_warms(campaign(100.0, 5.0), STIFFNESS, TAU), seed=s) for s in (31, 32)]
     first, second = (log_of(r, tmp_path / f"{i}.parquet") for i, r in enumerate(logs))
     package = tmp_path / "package"
     about = package / "warm_gas-1.dist-info"

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from binary_files import BOMBS, cases
+from binary_files import BOMBS, bomb, cases
 
 PROGRAM = """
 import os, resource, sys
@@ -30,9 +30,9 @@ sys.exit(code)
 
 @pytest.mark.parametrize("name", BOMBS)
 def test_memory_is_bounded(name: str, tmp_path: Path) -> None:
-    make, suffix = BOMBS[name]
+    data, suffix = bomb(name)
     path = tmp_path / f"log{suffix}"
-    path.write_bytes(make())
+    path.write_bytes(data)
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM, str(path), str(tmp_path / "out.feather")],
         capture_output=True,

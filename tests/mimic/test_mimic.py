@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import oracle
 import pytest
@@ -24,6 +26,7 @@ PARAMETERS = parse_parameters((FIXTURES / "table_2.json").read_bytes(), "table_2
 SEQUENCE = ("oil=0.5@15:31", "electrical=0.8@31:46", "deformation=0.7@46:60")
 
 
+@cache
 def schedule() -> Recording:
     table = csv.read_csv(FIXTURES / "schedule_60s.csv")
     t, x, xdot, duty = (table[c].to_numpy() for c in ("t", "x", "xdot", "duty"))

@@ -1,6 +1,6 @@
 """No value that goes to an amplifier is beyond a declared limit, and healthy is as given.
 
-ERDCTL_PLANS=3000 ERDCTL_PLANS_FROM=10000 looks at other and more plans than the 300.
+ERDCTL_PLANS=3000 ERDCTL_PLANS_FROM=10000 looks at other and more plans than the 160.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from replayed import CHANNELS, Run, back_after, faults_of, replay
 import erdctl
 
 FIRST = int(os.environ.get("ERDCTL_PLANS_FROM", "0"))
-COUNT = int(os.environ.get("ERDCTL_PLANS", "300"))
+COUNT = int(os.environ.get("ERDCTL_PLANS", "160"))
 BATCH = 20
 
 

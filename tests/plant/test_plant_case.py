@@ -18,21 +18,23 @@ from erdctl.plant.simulate import forces, rides
 draw = partial(draw_of, known=KNOWN)
 draw_plan = partial(draw_plan_of, known=KNOWN)
 
-SINGLES = ("mount_compliance", "thermal_fade", "coulomb_friction", "input_delay")
+# With the seed of each: such as draw short campaigns where a simulation takes long.
+SINGLES = {"mount_compliance": 81, "thermal_fade": 71, "coulomb_friction": 72, "input_delay": 73}
+PAIR = 87
 
 
 @pytest.fixture(scope="module")
 def cases() -> dict[str, Case]:
-    out = {name: draw(70 + i, effects=[name], level=3.0) for i, name in enumerate(SINGLES)}
+    out = {name: draw(seed, effects=[name], level=3.0) for name, seed in SINGLES.items()}
     out["null"] = draw(80, kind="null")
-    out["pair"] = draw(81, kind="pair")
+    out["pair"] = draw(PAIR, kind="pair")
     out["unknown"] = draw(82, kind="unknown")
     out["measured"] = draw(83, effects=["gas_preload"], motion="measured", scatter=True)
     return out
 
 
 def test_a_seed_decides_everything(cases: dict[str, Case]) -> None:
-    again = draw(81, kind="pair")
+    again = draw(PAIR, kind="pair")
     assert again == cases["pair"]
     assert log(again).equals(log(cases["pair"]))
     assert fresh(again).equals(fresh(cases["pair"]))

@@ -12,12 +12,18 @@ from typing import Any
 
 import pyarrow.parquet as pq
 import pytest
+from typer.testing import CliRunner
 
+from erdctl.cli.app import build
+from erdctl.core.blocks import thinned
+from erdctl.effects import get
 from erdctl.plant import key
 from erdctl.plant.draw import draw
+from erdctl.prove import judge
+from erdctl.prove import run as prove_run
 from erdctl.prove.case import Wish
-from erdctl.prove.document import from_json
-from erdctl.prove.judge import Failed
+from erdctl.prove.document import Proof, from_json
+from erdctl.prove.judge import Failed, Result
 from erdctl.prove.run import prove
 
 ERDCTL = [sys.executable, "-m", "erdctl", "prove"]
@@ -31,18 +37,39 @@ def run(*arguments: object, code: int = 0) -> subprocess.CompletedProcess[str]:
     return done
 
 
-def test_two_cases_from_seed_to_scoreboard(tmp_path: Path) -> None:
-    """One test, as under xdist every process that had a part of it would run the cases anew."""
-    kept, out = tmp_path / "kept", tmp_path / "proof.json"
-    done = run("--seed", SEED, "--cases", 2, "--kind", "null", "--jobs", 2, "--keep", kept,
-               "-o", out, "--json")  # fmt: skip
-    document = json.loads(done.stdout)
-    assert document == json.loads(out.read_text())
-    proof = from_json(document)
-    assert [r.seed for r in proof.results] == [SEED, SEED + 1]
+def run_here(*arguments: object, code: int = 0) -> Any:
+    """The command in this process, which has its libraries loaded."""
+    words = ["prove", *map(str, arguments)]
+    done = CliRunner().invoke(build(["prove"]), words, catch_exceptions=False)
+    assert done.exit_code == code, done.stderr
+    assert "Traceback" not in done.stderr
+    return done
 
-    lines = done.stderr.splitlines()
+
+class Elsewhere:
+    """Stands in for a cluster; tests/campaign has a real one."""
+
+    def executor(self) -> Executor:
+        return ThreadPoolExecutor(2)
+
+
+@pytest.fixture
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Cases in threads of this process; their diagnoses see few samples and two effects.
+
+    What is found does not matter to the order in which things are done, shown and kept. The test
+    of one case has processes, all samples and the whole catalogue.
+    """
+    read, few = judge._read, [get("coulomb_friction"), get("backlash")]
+    monkeypatch.setattr(judge, "_read", lambda path: thinned(read(path), 2500))
+    monkeypatch.setattr(judge, "candidates", lambda exclude: few)
+    monkeypatch.setattr(prove_run, "workers", ThreadPoolExecutor)
+
+
+def check_kept(proof: Proof, kept: Path, lines: list[str]) -> None:
+    """Keys, logs and diagnoses of a proof; the hash of each key is shown before its score is."""
     for result in proof.results:
+        assert isinstance(result, Result)
         data = (kept / "keys" / f"case-{result.number:03d}.json").read_bytes()
         assert result.key_sha256 == hashlib.sha256(data).hexdigest()
         assert json.loads(data)["seed"] == key(draw(result.seed, kind="null"))["seed"]
@@ -55,6 +82,30 @@ def test_two_cases_from_seed_to_scoreboard(tmp_path: Path) -> None:
         assert table.column_names == ["t", "x", "xdot", "duty", "force", "record"]
         found = json.loads((kept / "diagnoses" / f"case-{result.number:03d}.json").read_text())
         assert found["verdict"] == result.verdict
+
+
+def test_a_case_from_seed_to_scoreboard(tmp_path: Path) -> None:
+    """In processes, by the whole catalogue."""
+    kept, out = tmp_path / "kept", tmp_path / "proof.json"
+    done = run("--seed", SEED, "--cases", 1, "--kind", "null", "--jobs", 2, "--keep", kept,
+               "-o", out, "--json")  # fmt: skip
+    document = json.loads(done.stdout)
+    assert document == json.loads(out.read_text())
+    check_kept(from_json(document), kept, done.stderr.splitlines())
+    assert "Nothing hidden, by the colour of the noise" in done.stderr
+
+
+@pytest.mark.usefixtures("quick")
+def test_two_cases_are_kept_and_taken_up(tmp_path: Path) -> None:
+    """One test, as under xdist every process that had a part of it would run the cases anew."""
+    kept, out = tmp_path / "kept", tmp_path / "proof.json"
+    done = run_here("--seed", SEED, "--cases", 2, "--kind", "null", "--jobs", 2, "--keep", kept,
+                    "-o", out, "--json")  # fmt: skip
+    document = json.loads(done.stdout)
+    assert document == json.loads(out.read_text())
+    proof = from_json(document)
+    assert [r.seed for r in proof.results] == [SEED, SEED + 1]
+    check_kept(proof, kept, done.stderr.splitlines())
     assert "Nothing hidden, by the colour of the noise" in done.stderr
 
     # Taken up without one of them, which comes out as before: the key first, then the diagnosis.
@@ -69,19 +120,12 @@ def test_two_cases_from_seed_to_scoreboard(tmp_path: Path) -> None:
     assert sealed == [(proof.results[1].key_sha256, False)]
 
     asked = ("--kind", "null", "--jobs", 1, "--keep", kept, "--json")
-    taken_up = run("--seed", SEED, "--cases", 2, *asked)
+    taken_up = run_here("--seed", SEED, "--cases", 2, *asked)
     assert json.loads(taken_up.stdout) == document
     assert taken_up.stderr.count("sha256") == 0
-    other = run("--seed", SEED + 1, "--cases", 1, *asked, code=2)
+    other = run_here("--seed", SEED + 1, "--cases", 1, *asked, code=2)
     assert "another seed" in other.stderr
     assert len(other.stderr.splitlines()) == 1
-
-
-class Elsewhere:
-    """Stands in for a cluster; tests/campaign has a real one."""
-
-    def executor(self) -> Executor:
-        return ThreadPoolExecutor(2)
 
 
 @pytest.mark.parametrize("cluster", [None, Elsewhere()], ids=["here", "elsewhere"])
@@ -112,7 +156,7 @@ def test_a_case_that_fails_does_not_take_the_others_with_it(cluster: Any, tmp_pa
     ],
 )
 def test_wrong_usage_is_one_line(arguments: list[str]) -> None:
-    assert len(run(*arguments, code=2).stderr.splitlines()) == 1
+    assert len(run_here(*arguments, code=2).stderr.splitlines()) == 1
 
 
 def test_a_directory_that_holds_something_is_not_written_into(tmp_path: Path) -> None:
@@ -121,7 +165,7 @@ def test_a_directory_that_holds_something_is_not_written_into(tmp_path: Path) ->
 
 
 def test_help_has_examples_and_exit_codes() -> None:
-    text = run("--help").stdout
+    text = run_here("--help").stdout
     assert "Examples:" in text
     assert "erdctl prove --cases 200" in text
     assert "Exit codes" in text
