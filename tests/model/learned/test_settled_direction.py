@@ -1,4 +1,4 @@
-"""What time and travel have left of the direction before a turn: against the equations solved finely."""
+"""What time and travel leave of the direction before a turn: against the equations solved finely."""
 
 from __future__ import annotations
 
