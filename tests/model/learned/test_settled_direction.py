@@ -1,4 +1,4 @@
-"""What time and travel leave of the direction before a turn: against the equations solved finely."""
+"""What time and travel leave of the direction before a turn, against a fine solution."""
 
 from __future__ import annotations
 
