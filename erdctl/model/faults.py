@@ -22,7 +22,6 @@ from erdctl.core.signals import Signals
 from erdctl.model.c_law import CLaw
 from erdctl.model.onset import AMOUNT, RAMP, START, onset_weight
 
-A_GAP = 2.0  # times the typical step: no longer is what a sample stands for
 EXAMPLE = "write for instance oil=0.5@15:31 or electrical=0.8@31,ramp=2,channel=fr"
 
 
@@ -199,9 +198,8 @@ def set_in(kind: FaultKind, s: Signals, p: Mapping[str, float]) -> dict[str, Arr
     f = p[AMOUNT]
     if f == 1.0:
         return {}
-    # As long as the one before it, which an exported block knows; a gap in the clock is no step.
-    own = np.minimum(s.step_before, A_GAP * s.typical_step)
-    weight = onset_weight(s.t, p[START], p[RAMP], own)
+    # A sample stands for a step as long as the one before it, which an exported block knows.
+    weight = onset_weight(s.t, p[START], p[RAMP], s.step_before)
     factor: Array = (1.0 - weight) + weight * f
     return dict.fromkeys(kind.groups, factor)
 
@@ -214,7 +212,7 @@ def set_in_c(kind: FaultKind) -> CLaw:
         "",
         *(f"f->{group} *= left;" for group in kind.groups),
     ]
-    return CLaw(code="\n".join(lines), note="a gap in the clock is a step as any other")
+    return CLaw(code="\n".join(lines))
 
 
 def leakage(xdot: Array, flow: float) -> Array:

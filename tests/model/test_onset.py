@@ -40,3 +40,10 @@ def test_finite_within_all_bounds(t_0: float, t_r: float, step: float) -> None:
     assert ((w >= 0.0) & (w <= 1.0)).all()
     if t_0 > 0:
         assert (w == 0.0).all()
+
+
+def test_each_sample_has_a_step_of_its_own() -> None:
+    """Records of several rates in one log; the first sample of a record has no step before it."""
+    t, step = np.array([0.1, 0.1, 0.1]), np.array([1.0, 0.1, 0.0])
+    assert onset_weight(t, 0.0, 0.0, step) == pytest.approx([0.6, 1.0, 1.0])
+    assert onset_weight(t, 0.0, 0.2, step) == pytest.approx([0.5, 0.5, 0.5])
