@@ -283,11 +283,11 @@ KINDS: Mapping[str, CoordinateKind] = {
         "m", "the deflection beyond its mean of late", lambda s: s.x, late=True, less=True
     ),
     "unsettled_time": CoordinateKind(
-        "1", "what time has left of the direction before a turn", lambda s: s.sign, late=True,
+        "1", "what time has left of the former direction", lambda s: s.sign, late=True,
         settles=True,
     ),
     "unsettled_way": CoordinateKind(
-        "1", "what the travel has left of the direction before a turn", lambda s: s.sign, late=True,
+        "1", "what travel has left of the former direction", lambda s: s.sign, late=True,
         settles=True, by_way=True,
     ),
     "ringing_xdot": CoordinateKind(
