@@ -3,7 +3,7 @@
     force       F -> F + f(z)
     friction    F -> F + f(z) sign(xdot)
     yield       F_yield -> max(1 + f(z), 0) F_yield, and so of viscous and gas; at least -1 where z
-                is what is left of the direction before a turn
+                is what is left of the former direction
     fluid       the same of F_viscous and F_yield together
     lag         T_d -> max(1 + f(z), 0.01) T_d
     duty        v -> max(1 + f(z), 0) v, at most 1
