@@ -1,9 +1,9 @@
 """Campaigns by hand: how long they take, what they move, and that nothing disturbs their table.
 
-    PYTHONPATH=. python tests/campaign/measure_campaign.py time 20 10       # 200 logs, 2 workers
-    PYTHONPATH=. python tests/campaign/measure_campaign.py time 20 100      # 2,000 logs
-    PYTHONPATH=. python tests/campaign/measure_campaign.py kill 20 10 50    # kill -9, 50 times
-    PYTHONPATH=. python tests/campaign/measure_campaign.py cluster 20 10    # 3 workers, one killed
+    PYTHONPATH=. python tests/campaign/measure_campaign.py time 20 10  # 200 logs, 2 workers
+    PYTHONPATH=. python tests/campaign/measure_campaign.py all 20 100  # 2,000, and a cluster
+    PYTHONPATH=. python tests/campaign/measure_campaign.py kill 20 10 50  # kill -9, 50 times
+    PYTHONPATH=. python tests/campaign/measure_campaign.py cluster 20 10  # 3 workers, one killed
 
 On a machine that does other things, too, the CPU times say more than the wall's.
 """
@@ -15,6 +15,7 @@ import os
 import random
 import resource
 import signal
+import subprocess
 import sys
 import time
 from collections import defaultdict
@@ -26,7 +27,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 import fleet
 import pyarrow.parquet as pq
-from campaigns import AtOnce, begun, entries, rows, run
+from campaigns import ENV, AtOnce, begun, entries, rows, run
 from dask_workers import DaskWorkers
 
 ABOVE = "0.01"  # NRMSE: three times what a sound damper has
@@ -132,21 +133,32 @@ def wait(child: int, seconds: float) -> None:
         time.sleep(0.005)
 
 
-def on_cluster(sound: Path, where: Path) -> None:
+def on_cluster(sound: Path, where: Path, *more: str) -> None:
     """Three workers of a Dask cluster, one killed half-way."""
-    run(sound, "results.parquet", "--jobs", str(WORKERS))
+    at = time.monotonic()
     workers = DaskWorkers(where, 3)
     try:
-        process = begun(where, "results.parquet", "--cluster", str(workers.file))
+        process = begun(where, "results.parquet", "--cluster", str(workers.file), *more)
         half = sum(1 for _ in (where / "lab").glob("*/*")) // 2
         while len(entries(where / "results")) < half and process.poll() is None:
             time.sleep(0.02)
         workers.workers[0].kill()
         said = process.communicate()[1]
-        print(said, f"exit code {process.returncode}")
+        print(said, f"exit code {process.returncode}, {time.monotonic() - at:.1f} s on the wall")
     finally:
         workers.end()
     same(sound / "results.parquet", where / "results.parquet")
+    found = [(r["log"], r["command"], r["parameter"]) for r in rows(where / "results.parquet")]
+    print(f"{len(found)} rows, {len(found) - len({*found})} of them double, "
+          f"{len({log for log, *_ in found})} logs")  # fmt: skip
+
+
+def erdctl(where: Path, *words: str) -> str:
+    """What another command prints of it."""
+    done = subprocess.run(
+        [sys.executable, "-m", "erdctl", *words], cwd=where, env=ENV, capture_output=True, text=True
+    )
+    return f"{done.stdout}{done.stderr}exit code {done.returncode}"
 
 
 def same(sound: Path, other: Path) -> None:
@@ -166,9 +178,14 @@ def main() -> None:
         sound, where = labs(Path(name), dampers, months, ("sound", "where"))
         if what == "time":
             timed(where)
+        elif what == "all":
+            timed(sound)
+            on_cluster(sound, where, "--diagnose-above", ABOVE)
+            print(erdctl(sound, "compare", "results.parquet"))
         elif what == "kill":
             killed(sound, where, int(sys.argv[4]))
         elif what == "cluster":
+            run(sound, "results.parquet", "--jobs", str(WORKERS))
             on_cluster(sound, where)
         else:
             sys.exit(__doc__)

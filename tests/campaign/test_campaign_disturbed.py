@@ -13,7 +13,7 @@ from pathlib import Path
 
 import fleet
 import pytest
-from campaigns import DAMPERS, MONTHS, AtOnce, begun, entries, rows, run
+from campaigns import DAMPERS, MONTHS, SHORT, AtOnce, begun, entries, rows, run
 from dask_workers import DaskWorkers
 from typer.testing import CliRunner
 
@@ -42,8 +42,10 @@ def until(done: int, folder: Path, process: subprocess.Popen[str]) -> None:
 def same(lab: Path, here: Path) -> None:
     """The table of an undisturbed campaign, no log lost and none there twice."""
     assert (here / "results.parquet").read_bytes() == (lab / "results.parquet").read_bytes()
-    found = [(r["log"], r["parameter"]) for r in rows(here / "results.parquet")]
-    assert len(found) == len(set(found)) == 10 * ALL
+    found = [(r["log"], r["command"], r["parameter"]) for r in rows(here / "results.parquet")]
+    assert len(found) == len(set(found))
+    assert sum(command == "identify" for _, command, _ in found) == 10 * ALL
+    assert {log[4:7] for log, command, _ in found if command == "diagnose"} == {"D07", "D11"}
     assert len(entries(here / "results")) == ALL
 
 
@@ -55,11 +57,11 @@ def test_killed_at_random_moments_and_taken_up(
     draw = random.Random(4)
     before = 0
     for by in (signal.SIGKILL, signal.SIGTERM):
-        process = begun(here, "results.parquet", "--jobs", "2")
-        until(before + draw.randint(1, 7), here / "results", process)
+        process = begun(here, "results.parquet", "--jobs", "2", *SHORT)
+        until(before + draw.randint(1, ALL // 4), here / "results", process)
         if by is signal.SIGTERM:  # and one at a time in a folder
             said = command("campaign", "run", "lab", "-o", "other.parquet", "--label", fleet.LABEL,
-                           "--keep", "results", code=2)  # fmt: skip
+                           "--keep", "results", *SHORT, code=2)  # fmt: skip
             assert "another campaign is at work there" in said
         process.send_signal(by)
         said = process.communicate()[1]
@@ -68,7 +70,7 @@ def test_killed_at_random_moments_and_taken_up(
         assert before < kept < ALL
         assert not (here / "results.parquet").exists()
         before = kept
-    said = run(here, "results.parquet", "--jobs", "1")
+    said = run(here, "results.parquet", "--jobs", "2", *SHORT)
     assert f"{ALL - before} done now, {before} before" in said
     same(lab, here)
     assert not [*here.rglob("*.tmp")]
@@ -82,7 +84,7 @@ def test_nothing_is_done_twice_unless_it_changed(
     monkeypatch.chdir(tmp_path)
     shutil.copytree(lab / "lab", tmp_path / "lab")
     shutil.copytree(lab / "results", tmp_path / "results")
-    again = ("campaign", "run", "lab", "--label", fleet.LABEL, "-o")
+    again = ("campaign", "run", "lab", "--label", fleet.LABEL, *SHORT, "-o")
     assert f"0 done now, {ALL} before" in command(*again, "results.parquet")
     same(lab, tmp_path)
     shutil.copyfile("lab/D04/2020-02.parquet", "lab/D01/2020-01.parquet")
@@ -105,7 +107,7 @@ def test_a_cluster_that_loses_a_worker(
     lab: Path, here: Path, three_workers: DaskWorkers, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Three workers, one killed half-way; and a diagnosis by those that are left."""
-    process = begun(here, "results.parquet", "--cluster", str(three_workers.file))
+    process = begun(here, "results.parquet", "--cluster", str(three_workers.file), *SHORT)
     until(ALL // 3, here / "results", process)
     os.kill(three_workers.workers[0].pid, signal.SIGKILL)
     said = process.communicate()[1]
@@ -113,7 +115,7 @@ def test_a_cluster_that_loses_a_worker(
     assert f"{ALL} done now, 0 before" in said
     same(lab, here)
     monkeypatch.chdir(here)
-    log = "lab/D02/2020-06.parquet"
+    log = "lab/D07/2020-10.parquet"
     effects = ("--effects", "backlash,coulomb_friction", "--max-effects", "1")
     for name, more in (("here", ("--jobs", "1")), ("there", ("--cluster", "scheduler.json"))):
         command("diagnose", log, *effects, "-o", f"{name}.json", *more)
