@@ -182,7 +182,8 @@ def _described(series: Series, data: Data, found: Scan, forms: list[Course]) -> 
     data = _respread(data, best.at(data.t)[0])
     best = _best(data, forms, series.off)
     data = _respread(data, best.at(data.t)[0])
-    best = _with_errors(data, _finer(data, best))
+    best = _finer(data, best)
+    best = _with_errors(data, best, _shared(data, best.at(data.t)[0], series.error))
     f, _ = best.at(data.t)
     ends, errors = best.at(data.t[[0, -1]])
     since = None
@@ -269,8 +270,26 @@ def _fitted(
     )  # fmt: skip
 
 
-def _with_errors(data: Data, found: _Fitted) -> _Fitted:
-    """With the covariance of its numbers, from the logs that have a value."""
+def _shared(data: Data, f: Array, error: Array) -> float:
+    """What all logs may err by alike: their own errors, of which less than half shows as scatter.
+
+    error : (n,) standard errors of the logs, NaN where none is known
+    A play that falls between samples is off the same way in every log of the same drive.
+    """
+    known = data.named & np.isfinite(error)
+    if known.sum() < FEWEST:
+        return 0.0
+    scatter = float(np.median(np.abs(data.value - f)[known])) / 0.6745
+    own = float(np.median(error[known]))
+    return float(np.sqrt(own**2 - scatter**2)) if own > 2.0 * scatter else 0.0
+
+
+def _with_errors(data: Data, found: _Fitted, shared: float) -> _Fitted:
+    """With the covariance of its numbers, from the logs that have a value.
+
+    shared : standard error that the values of all logs have in common, as a level where that is
+        free, and of what has grown at the last of them
+    """
     g = found.gradient(data.t)[data.named]
     if not g.shape[1]:
         return found
@@ -283,4 +302,10 @@ def _with_errors(data: Data, found: _Fitted) -> _Fitted:
     information = (g / s[:, None]).T @ (g / s[:, None])
     scale = np.sqrt(np.maximum(np.diag(information), np.finfo(float).tiny))
     inverse = np.linalg.pinv(information / np.outer(scale, scale)) / np.outer(scale, scale)
-    return replace(found, covariance=factor * inverse)
+    covariance = factor * inverse
+    if found.level:
+        covariance[0, 0] += shared**2
+    if len(found.coefficients) > found.level:
+        grown = found.design(data.t[data.named])[-1, -1]
+        covariance[int(found.level), int(found.level)] += (shared / grown) ** 2 if grown else 0.0
+    return replace(found, covariance=covariance)

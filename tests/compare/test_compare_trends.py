@@ -50,6 +50,18 @@ def test_nothing_is_said_of_a_constant(seed: int) -> None:
     assert abs(t.now[0] - 100.0) < 4 * t.now[1] < 1.5
 
 
+@pytest.mark.parametrize("shared", [-0.8, 0.8])
+def test_an_error_that_all_logs_have_in_common_is_in_the_rate(shared: float) -> None:
+    """As a play that falls between samples: logs that agree to 0.02, and say +- 1 each."""
+    grown = np.maximum(T - T[0] - 30 * MONTH, 0.0) / 365.25
+    rest = 0.02 * np.random.default_rng(5).standard_normal(len(T))
+    t = found(100.0 + (3.0 + shared / grown[-1]) * grown + rest, np.ones(len(T)))
+    assert t.form is Course.RAMP
+    assert t.rate is not None
+    assert abs(t.rate[0] - 3.0) < t.rate[1] < 0.3
+    assert 0.9 < t.now[1] < 2.0
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_a_ramp_since_a_date(seed: int) -> None:
     rest, error = noise(seed)
