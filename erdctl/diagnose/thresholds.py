@@ -311,6 +311,11 @@ MOST_KNOTS = 24, 48
 # Origin: a curve of few knots is right to a fifth.
 LAW_PART = 0.04
 
+# Part of a term of the paper's model that a law must leave, in rms and either direction.
+# Decides: whether it corrects the term, or takes its place and its growth beyond the range seen.
+# Origin: of a term that still acts tens of per cent are left, of one replaced hundredths.
+TERM_LEFT = 0.1
+
 # Time constants of what rings: their number, the shortest over the step of a sample, and the
 # longest over the longest record.
 # Origin: they are a fourth apart, as wide as a resonance of a damping of a tenth; a period is six

@@ -15,9 +15,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from places import ROOT
 
-DAMPERS, MONTHS = 20, 10
-# Of what wears the last months fall short; which effects are named is not the campaign's matter.
-SHORT = ("--diagnose-above", "0.015", "--effects", "backlash,force_offset")
+DAMPERS, MONTHS = 4, 6
 ENV = {**os.environ, "PYTHONPATH": str(ROOT), "OPENBLAS_NUM_THREADS": "1"}
 
 

@@ -82,16 +82,15 @@ def test_wear_shows(lab: Path) -> None:
     def course(damper: str, field: str) -> list[float]:
         return [
             r[field] for r in found
-            if (r["damper"], r["command"]) == (damper, "identify")
-            and r["parameter"] == "compression.c_vis"
+            if r["damper"] == damper and r["parameter"] == "compression.c_vis"
         ]  # fmt: skip
 
-    leak = np.array(course("D03", "value"))
+    leak = np.array(course("D01", "value"))
     assert leak[-1] / leak[0] == pytest.approx(0.6, abs=0.02)
     assert np.ptp(course("D04", "value")) < 0.02 * leak[0]
-    for damper in ("D07", "D11"):
+    for damper in ("D02", "D03"):
         nrmse = course(damper, "nrmse")
-        assert max(nrmse[:3]) < 0.004 < 0.012 < nrmse[-1]
+        assert max(nrmse[:2]) < 0.004 < 0.012 < nrmse[-1]
     assert max(course("D04", "nrmse")) < 0.004
 
 
@@ -154,13 +153,13 @@ def test_only_what_falls_short_is_diagnosed(
     lab: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    for damper in ("D07", "D04"):
+    for damper in ("D02", "D04"):
         (tmp_path / damper).mkdir()
-        shutil.copy(lab / "lab" / damper / "2020-10.parquet", tmp_path / damper)
+        shutil.copy(lab / "lab" / damper / "2020-06.parquet", tmp_path / damper)
     campaign("D0?/*.parquet", "-o", "r.parquet", "--diagnose-above", "0.01", "--jobs", "1",
              "--label", fleet.LABEL, "--effects", "backlash,coulomb_friction")  # fmt: skip
     found = rows(tmp_path / "r.parquet")
-    worn = [r for r in found if r["damper"] == "D07"]
+    worn = [r for r in found if r["damper"] == "D02"]
     sound = [r for r in found if r["damper"] == "D04"]
     assert {r["command"] for r in sound} == {"identify"}
     assert sound[0]["findings"] is None

@@ -22,6 +22,7 @@ from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.learning.closed_forms import closed_forms
 from erdctl.diagnose.learning.law_screen import LawScreen
 from erdctl.diagnose.learning.laws import finer, laws, plain_laws, surfaces, swings
+from erdctl.diagnose.learning.replaced_terms import takes_the_place_of_a_term
 from erdctl.diagnose.levels_of_records import beyond_levels
 from erdctl.diagnose.look_alikes import is_preferred
 from erdctl.diagnose.problem import Problem
@@ -117,6 +118,7 @@ def _beside(
         h for h in more
         if compare_alike(x.problem, parent, h).beyond(critical)
         and beyond_levels(x.problem, parent, h, critical)
+        and not takes_the_place_of_a_term(parent, h)
     ]  # fmt: skip
     if not better:
         return None, []
