@@ -79,7 +79,10 @@ def command(
         rig = drawn.rig.accept(accept)
     rig.refuse()
     show(rig)
-    recording = rig.usable() if drawn is None else replace(drawn.usable(rig), labels=labels)
+    if drawn is None:
+        recording = rig.usable()
+    else:
+        recording = replace(drawn.usable(rig), labels={**drawn.recording.labels, **labels})
     with progress() as step:
         found = identify(recording, robust=robust, progress=step)
     parameters = parameters_of(found, method, recording, rig.to_json())

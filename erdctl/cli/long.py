@@ -24,19 +24,20 @@ def opened(
 ) -> Iterator[LongLog | None]:
     """A log that is to be read in stretches, with a sign of life on a terminal; else None.
 
-    A project file may name channels and units that only the whole reading looks for.
-
     least : samples, below which it is not
     """
     from erdctl.cli.in_force import IN_FORCE
     from erdctl.io.long_logs import open_long
     from erdctl.report.text import progress, say
 
-    if IN_FORCE.get() is not None:
-        yield None
-        return
+    project = IN_FORCE.get()
+    by = None if project is None else project.reading
     with progress() as step:
-        yield open_long(paths, least=least, report=say, progress=step, **options)
+        log = open_long(paths, least=least, project=by, report=say, progress=step, **options)
+        if log is not None and project is not None:
+            project.tell()
+            log.labels |= project.label()
+        yield log
 
 
 def simulate_long(
@@ -72,8 +73,11 @@ def validate_long(
     paths: Sequence[str],
     normalise: Normalise,
     options: dict[str, Any],
-) -> tuple[Validation, Rig, float] | None:
-    """Scores, faults of the rig and the largest force [N]; None for a log that is read whole."""
+) -> tuple[Validation, Rig, float, dict[str, str]] | None:
+    """Scores, faults of the rig, the largest force [N], and what a project says the log is of.
+
+    None for a log that is read whole.
+    """
     from erdctl.bench.rig import Looking
     from erdctl.core.errors import InputProblem
     from erdctl.model.simulate import Remarks, Simulation
@@ -100,7 +104,7 @@ def validate_long(
             simulation.finish()
             for line in remarks.lines():
                 say(line)
-    return tally.found(), looking.rig(), tally.peak
+    return tally.found(), looking.rig(), tally.peak, log.labels
 
 
 def inspect_long(
@@ -127,6 +131,7 @@ def inspect_long(
                     ends[name].add(values)
     found = inspecting.found(catalogue(), log.xdot_note)
     ranges = {name: [e.low, e.high] for name, e in ends.items() if e.low <= e.high}
+    labels = {**log.labels, **labels}
     subject = InspectedLog(log.sources, log.channels, log.unread, labels, ranges)
     return found, to_json(found, subject)
 

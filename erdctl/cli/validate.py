@@ -85,8 +85,8 @@ def command(
     if report is None and not asked:  # which take the whole log
         long = validate_long(parameters, logs, Normalise(normalise), options)
     if long is not None:
-        found, rig, peak = long
-        rig = rig.accept(accept)
+        found, rig, peak, said = long
+        rig, labels = rig.accept(accept), {**said, **labels}
     else:
         log = read_logs(logs, text=text, report=say, **options)
         modelled = log.force_model

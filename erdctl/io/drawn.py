@@ -84,7 +84,7 @@ def draw(log: LongLog, most: int) -> Drawn:
         looking.add(read.stretch)
     names = tuple(_name(log, record, a, b) for record, a, b in chosen)
     recording = replace(concatenate(gathered.blocks()), names=names)
-    recording = replace(recording, sources=log.sources, xdot_note=log.xdot_note)
+    recording = replace(recording, sources=log.sources, xdot_note=log.xdot_note, labels=log.labels)
     return Drawn(recording, chosen, (log.samples, len(windows)), looking.rig())
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pyarrow as pa
@@ -26,6 +27,9 @@ from erdctl.io.plan import ColumnPlan, Report, in_contract_names, plan_columns
 from erdctl.io.sources import TableSource, sha256_of
 from erdctl.io.units import RECORD
 
+if TYPE_CHECKING:
+    from erdctl.io.project.reading import ProjectReading
+
 MORE = 1 << 16  # samples that are read at once to find a place to cut
 
 
@@ -42,6 +46,7 @@ class ReadStretch:
 class LongLog:
     """A log whose stretches are read one after the other; what `Log` has, as far as it goes on.
 
+    labels : what it is of by the project file
     xdot_note : how xdot was obtained, when all is read
     """
 
@@ -52,6 +57,7 @@ class LongLog:
     want_hash: bool
     say: Report
     progress: Progress
+    labels: dict[str, str] = field(default_factory=dict)
     xdot_note: str = "measured"
     digest: str = ""
     _notes: dict[str, None] = field(default_factory=dict)
@@ -218,12 +224,14 @@ def open_long(
     keep_table: bool = False,
     want_hash: bool = False,
     least: int = 0,
+    project: ProjectReading | None = None,
     report: Report,
     progress: Progress = lambda stage, what: None,
 ) -> LongLog | None:
     """A log that is to be read in stretches; None for one that `read_logs` reads as well.
 
-    That is a file in Parquet or Arrow of very many rows (`long_source`), all of which are wanted.
+    That is a file in Parquet or Arrow of very many rows (`long_source`), all of which are wanted,
+    and no column of which says what the log is of.
     least : rows, of which it has more.  Else arguments and errors are those of `read_logs`.
     """
     source = long_source(paths)
@@ -235,10 +243,17 @@ def open_long(
     def say(line: str) -> None:
         report(f"{source.name}: {line}")
 
+    needed = ["t", "x", "force"] if need_force else ["t", "x"]
+    labels = {}
+    if project is not None:
+        if {*project.project.content.labels.columns.values()} & {*source.columns}:
+            return None
+        told = project.of_log(source, mappings, wheres, needed=needed, say=said.append)
+        mappings, wheres, labels = told.mappings, told.where, told.labels.texts()
     plan = plan_columns(
         source,
         mappings,
-        needed=["t", "x", "force"] if need_force else ["t", "x"],
+        needed=needed,
         left=() if want_force or need_force else FORCES,
         say=said.append,
     )
@@ -251,4 +266,4 @@ def open_long(
         return None
     for line in said:
         say(line)
-    return LongLog(source, plan, found, keep_table, want_hash, say, progress)
+    return LongLog(source, plan, found, keep_table, want_hash, say, progress, labels)

@@ -16,8 +16,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from places import FIXTURES
+from typer.testing import CliRunner
 
 from erdctl.cli import convert, identify, simulate, validate
+from erdctl.cli.app import build
 from erdctl.core.errors import ComputationProblem, ErdctlError, InputProblem
 
 EXAMPLES = int(os.environ.get("ERDCTL_LONG_EXAMPLES", "4"))  # of a second or more each
@@ -120,6 +122,58 @@ def test_simulate_and_validate_are_those_of_the_whole(
     assert whole.schema == streamed_table.schema
     assert whole.equals(streamed_table)
     assert scores == streamed_scores
+
+
+LAB = """[labels]
+path = '(?P<damper>D[0-9]+)_(?P<date>[0-9]+)'
+date = '%Y%m%d'
+[damper.D07.columns]
+x = 'Weg (mm)[mm]'
+force = 'Kraft[N]'
+duty = 'duty'
+t = 't'
+"""
+
+
+def test_a_project_file_holds_in_stretches_too(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Columns and units, rows, and what the log is of; `identify` from a sample of it."""
+    made = log([400, 500, 700], 3)
+    own = {name: made[name] for name in made.column_names if name not in ("x", "force")}
+    own |= {"Weg (mm)": pa.array(1e3 * made["x"].to_numpy()), "Kraft": made["force"]}
+    (tmp_path / "erdctl.toml").write_text(LAB)
+    path = str(tmp_path / "D07_20240501.parquet")
+    pq.write_table(pa.table(own), path, row_group_size=300)
+    monkeypatch.chdir(tmp_path)
+    found = []
+    for streamed in (False, True):
+        with small(long=300, run=100, batch=128, streamed=streamed):
+            if streamed:
+                monkeypatch.setattr("erdctl.io.drawn.MOST", 1000)
+                monkeypatch.setattr("erdctl.io.drawn.WINDOW", 200)
+            said = run("simulate", str(PARAMS), path, "-o", f"{streamed}.parquet")
+            scores, inspected = (
+                run("validate", str(PARAMS), path, "--json"),
+                run("inspect", path, "--json"),
+            )
+            damper = json.loads(run("identify", path))
+        table = pq.read_table(f"{streamed}.parquet")
+        provenance = json.loads(inspected)["provenance"]
+        assert provenance["damper"] == damper["provenance"]["damper"] == "D07"
+        assert damper["provenance"]["project"] == provenance["project"]
+        assert ("sample" in damper["provenance"]) is streamed
+        found.append((table, scores, inspected))
+    a, b = found
+    assert a[0].equals(b[0])
+    assert a[1:] == b[1:]
+    assert "SHA-256" in provenance["project"]
+
+
+def run(*words: str) -> str:
+    done = CliRunner().invoke(build([words[0]]), [*words], catch_exceptions=False)
+    assert done.exit_code == 0, done.stderr
+    return done.stdout
 
 
 def test_a_cut_changes_the_force_by_rounding_alone(tmp_path: Path) -> None:
