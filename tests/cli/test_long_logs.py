@@ -152,7 +152,7 @@ def test_a_project_file_holds_in_stretches_too(
             if streamed:
                 monkeypatch.setattr("erdctl.io.drawn.MOST", 1000)
                 monkeypatch.setattr("erdctl.io.drawn.WINDOW", 200)
-            said = run("simulate", str(PARAMS), path, "-o", f"{streamed}.parquet")
+            run("simulate", str(PARAMS), path, "-o", f"{streamed}.parquet")
             scores, inspected = (
                 run("validate", str(PARAMS), path, "--json"),
                 run("inspect", path, "--json"),
