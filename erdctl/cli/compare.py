@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from erdctl.cli.options import Maps, Text, Where
 from erdctl.cli.pages import Report, check_report
 
 if TYPE_CHECKING:
@@ -44,6 +45,16 @@ def command(
     strict: Annotated[
         bool, typer.Option("--strict", help="Exit 1 also where a band cannot be told to hold.")
     ] = False,
+    refit: Annotated[
+        bool,
+        typer.Option(
+            "--refit",
+            help="Fit the logs that the files name with the effects that any of the files has.",
+        ),
+    ] = False,
+    maps: Maps = [],
+    text: Text = [],
+    where: Where = [],
     report: Report = None,
     plot: Annotated[
         list[str],
@@ -73,6 +84,9 @@ def command(
     would have been named.
     Fewer logs: the last against the first, by the errors of both fits. Parameter files that tell
     how their errors go together are judged together, too (chi2); others by standard errors alone.
+    An effect that one file has and another lacks is in other parameters there. With --refit each
+    log is fitted again with the effects of all, and what then differs is the damper; the logs must
+    lie where the files say, unchanged, and are read as identify does (--map, --text, --where).
 
     \b
     Limits, e.g. limits.toml (SI, or text with a unit; c_vis is meant in both directions):
@@ -85,6 +99,7 @@ def command(
     \b
     Examples:
       erdctl compare old.json new.json
+      erdctl compare old.json new.json --refit
       erdctl compare results.parquet -o changes.csv --report fleet.html --plot fleet.png
       erdctl compare results.parquet --limits limits.toml --json
       erdctl compare damper.json --limits limits.toml
@@ -93,7 +108,7 @@ def command(
 
     from erdctl.compare.comparison import compare
     from erdctl.compare.tolerance import Holds
-    from erdctl.core.errors import CheckFailed, InputProblem
+    from erdctl.core.errors import CheckFailed, InputProblem, UsageProblem
     from erdctl.io.campaign_in import histories
     from erdctl.io.limits_file import read_limits
     from erdctl.io.states import read_inputs
@@ -102,7 +117,16 @@ def command(
     check_report(report)
     _check_outputs(output, plot)
     rules = [] if limits is None else read_limits(limits)
-    given = read_inputs(arguments)
+    again = None
+    if refit:
+        from functools import partial
+
+        from erdctl.cli.refit import refitted
+
+        again = partial(refitted, options={"maps": maps, "text": text, "where": where})
+    elif maps or text or where:
+        raise UsageProblem("--map, --text and --where are for the logs that --refit reads")
+    given = read_inputs(arguments, again)
     found_histories = histories(given.table, given.covariances)
     if not any(h.logs for h in found_histories):
         raise InputProblem("no log with a result in it")

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from typing import Any
 
@@ -31,10 +31,6 @@ class _Scored(msgspec.Struct):
     nrmse: float | None = None
 
 
-class _Named(msgspec.Struct):
-    effect: str
-
-
 class _CorrectedIn(msgspec.Struct):
     params: dict[str, Any]
 
@@ -45,7 +41,6 @@ class DiagnosisIn(msgspec.Struct):
     schema: str
     verdict: str
     corrected: _CorrectedIn
-    findings: list[_Named]
     baseline: _Scored = field(default_factory=_Scored)
     noise_rms: float | None = None
     limits: dict[str, Limit] = field(default_factory=dict)
@@ -60,9 +55,22 @@ class Inputs:
     documents: bool
 
 
-def read_inputs(paths: Sequence[str]) -> Inputs:
+@dataclass(frozen=True, eq=False)
+class _State:
+    """A parameter file, or what a diagnosis says; common : to all its rows."""
+
+    parameters: Parameters
+    common: Row
+    diagnosis: DiagnosisIn | None = None
+
+
+Refit = Callable[[dict[str, Parameters]], dict[str, Parameters]]
+
+
+def read_inputs(paths: Sequence[str], refit: Refit | None = None) -> Inputs:
     """Campaign tables, parameter files and diagnoses, told apart by content; `-` is stdin.
 
+    refit : gives other parameters in the place of those of the files
     Raises UsageProblem for a file given twice or not there, InputProblem for one that is neither.
     """
     from erdctl.io.campaign_in import as_declared, campaign_table
@@ -70,15 +78,27 @@ def read_inputs(paths: Sequence[str]) -> Inputs:
     twice = [p for p in paths if list(paths).count(p) > 1]
     if twice:
         raise UsageProblem(f"{twice[0]} is given twice")
-    tables, rows, covariances = [], [], {}
+    tables, states = [], dict[str, _State]()
     for path in paths:
         data = documents.read_bytes(path)
         name = "stdin" if path == "-" else path
         if data[:4] == PARQUET:
             tables.append(as_declared(campaign_table(data, name), name))
             continue
-        some, covariance = _state(data, name)
+        states[name] = _state(data, name)
+    if refit is not None:
+        if tables:
+            raise UsageProblem("--refit takes parameter files and diagnoses, not campaign tables")
+        again = refit({name: state.parameters for name, state in states.items()})
+        states = {name: replace(state, parameters=again[name]) for name, state in states.items()}
+    rows, covariances = list[Row](), dict[str, Covariance]()
+    for name, state in states.items():
+        some, covariance = _rows(state.parameters, state.common)
         rows += some
+        if state.diagnosis is not None:
+            told = {row["parameter"] for row in some}
+            limits = _limits(state.diagnosis, some[0])
+            rows += [row for row in limits if row["parameter"] not in told]
         if covariance is not None:
             covariances[name] = covariance
     if rows:
@@ -95,23 +115,20 @@ def _one_damper(rows: list[Row]) -> list[Row]:
     return [{**row, "damper": "the damper"} for row in rows]
 
 
-def _state(data: bytes, name: str) -> tuple[list[Row], Covariance | None]:
+def _state(data: bytes, name: str) -> _State:
     raw = documents.parsed(data, name)
     schema = raw.get("schema") if isinstance(raw, dict) else None
     common: Row = {"log": name, "exit_code": 0}
     if schema == PARAMETERS:
-        parameters = parse_parameters(data, name)
-        found = [e.name for e in parameters.model.effects]
-        return _rows(parameters, {**common, "command": "identify", "findings": found})
+        return _State(parse_parameters(data, name), {**common, "command": "identify"})
     if schema == DIAGNOSIS:
         document = documents.decode(data, DiagnosisIn, name=name, schema=DIAGNOSIS)
         parameters = parse_parameters(msgspec.json.encode(document.corrected.params), name)
         common |= {
             "command": "diagnose", "verdict": document.verdict, "nrmse": document.baseline.nrmse,
-            "findings": [f.effect for f in document.findings], "noise_rms": document.noise_rms,
+            "noise_rms": document.noise_rms,
         }  # fmt: skip
-        rows, covariance = _rows(parameters, common)
-        return [*rows, *_limits(document, rows[0])], covariance
+        return _State(parameters, common, document)
     found_text = f"it says {str(schema)[:80]!r}" if schema else 'it has no field "schema"'
     raise InputProblem(
         f"expected a parameter file, a diagnosis or a campaign's table, but {found_text}", file=name
@@ -123,6 +140,7 @@ def _rows(parameters: Parameters, common: Row) -> tuple[list[Row], Covariance | 
     common = {
         **common, "version": str(origin.get("erdctl", "")), "damper": _text(origin.get("damper")),
         "date": _date(origin.get("date"), common["log"]),
+        "findings": [e.name for e in parameters.model.effects if not e.name.startswith(LEARNED)],
     }  # fmt: skip
     common.setdefault("noise_rms", origin.get("noise_rms"))
     rows = []

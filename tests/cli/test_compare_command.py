@@ -4,18 +4,26 @@ from __future__ import annotations
 
 import csv
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import jsonschema
+import numpy as np
+import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from fleets import draw
 from places import FIXTURES
+from rig import TRUTH, noisy
+from rig import campaign as campaign_of
 from typer.testing import CliRunner
 
 from erdctl.cli.app import build
+from erdctl.core.signals import Signals
+from erdctl.effects import get
 from erdctl.io.compared import json_schema
+from erdctl.model.composed import Model
 
 APP = build(["compare", "identify"])
 TABLE_2 = json.loads((FIXTURES / "table_2.json").read_text())
@@ -159,3 +167,80 @@ def test_refused(
     assert said in done.stderr
     assert "Traceback" not in done.stderr
     assert sorted(p.name for p in tmp_path.iterdir()) == ["a.json", "bad.toml"]
+
+
+def bench_log(play: float, seed: int, force: str) -> pa.Table:
+    """Of a damper with so much play [m], whose force is in a column of some name."""
+    r = campaign_of(200.0, 4.0)
+    model = Model((get("backlash"),))
+    r = noisy(replace(r, force=model.force(Signals.of(r), {**TRUTH, "backlash.g": play})), seed)
+    columns = {c: getattr(r, c) for c in ("t", "x", "xdot", "duty")}
+    return pa.table({**columns, force: r.force, "record": np.repeat(r.names, np.diff(r.starts))})
+
+
+@pytest.fixture(scope="module")
+def old_and_new(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A damper before and after it got a play of 1 mm: identified, and diagnosed."""
+    where = tmp_path_factory.mktemp("refit")
+    pq.write_table(bench_log(0.0, 1, "force"), where / "before.parquet")
+    pq.write_table(bench_log(1e-3, 2, "Kraft"), where / "after.parquet")
+    app = build(["diagnose", "identify"])
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(where)
+        for words in (
+            "identify before.parquet -o a.json",
+            "diagnose after.parquet --map force=Kraft[N] --effects backlash -o b.json",
+        ):
+            done = CliRunner().invoke(app, words.split())
+            assert done.exit_code == 0, done.stderr
+    return where
+
+
+def test_a_log_is_refitted_with_what_another_model_has(
+    old_and_new: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(old_and_new)
+    plain = run("compare", "a.json", "b.json", "--json")
+    assert "the models differ by backlash" in plain.stderr
+    assert "--refit" in plain.stderr
+    g = differences(plain.stdout)["backlash.g"]
+    assert g["verdict"] == "cannot tell"  # nobody looked for it before
+    done = run("compare", "a.json", "b.json", "--refit", "--json")
+    assert done.exit_code == 0, done.stderr
+    assert "a.json: refitted to its log with backlash" in done.stderr
+    assert "the models differ" not in done.stderr
+    found = differences(done.stdout)
+    g = found["backlash.g"]
+    assert g["verdict"] == "changed"
+    assert g["change"]["value"] == pytest.approx(1e-3, rel=0.1)
+    assert [n for n, d in found.items() if d["verdict"] == "changed"] == ["backlash.g"]
+
+
+def differences(document: str) -> dict[str, Any]:
+    (pair,) = json.loads(document)["dampers"][0]["pairs"]
+    return {d["parameter"]: d for d in pair["differences"]}
+
+
+def test_what_cannot_be_refitted_is_said(
+    old_and_new: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("a.json", "b.json"):
+        (tmp_path / name).write_bytes((old_and_new / name).read_bytes())
+    refit = ("compare", "a.json", "b.json", "--refit")
+    gone = run(*refit)
+    assert (gone.exit_code, "before.parquet" in gone.stderr) == (2, True)
+    pq.write_table(bench_log(0.0, 3, "force"), tmp_path / "before.parquet")
+    other = run(*refit)
+    assert (other.exit_code, "has changed since a.json" in other.stderr) == (3, True)
+    nowhere = damper(tmp_path / "c.json", 60.0)
+    said = run("compare", nowhere, "b.json", "--refit")
+    assert (said.exit_code, "names no log" in said.stderr) == (3, True)
+    same = run("compare", nowhere, damper(tmp_path / "d.json", 50.0), "--refit")
+    assert (same.exit_code, "nothing to refit" in same.stderr) == (0, True)
+    assert run("compare", nowhere, "b.json", "--map", "x=y").exit_code == 2
+
+
+def test_campaign_tables_are_not_refitted(campaign: Path) -> None:
+    done = run("compare", campaign, "--refit")
+    assert (done.exit_code, "--refit takes" in done.stderr) == (2, True)
