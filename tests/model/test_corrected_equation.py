@@ -40,10 +40,14 @@ def test_every_effect_is_in_it(effect: Effect) -> None:
 
 
 @pytest.mark.untraced
-@pytest.mark.parametrize(
-    "pair", list(combinations(CATALOGUE, 2)), ids=lambda p: f"{p[0].name}-{p[1].name}"
-)
-def test_two_effects_are_both_in_it(pair: tuple[Effect, Effect]) -> None:
+@pytest.mark.parametrize("first", CATALOGUE, ids=lambda e: e.name)
+def test_two_effects_are_both_in_it(first: Effect) -> None:
+    for pair in combinations(CATALOGUE, 2):
+        if pair[0] is first:
+            both_are_in(pair)
+
+
+def both_are_in(pair: tuple[Effect, Effect]) -> None:
     lines = corrected_equation(pair)
     found = symbols(lines)
     shared = {q.symbol for q in pair[0].quantities} & {q.symbol for q in pair[1].quantities}
