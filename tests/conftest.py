@@ -67,14 +67,22 @@ UNTRACED = (
     "tests/test_architecture.py",
 )
 
+TRACED: set[str] = set()  # tests of which one set of parameters ran in this process
+
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
-    """From the set-up on, where fixtures diagnose; pytest-cov's `no_cover` is of the call alone."""
+    """From the set-up on, where fixtures diagnose; pytest-cov's `no_cover` is of the call alone.
+
+    Of a test with several sets of parameters the first is traced: tracing costs two thirds more.
+    """
     plugin = item.config.pluginmanager.get_plugin("_cov")
     control = plugin.cov_controller if plugin is not None else None
+    test = item.nodeid.partition("[")[0]
+    again = test in TRACED
+    TRACED.add(test)
     if control is None or not (
-        item.path.as_posix().endswith(UNTRACED) or item.get_closest_marker("untraced")
+        again or item.path.as_posix().endswith(UNTRACED) or item.get_closest_marker("untraced")
     ):
         return (yield)
     control.pause()

@@ -111,7 +111,7 @@ def test_a_cluster_that_loses_a_worker(
     """
     logs, here = 200, tmp_path / "here"
     few = ("--effects", "backlash,force_offset")
-    short = ("--diagnose-above", "0.015", *few)  # the last months of what wears
+    short = ("--diagnose-above", "0.05", *few)  # the last months of what wears
     fleet.write(tmp_path / "lab", 20, logs // 20)
     here.mkdir()
     (here / "lab").symlink_to(tmp_path / "lab")
