@@ -60,3 +60,19 @@ def window(browser: Any, made: Callable[[str], Path]) -> Iterator[Callable[..., 
     yield one
     for each in opened:
         each.context.close()
+
+
+@pytest.fixture(scope="session")
+def looked(browser: Any, made: Callable[[str], Path]) -> Iterator[Callable[..., Opened]]:
+    """A page as `window` opens it, once for all tests that only look at it."""
+    opened: dict[str, Opened] = {}
+
+    def one(name: str, **options: Any) -> Opened:
+        key = f"{name} {options}"
+        if key not in opened:
+            opened[key] = Opened(browser, made(name), **options)
+        return opened[key]
+
+    yield one
+    for each in opened.values():
+        each.context.close()

@@ -38,9 +38,9 @@ def test_opens_by_itself_and_at_once(window: Callable[..., Opened], made: Made, 
 @pytest.mark.parametrize("size", [(1280, 800), (360, 780)], ids=["desk", "narrow"])
 @pytest.mark.parametrize("name", NAMES)
 def test_the_first_screen_answers(
-    window: Callable[..., Opened], name: str, size: tuple[int, int]
+    looked: Callable[..., Opened], name: str, size: tuple[int, int]
 ) -> None:
-    found = window(name, viewport={"width": size[0], "height": size[1]})
+    found = looked(name, viewport={"width": size[0], "height": size[1]})
     for answer in ANSWERS if name != "proof" else ("answer-model", "answer-where"):
         box = found.page.locator(f"#{answer}").bounding_box()
         assert box["y"] + box["height"] <= size[1], answer
@@ -50,8 +50,8 @@ def test_the_first_screen_answers(
     assert found.page.evaluate("document.scrollingElement.scrollWidth") <= size[0]
 
 
-def test_what_a_diagnosis_says(window: Callable[..., Opened], made: Made) -> None:
-    found = window("rubbing").page
+def test_what_a_diagnosis_says(looked: Callable[..., Opened], made: Made) -> None:
+    found = looked("rubbing").page
     document = json.loads(made("rubbing").with_suffix(".out.json").read_text())
     assert found.locator("h1").inner_text() == (
         "The paper's model does not hold; coulomb friction explains what it misses."
@@ -72,9 +72,9 @@ def test_what_a_diagnosis_says(window: Callable[..., Opened], made: Made) -> Non
 
 @pytest.mark.parametrize("name", CONCEALED)
 def test_the_first_screen_names_what_was_hidden(
-    window: Callable[..., Opened], made: Made, name: str
+    looked: Callable[..., Opened], made: Made, name: str
 ) -> None:
-    found = window(name).page
+    found = looked(name).page
     document = json.loads(made(name).with_suffix(".out.json").read_text())
     _, effect, words = CONCEALED[name]
     assert document["findings"][0]["effect"] == effect
@@ -88,14 +88,14 @@ def test_the_first_screen_names_what_was_hidden(
 
 
 @pytest.mark.parametrize("name", HEALTHY)
-def test_a_healthy_damper_is_said_to_be(window: Callable[..., Opened], name: str) -> None:
-    found = window(name).page
+def test_a_healthy_damper_is_said_to_be(looked: Callable[..., Opened], name: str) -> None:
+    found = looked(name).page
     assert "holds" in found.locator("h1").inner_text()
     assert "Yes" in found.locator("#answer-model").inner_text()
 
 
-def test_a_sequence_says_what_is_out_of_reach(window: Callable[..., Opened]) -> None:
-    found = window("mimic")
+def test_a_sequence_says_what_is_out_of_reach(looked: Callable[..., Opened]) -> None:
+    found = looked("mimic")
     assert "oil=0.2" in found.page.locator("h1").inner_text()
     assert "N are missing" in found.page.locator("#answer-where").inner_text()
     spec = found.page.evaluate("JSON.parse(document.getElementById('data').textContent).figures")
@@ -104,8 +104,8 @@ def test_a_sequence_says_what_is_out_of_reach(window: Callable[..., Opened]) -> 
     assert all(15.0 <= b["low"] <= b["high"] <= 31.0 for b in bands if b.get("bad"))
 
 
-def test_names_of_logs_are_text(window: Callable[..., Opened]) -> None:
-    found = window("rubbing")
+def test_names_of_logs_are_text(looked: Callable[..., Opened]) -> None:
+    found = looked("rubbing")
     assert EVIL_FILE in found.page.locator(".kicker").inner_text()
     assert found.page.title().startswith("Diagnosis of")
     assert EVIL_RECORD in found.page.locator("#records").inner_text()
@@ -113,8 +113,8 @@ def test_names_of_logs_are_text(window: Callable[..., Opened]) -> None:
 
 
 @pytest.mark.parametrize("name", DIAGNOSED)
-def test_loops_show_every_level(window: Callable[..., Opened], name: str) -> None:
-    found = window(name)
+def test_loops_show_every_level(looked: Callable[..., Opened], name: str) -> None:
+    found = looked(name)
     levels = found.page.locator("button[data-level]").count()
     for figure in ("loop-xdot-before", "loop-x-before"):
         assert found.drawn(figure) > 500
@@ -252,8 +252,8 @@ def test_levels_layers_and_records_are_chosen(window: Callable[..., Opened]) -> 
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_tables_have_names_and_headings(window: Callable[..., Opened], name: str) -> None:
-    found = window(name).page
+def test_tables_have_names_and_headings(looked: Callable[..., Opened], name: str) -> None:
+    found = looked(name).page
     tables = found.locator("table").evaluate_all(
         """all => all.map(t => [
           t.caption && t.caption.textContent.trim() !== "",

@@ -36,16 +36,16 @@ def document(made: Made, name: str) -> dict[str, Any]:
     return found
 
 
-def test_the_first_screen_has_the_number(window: Callable[..., Opened], made: Made) -> None:
-    found = window("worn").page
+def test_the_first_screen_has_the_number(looked: Callable[..., Opened], made: Made) -> None:
+    found = looked("worn").page
     g = document(made, "worn")["findings"][0]["parameters"]["g"]["value"]
     why = found.locator("#answer-why").inner_text()
     assert f"{1e3 * g:.3g} mm of free play" in why
     assert found.locator("#answer-why b").first.bounding_box()["y"] < 500
 
 
-def test_errors_in_newton_and_of_the_peak_force(window: Callable[..., Opened], made: Made) -> None:
-    found, d = window("worn").page, document(made, "worn")
+def test_errors_in_newton_and_of_the_peak_force(looked: Callable[..., Opened], made: Made) -> None:
+    found, d = looked("worn").page, document(made, "worn")
     force = pd.read_parquet(FIXTURES / "worn_joint.parquet")["force"]
     better = found.locator("#answer-better").inner_text()
     for part in ("before", "after"):
@@ -59,8 +59,8 @@ def test_errors_in_newton_and_of_the_peak_force(window: Callable[..., Opened], m
         assert f"{level['rms']:.3g}" in row
 
 
-def test_the_corrected_equation_is_on_the_first_screen(window: Callable[..., Opened]) -> None:
-    found = window("worn").page
+def test_the_corrected_equation_is_on_the_first_screen(looked: Callable[..., Opened]) -> None:
+    found = looked("worn").page
     box = found.locator("#answer-equation").bounding_box()
     assert box["y"] + box["height"] <= 800
     formulas = found.locator("#answer-equation math")
@@ -130,9 +130,9 @@ def hexadecimal(css: str) -> str:
 
 
 def test_a_level_has_one_colour_in_pictures_and_pages(
-    window: Callable[..., Opened], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    looked: Callable[..., Opened], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    shown = page_colours(window("worn"))
+    shown = page_colours(looked("worn"))
     log = FIXTURES / "worn_joint.parquet"
     command = f"erdctl plot {log} --params {TABLE_2} -o a.png"
     (figure,) = run(command, monkeypatch, tmp_path)
@@ -150,9 +150,9 @@ def test_a_level_has_one_colour_in_pictures_and_pages(
 
 
 def test_a_misfit_has_one_colour_in_pictures_and_pages(
-    window: Callable[..., Opened], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    looked: Callable[..., Opened], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    colours = window("worn").page.evaluate(
+    colours = looked("worn").page.evaluate(
         "JSON.parse(document.getElementById('data').textContent).figures['map-before'].colours"
     )
     log = FIXTURES / "worn_joint.parquet"
