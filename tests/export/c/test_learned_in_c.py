@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from c_built import (
+from c_built import COMPILERS, (
     FLOAT,
     SANITIZERS,
     WARNINGS,
@@ -247,6 +247,7 @@ def test_it_stays_clean_with_bad_input_under_sanitizers(slot: LawSlot, tmp_path:
     assert np.isfinite(force).all()
 
 
+@pytest.mark.skipif("clang" not in COMPILERS, reason="no clang on this machine")
 @pytest.mark.parametrize("options", [(), (FLOAT,)])
 def test_clang_has_nothing_to_say(options: tuple[str, ...]) -> None:
     for slot in (LawSlot.FORCE, LawSlot.DUTY, LawSlot.DEFLECTION):
