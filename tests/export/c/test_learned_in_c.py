@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from c_built import COMPILERS, (
+from c_built import (
+    COMPILERS,
     FLOAT,
     SANITIZERS,
     WARNINGS,
