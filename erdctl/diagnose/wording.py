@@ -9,7 +9,7 @@ from typing import Any
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import Bench
 from erdctl.diagnose import thresholds
-from erdctl.diagnose.conditions import one_condition, one_motion
+from erdctl.diagnose.conditions import one_condition, one_motion, slow_far_out
 from erdctl.diagnose.detectable import Detectable
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.findings import Finding
@@ -53,7 +53,7 @@ def unseen_text(u: Unseen) -> str:
 
 def remaining_text(found: Diagnosis) -> str:
     """What is left, in words, and what of the motion nothing has tested."""
-    return _left(found) + _one_motion(found)
+    return _left(found) + _untested_motion(found)
 
 
 def _left(found: Diagnosis) -> str:
@@ -107,15 +107,28 @@ def _left(found: Diagnosis) -> str:
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
 
 
-def _one_motion(found: Diagnosis) -> str:
-    """That what is named or learned was tested on no other motion, where the log has one alone."""
+def _untested_motion(found: Diagnosis) -> str:
+    """On which motion nothing has tested what is named or learned."""
     corrected = bool(found.findings) or found.learned is not None
-    if not corrected or found.cannot_tell or not one_motion(found.problem.recording):
+    if not corrected or found.cannot_tell:
         return ""
-    bench = Bench.of(Survey.of(found.problem.recording))
+    recording = found.problem.recording
+    bench = Bench.of(Survey.of(recording))
+    if one_motion(recording):
+        return (
+            "; all strokes are alike, so that nothing here tests the corrected model on another"
+            f" motion: before it is used on one, record --drive {bench.sweep}, and validate it"
+            " there"
+        )
+    slow = slow_far_out(recording)
+    if slow is None:
+        return ""
+    away, there, anywhere = slow
     return (
-        "; all strokes are alike, so that nothing here tests the corrected model on another motion:"
-        f" before it is used on one, record --drive {bench.sweep}, and validate it there"
+        f"; beyond {1e3 * away:.3g} mm from the middle of the stroke the log has speeds up to"
+        f" {1e3 * there:.3g} mm/s alone, of {1e3 * anywhere:.3g}, so that nothing here tests the"
+        f" corrected model at both: before it is used there, record --drive {bench.sine()}, and"
+        " validate it with that"
     )
 
 

@@ -10,7 +10,7 @@ import trajectories
 from rig import campaign, noisy, recording
 
 from erdctl.core.recording import Recording, concatenate
-from erdctl.diagnose.conditions import few_conditions, one_condition, one_motion
+from erdctl.diagnose.conditions import few_conditions, one_condition, one_motion, slow_far_out
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Verdict, diagnose
 from erdctl.diagnose.wording import remaining_text
@@ -140,6 +140,29 @@ def test_what_is_more_than_one_motion() -> None:
     assert one_motion(concatenate([slow, high, high]))
     assert not one_motion(concatenate([slow, fast]))
     assert not one_motion(concatenate([slow, wide]))
+
+
+def test_large_deflections_at_low_speeds_alone_are_told() -> None:
+    """And which drive has both, at the highest speed of the log."""
+    slow, fast = (sine(f, x, 0.0, f"{f}") for f, x in ((0.2, 0.025), (3.0, 0.005)))
+    away, there, anywhere = slow_far_out(concatenate([slow, fast])) or (0.0, 0.0, 0.0)
+    assert away == pytest.approx(0.0125, rel=0.02)
+    assert there == pytest.approx(0.866 * 2 * np.pi * 0.2 * 0.025, rel=0.03)
+    assert anywhere == pytest.approx(2 * np.pi * 3.0 * 0.005, rel=0.03)
+    both = sine(0.6, 0.025, 0.0, "both")
+    assert slow_far_out(concatenate([slow, fast, both])) is None
+    assert slow_far_out(slow) is None
+    levels = [
+        sine(f, x, d, f"{f} {d}") for f, x in ((0.2, 0.025), (3.0, 0.005)) for d in (0.0, 0.3)
+    ]
+    r = concatenate(levels)
+    catalogue = few("coulomb_friction", "gas_preload")
+    found = diagnose(noisy(plus(r, 1.5 * np.sign(r.xdot)), seed=3, rms=NOISE), catalogue)
+    said = remaining_text(found)
+    assert "beyond 12.5 mm from the middle of the stroke the log has speeds up to 27" in said
+    assert "record --drive sine:freq=0.6,amp=0.025" in said
+    nothing = diagnose(noisy(r, seed=3, rms=NOISE), catalogue)
+    assert "nothing here tests" not in remaining_text(nothing)
 
 
 def test_what_is_more_than_few_conditions() -> None:
