@@ -49,11 +49,13 @@ def slow_far_out(recording: Recording) -> tuple[float, float, float] | None:
     """
     low, high = float(recording.x.min()), float(recording.x.max())
     away, speed = np.abs(recording.x - 0.5 * (low + high)), np.abs(recording.xdot)
-    far = away > 0.25 * (high - low)
+    beyond = thresholds.FAR_OUT * (high - low)
+    far = away > beyond
     if not far.any():
         return None
-    there, anywhere = (float(np.quantile(v, 0.99)) for v in (speed[far], speed))
-    return (0.25 * (high - low), there, anywhere) if there < thresholds.SLOW * anywhere else None
+    most = thresholds.ALMOST_ALL
+    there, anywhere = (float(np.quantile(v, most)) for v in (speed[far], speed))
+    return (beyond, there, anywhere) if there < thresholds.SLOW * anywhere else None
 
 
 def few_conditions(recording: Recording) -> bool:

@@ -311,10 +311,11 @@ MOST_KNOTS = 24, 48
 # Origin: a curve of few knots is right to a fifth.
 LAW_PART = 0.04
 
-# Highest speed at large deflections over that at any, below which nothing tests a model at both.
+# Highest speed (that of all but a hundredth of the samples) at large deflections (beyond a quarter
+# of the range from its middle) over that at any, below which nothing tests a model at both.
 # Decides: a sentence alone, never a name.
 # Origin: of a sine it is 0.87, of sines of all strokes at one highest speed as much.
-SLOW = 0.4
+SLOW, FAR_OUT, ALMOST_ALL = 0.4, 0.25, 0.99
 
 # Part of a term of the paper's model that a law must leave, in rms and either direction.
 # Decides: whether it corrects the term, or takes its place and its growth beyond the range seen.
