@@ -84,9 +84,10 @@ def command(
     would have been named.
     Fewer logs: the last against the first, by the errors of both fits. Parameter files that tell
     how their errors go together are judged together, too (chi2); others by standard errors alone.
-    An effect that one file has and another lacks is in other parameters there. With --refit each
-    log is fitted again with the effects of all, and what then differs is the damper; the logs must
-    lie where the files say, unchanged, and are read as identify does (--map, --text, --where).
+    An effect that one file has and another lacks is in other parameters there. With --refit a log
+    whose file lacks one is fitted again with the effects of all, and what then differs is the
+    damper; it must lie where the file says, unchanged, and is read as identify does (--map, --text,
+    --where).
 
     \b
     Limits, e.g. limits.toml (SI, or text with a unit; c_vis is meant in both directions):

@@ -45,9 +45,7 @@ def _log(name: str, parameters: Parameters, options: dict[str, Any]) -> Recordin
     paths = [str(log.get("name", "-")) for log in logs]
     if not paths or "-" in paths:
         raise InputProblem("names no log in a file, which --refit would read", file=name)
-    recording = read_logs(
-        paths, need_force=True, want_hash=True, report=say, **options
-    ).recording  # fmt: skip
+    recording = read_logs(paths, need_force=True, want_hash=True, report=say, **options).recording
     for log, source in zip(logs, recording.sources, strict=True):
         if log.get("sha256") not in (None, "", source.sha256):
             raise InputProblem(f"has changed since {name} was fitted to it", file=source.name)

@@ -134,7 +134,7 @@ def pair_remarks(p: Pair) -> list[str]:
     if p.other_effects:
         out.append(
             f"the models differ by {', '.join(p.other_effects)}: other parameters take a part of"
-            " what one model lacks; --refit fits both logs with all of it"
+            " what one model lacks; of files (not of tables) --refit fits both logs with all of it"
         )
     if p.before[0] is p.after[0]:
         out.append("two logs do not tell how far logs scatter beyond the errors of their fits")

@@ -100,11 +100,11 @@ def skip_unless_at_hand(block: Block) -> None:
 
 
 def each_block(path: Path) -> list[Any]:
-    """The blocks that stand for themselves; those on real recordings carry the mark."""
+    """The blocks that stand for themselves; those that read real recordings carry the mark."""
     return [
         pytest.param(
             block, id=f"{path.stem}-line-{block.line}",
-            marks=[pytest.mark.real_data] if "../shared" in block.code else [],
+            marks=[pytest.mark.real_data] * ("../shared" in block.code and not is_long(block.commands)),
         )
         for block in blocks(path)
     ]  # fmt: skip
