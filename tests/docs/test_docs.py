@@ -99,12 +99,16 @@ def skip_unless_at_hand(block: Block) -> None:
         pytest.skip("the real recordings are not at hand (expected in ../shared/data)")
 
 
+def reads_recordings(block: Block) -> bool:
+    return "../shared" in block.code and not is_long(block.commands)
+
+
 def each_block(path: Path) -> list[Any]:
     """The blocks that stand for themselves; those that read real recordings carry the mark."""
     return [
         pytest.param(
             block, id=f"{path.stem}-line-{block.line}",
-            marks=[pytest.mark.real_data] * ("../shared" in block.code and not is_long(block.commands)),
+            marks=[pytest.mark.real_data] if reads_recordings(block) else [],
         )
         for block in blocks(path)
     ]  # fmt: skip
