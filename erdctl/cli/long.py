@@ -98,8 +98,11 @@ def validate_long(
                 remarks.add(read.stretch.own)
             if modelled is None:
                 raise InputProblem(UNMODELLED, file=paths[0])
-            tally.add(read.stretch, modelled)
-            looking.add(read.stretch, modelled)
+            for part in read.stretch.parts():
+                first = part.first - read.stretch.first
+                its = modelled[first : first + len(part)]
+                tally.add(part, its)
+                looking.add(part, its)
         if simulation is not None and remarks is not None:
             simulation.finish()
             for line in remarks.lines():

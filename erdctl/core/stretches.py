@@ -60,6 +60,18 @@ class Stretch:
             return self.recording
         return self.recording.window(slice(0, len(self)), names=self.recording.names)
 
+    def parts(self) -> list[Stretch]:
+        """It, cut as a log is: sums over what a model had to take whole round as they do elsewhere.
+
+        A stretch that is a part of a record already is left as it is.
+        """
+        if self.begun or self.ahead:
+            return [self]
+        return [
+            replace(part, first=self.first + part.first, record=self.record + part.record)
+            for part in stretches(self.recording)
+        ]
+
 
 def extents(starts: Index, long: int | None = None) -> Iterator[Extent]:
     """Whole records that make a stretch together; a record longer than `long` is by itself.

@@ -13,7 +13,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from places import FIXTURES
 from typer.testing import CliRunner
@@ -102,6 +102,12 @@ SIZES = st.fixed_dictionaries({
     suppress_health_check=[HealthCheck.function_scoped_fixture],
 )
 @given(made=LOGS, sizes=SIZES, effect=st.sampled_from(sorted(EFFECTS)), groups=st.integers(5, 900))
+@example(  # a record that is scored in parts, of a model that takes it whole
+    made={"lengths": [70], "seed": 2, "even": False, "xdot": True},
+    sizes={"long": 40, "run": 10, "batch": 7},
+    effect="backlash",
+    groups=5,
+)
 def test_simulate_and_validate_are_those_of_the_whole(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], made: dict, sizes: dict, effect: str,
     groups: int,
