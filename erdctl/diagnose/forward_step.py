@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from erdctl.core.progress import part_of
@@ -30,11 +30,13 @@ class Explored(dict[frozenset[str], Hypothesis]):
 
     restarts : the names of hypotheses that were also fitted from where a larger one had ended, each
         with the names of that
+    asked : what was fitted so far, by all that a fit was asked for, where that may come again
     """
 
     def __init__(self, hypotheses: Iterable[Hypothesis]) -> None:
         super().__init__((key_of(h.effects), h) for h in hypotheses)
         self.restarts: set[tuple[frozenset[str], frozenset[str]]] = set()
+        self.asked: dict[Hashable, Hypothesis | None] = {}
 
     def keep(self, hypothesis: Hypothesis) -> None:
         """A hypothesis, unless a better fit of the same effects is there."""

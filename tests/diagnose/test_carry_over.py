@@ -126,11 +126,13 @@ def test_what_one_kind_of_motion_alone_can_tell_is_not_held_against_it() -> None
 
 
 @pytest.mark.parametrize(
-    ("slopes", "kept"), [((300.0,) * 4, True), ((-900.0, 300.0, 300.0, 300.0), False)]
+    ("slopes", "kept"),
+    [((300.0,) * 4, True), ((15.0,) * 4, False), ((-900.0, 300.0, 300.0, 300.0), False)],
 )
-def test_a_law_must_not_fail_at_one_motion_for_what_it_gains_at_others(
+def test_a_law_must_be_likely_to_gain_at_another_motion(
     slopes: tuple[float, ...], kept: bool
 ) -> None:
+    """It is not where it gains a few per cent everywhere, or fails at some for what others gain."""
     out = []
     for i in range(len(MOTIONS)):
         for k in range(3):

@@ -7,7 +7,7 @@ it was among many.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Hashable, Iterable, Sequence
 
 import numpy as np
 
@@ -215,12 +215,22 @@ def _kind(effect: Effect) -> tuple[object, bool]:
 def _fitted(
     x: Exploration, parent: Hypothesis, candidates: Iterable[Candidate], stage: str
 ) -> list[Hypothesis]:
-    """Some laws fitted beside a parent, the best first."""
-    tasks = [with_effect(stage, parent, c) for c in candidates]
-    found = [h for h in x.executor.fit(x.problem, tasks) if h is not None]
+    """Some laws fitted beside a parent, the best first; what was fitted before is not again."""
+    tasks = {_asked(t): t for t in (with_effect(stage, parent, c) for c in candidates)}
+    known = x.explored.asked
+    new = {key: task for key, task in tasks.items() if key not in known}
+    known.update(zip(new, x.executor.fit(x.problem, list(new.values())), strict=True))
+    found = [h for h in map(known.get, tasks) if h is not None]
     for h in found:
         x.explored.keep(h)
     return ranked(found)
+
+
+def _asked(task: Task) -> Hashable:
+    """What a task asks for."""
+    effects = ((e.name, e.law) if isinstance(e, LearnedEffect) else e.name for e in task.effects)
+    starts = (tuple(start.items()) for start in task.starts)
+    return tuple(effects), tuple(starts)
 
 
 def _wider(x: Exploration, parent: Hypothesis, curves: Sequence[Candidate]) -> list[Candidate]:
