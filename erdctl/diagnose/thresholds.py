@@ -311,6 +311,11 @@ MOST_KNOTS = 24, 48
 # Origin: a curve of few knots is right to a fifth.
 LAW_PART = 0.04
 
+# What a law takes at most over what the cheap look at it promises.
+# Decides: whether a further law is fitted at all.
+# Origin: budget; up to 1.9 of 60 laws over two coordinates and one, 2.3 of small ones.
+PROMISED = 2.5
+
 # Highest speed (that of all but a hundredth of the samples) at large deflections (beyond a quarter
 # of the range from its middle) over that at any, below which nothing tests a model at both.
 # Decides: a sentence alone, never a name.

@@ -9,6 +9,7 @@ its off value the force equals that of the model without it, bit for bit.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -113,14 +114,7 @@ class Model:
                 s = motion(s, effect.local(values))
         for effect, control in self.of(ControlSlot):
             s = s.with_duty(control(s, effect.local(values)))
-        scale: Factors = {}
-        of_speed: Factors = {}
-        for effect, law in self.of(ScaleSlot):
-            factors = law(s, effect.local(values))
-            if effect.of_speed:
-                of_speed = multiplied(of_speed, factors)
-            else:
-                scale = multiplied(scale, factors)
+        scale, of_speed = product(self.scales(s, values))
         return Prepared(
             effects=self.effects,
             signals=s,
@@ -134,6 +128,10 @@ class Model:
             gap=gap,
             values=values,
         )
+
+    def scales(self, s: Signals, values: Values) -> list[tuple[Effect, Factors]]:
+        """(n,) factors of groups by each effect that has some, on the piston's signals."""
+        return [(e, law(s, e.local(values))) for e, law in self.of(ScaleSlot)]
 
     def _lags(self, s: Signals, values: Values) -> tuple[Array, Array] | None:
         """(n,) factors of T_d while the yield force rises and while it falls; None if all are 1."""
@@ -179,6 +177,18 @@ class Model:
         compression = law(COMPRESSION)
         same = values["compression.beta"] == values["release.beta"] and not laws
         return compression, compression if same else law(RELEASE)
+
+
+def product(scales: Iterable[tuple[Effect, Factors]]) -> tuple[Factors, Factors]:
+    """The factors of all effects together, those of speed alone apart."""
+    scale: Factors = {}
+    of_speed: Factors = {}
+    for effect, factors in scales:
+        if effect.of_speed:
+            of_speed = multiplied(of_speed, factors)
+        else:
+            scale = multiplied(scale, factors)
+    return scale, of_speed
 
 
 def off_values(model: Model) -> dict[str, float]:

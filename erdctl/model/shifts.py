@@ -8,17 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import cached_property
 
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.composed import Model
+from erdctl.model.composed import Model, product
 from erdctl.model.effect import Effect, in_slot
-from erdctl.model.response import Prepared
+from erdctl.model.response import Factors, Prepared
 from erdctl.model.slots import (
     ChannelSlot,
     FeedbackSlot,
     FieldSlot,
     GasSlot,
+    ScaleSlot,
     SignSlot,
     TermSlot,
     Values,
@@ -60,6 +62,8 @@ class Shifts:
         """(n,) force with one parameter at another value."""
         values = {**self.values, name: value}
         owner = self._owner.get(name)
+        if owner is not None and self._scales_alone(owner):
+            return self._scaled(owner, values)
         reached = self._reached(name, owner)
         if reached is None:
             return self.model.force(self.signals, values)
@@ -68,6 +72,24 @@ class Shifts:
             return prepared.force(values)
         bare = {**self.bare, **{group: prepared.group(group, values) for group in reached}}
         return prepared.total(bare, values)
+
+    def _scales_alone(self, owner: Effect) -> bool:
+        """Whether an effect does nothing but scale bare forces."""
+        scales = isinstance(owner.slot, ScaleSlot) and not owner.amplitudes
+        return scales and "spring" not in self.bare
+
+    def _scaled(self, owner: Effect, values: Values) -> Array:
+        """(n,) force with the factors of one effect at other values."""
+        assert isinstance(owner.slot, ScaleSlot)
+        moved = owner.slot(self.prepared.signals, owner.local(values))
+        scale, of_speed = product((e, moved if e is owner else f) for e, f in self._scales)
+        prepared = replace(self.prepared, scale=scale, of_speed=of_speed, values=values)
+        return prepared.total(self.bare, values)
+
+    @cached_property
+    def _scales(self) -> list[tuple[Effect, Factors]]:
+        """(n,) factors of each effect at the values themselves."""
+        return self.model.scales(self.prepared.signals, self.values)
 
     def _reached(self, name: str, owner: Effect | None) -> set[str] | None:
         """The groups of bare forces that a parameter changes; None where it may change all."""

@@ -55,13 +55,14 @@ def learn(
         far apart to show it
     """
     x = Exploration(problem, base, Explored([base, named]), executor)
-    best, rivals = _laws(x, named, candidates, line, seed, wide=False)
+    best, rivals = _laws(x, named, line, seed, wide=False)
     if search_is_worthwhile(best, seed):
         # A law over two coordinates can be an effect and a law at once: it comes where these fail.
-        wide, others = _laws(x, named, candidates, line, seed, wide=True)
+        wide, others = _laws(x, named, line, seed, wide=True)
         if wide is not named and is_preferred(problem, wide, best):
             best, rivals = wide, others
     if best is not named:
+        best = _catalogued(x, best, candidates)
         best = to_other_motions(x, eliminate(x, best), or_records=True)
         best = to_every_kind(x, best)
     names = [e.name for e in x.added(best)]
@@ -71,19 +72,18 @@ def learn(
 
 
 def _laws(
-    x: Exploration, named: Hypothesis, candidates: Sequence[Effect], line: float | None, seed: int,
-    *, wide: bool,
-) -> tuple[Hypothesis, dict[str, list[Hypothesis]]]:  # fmt: skip
+    x: Exploration, named: Hypothesis, line: float | None, seed: int, *, wide: bool
+) -> tuple[Hypothesis, dict[str, list[Hypothesis]]]:
     """A hypothesis with laws, one after the other, and what does as well in the place of each.
 
     wide : over two coordinates, too, and in the place of names
     """
-    best, rivals, taken = named, dict[str, list[Hypothesis]](), list[float]()
+    best, rivals, least = named, dict[str, list[Hypothesis]](), 0.0
     for number in range(1, thresholds.MOST_LAWS + 1):
         if number > 1 and not search_is_worthwhile(best, seed):
             break
         stage = f"law {number}"
-        found, others = _beside(x, best, line, stage, wide=wide)
+        found, others = _beside(x, best, line, stage, wide=wide, least=least)
         if (
             wide
             and number == 1
@@ -95,23 +95,39 @@ def _laws(
                 found, others = anew, instead
         if found is None:
             break
-        gain = compare(x.problem, best, found)
-        taken.append(gain.before - gain.after)
-        if number > 1 and taken[-1] < thresholds.LAW_PART * taken[0]:
-            break
+        least = least or thresholds.LAW_PART * _taken(x.problem, best, found)
         rivals[learned_in(found.effects)[-1].name] = others
         best = found
-    return (best if best is named else _catalogued(x, best, candidates)), rivals
+    return best, rivals
+
+
+def _taken(problem: Problem, parent: Hypothesis, found: Hypothesis) -> float:
+    """What a hypothesis takes of the cross-validated mean square of another [N^2]."""
+    gain = compare(problem, parent, found)
+    return gain.before - gain.after
+
+
+def _promised(parent: Hypothesis, tried: Sequence[Candidate]) -> float:
+    """What some laws may take at most of the cross-validated mean square of a parent [N^2]."""
+    left = np.average(parent.cross_validated**2, weights=parent.problem.block.weight)
+    most = max((c.gain for c in tried), default=0.0)
+    return float(thresholds.PROMISED * most * left)
 
 
 def _beside(
-    x: Exploration, parent: Hypothesis, line: float | None, stage: str, *, wide: bool
-) -> tuple[Hypothesis | None, list[Hypothesis]]:
-    """A parent with one law more, if any carries over, and those that do as well in its place."""
+    x: Exploration, parent: Hypothesis, line: float | None, stage: str, *, wide: bool,
+    least: float = 0.0,
+) -> tuple[Hypothesis | None, list[Hypothesis]]:  # fmt: skip
+    """A parent with one law more, if any carries over, and those that do as well in its place.
+
+    least : that it must take of the mean square [N^2]
+    """
     promising = _screened(x, parent, laws(x.problem))
     wider = _wider(x, parent, promising) if wide else []
     if line is not None:
         promising += swings(x.problem, line)
+    elif _promised(parent, [*promising, *wider]) < least:
+        return None, []
     more = _fitted(x, parent, [*promising, *wider], stage)
     critical = critical_of(x.problem, parent, more)
     better = [
@@ -120,7 +136,7 @@ def _beside(
         and beyond_levels(x.problem, parent, h, critical)
         and not takes_the_place_of_a_term(parent, h)
     ]  # fmt: skip
-    if not better:
+    if not better or _taken(x.problem, parent, better[0]) < least:
         return None, []
     found = _of_fewest(x, parent, better, stage)
     best = better[0]
@@ -259,6 +275,10 @@ def _of_fewest(
     wide = [h for h in better if h not in plain]
     if not plain:
         return wide[0]
+    if wide:
+        parts = [_taken(x.problem, parent, h) for h in (plain[0], wide[0])]
+        if parts[0] < thresholds.MOST_OF_IT * parts[1]:
+            return wide[0]  # to sharpen the other one would not make up for it
     found = _sharpened(x, parent, plain[0], stage)
     return wide[0] if wide and is_preferred(x.problem, wide[0], found) else found
 

@@ -9,11 +9,13 @@ the value at the knots i and j.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.learned.curve import Curve
+from erdctl.model.learned.coordinates import Memory
+from erdctl.model.learned.curve import REMEMBERED, Curve
 from erdctl.model.slots import Values
 
 
@@ -55,7 +57,12 @@ class Surface(Curve):
 
     def rows(self, s: Signals, p: Values) -> Array:
         """(k, n) what an amplitude of 1, and 0 for the others, gives."""
-        return self._products(self._whole.rows(s, p), self.across.rows(s, p))
+        known = _known if len(s) <= REMEMBERED else Surface._rows
+        return known(self, s, Memory.of(p) if self.kind.late else None)
+
+    def _rows(self, s: Signals, memory: Memory | None) -> Array:
+        p = {} if memory is None else memory._asdict()
+        return self._products(self._whole.rows(s, p), self.across.rows(s, {}))
 
     def at_both(self, z: Array, y: Array) -> Array:
         """(k, n) the same at values of the coordinates, (n,) each.
@@ -75,3 +82,7 @@ class Surface(Curve):
     def _products(self, b: Array, c: Array) -> Array:
         rows: Array = (b[:, None, :] * c[None, :, :]).reshape(-1, b.shape[1])
         return rows[int(self.zero_first) :]
+
+
+# A search moves one parameter at a time, and most of them move neither coordinate.
+_known = lru_cache(maxsize=8)(Surface._rows)
