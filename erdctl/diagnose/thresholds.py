@@ -441,6 +441,11 @@ STATE_SAMPLES, STATE_GROUPS, LOG_FLOOR = 20, 3, 1e-3
 # Origin: lags of ER fluids and amplifiers (1 to 100 ms).
 LAGS, LONGEST_SINCE, FARTHEST_SINCE = (0.01, 0.05), 10.0, 1.0
 
+# Time constants with which it is given the duty of late [s].
+# Origin: charge and chains of ER fluids, which form and age within seconds; without it a leakage of
+# 1.3 s under 64 levels of duty passed for noise of four times the true one (1241002).
+MEMORIES = (0.3, 1.0, 3.0)
+
 # Misfit over noise up to which a lack of fit counts as noise; the part of what the paper's model
 # misses, in mean square, from which it counts where noise is larger.
 # Decides: `unexplained`.

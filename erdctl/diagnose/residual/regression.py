@@ -7,6 +7,7 @@ import numpy as np
 from erdctl.core.recording import Array, Index
 from erdctl.core.signals import Signals
 from erdctl.diagnose import thresholds
+from erdctl.model.learned.coordinates import Memory, along
 
 
 def cross_predicted(weight: Array, inputs: Array, group: Index, target: Array, seed: int) -> Array:
@@ -48,6 +49,7 @@ def features(s: Signals) -> tuple[Array, Array]:
     for lag in thresholds.LAGS:
         before = np.maximum(_earlier(s, lag, index), start)
         columns += [s.xdot[before], s.duty[before]]
+    columns += [along("late_duty", s, Memory(tau)) for tau in thresholds.MEMORIES]
     total = np.concatenate([[0.0], np.cumsum(s.path[0][:-1])])
     slow = [s.t - s.t[start], total - total[start]]
     return np.column_stack(columns), np.column_stack(slow)
