@@ -121,7 +121,8 @@ def to_every_kind(x: Exploration, best: Hypothesis) -> Hypothesis:
 def _at_another(changes: Array) -> float:
     """What the mean square of one kind more may change by: a logarithm, of (k,) of kinds left out.
 
-    Check: three kinds that gain 20 % each say too little of a fourth, three that gain 40 % enough.
+    Check: three kinds of which 0.8 is left say too little of a fourth, ln 0.8 + 0.3 = 0.08; 0.6 is
+    enough, -0.51 + 0.3 = -0.21.
     >>> [round(_at_another(np.log(np.full(3, left))), 2) for left in (0.8, 0.6)]
     [0.08, -0.21]
     """
