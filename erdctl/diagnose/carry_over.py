@@ -109,13 +109,18 @@ def to_every_kind(x: Exploration, best: Hypothesis) -> Hypothesis:
             changes = [np.log([1.0 - compare(x.problem, rest, best).gain]) for rest in fewer]
         else:
             of_best = _by_kind(few, kinds, best)
-            changes = [np.log(of_best / _by_kind(few, kinds, rest)) for rest in fewer]
-            changes = [change[np.isfinite(change)] for change in changes]
+            changes = [_changes(of_best, _by_kind(few, kinds, rest)) for rest in fewer]
         unlikely = [_at_another(change) for change in changes]
         worst = int(np.argmax(unlikely))
         if unlikely[worst] < 0.0:
             return best
         best = fewer[worst]
+
+
+def _changes(best: Array, rest: Array) -> Array:
+    """(k,) logarithms of the ratio of mean squares, of the kinds that have samples with weight."""
+    told = (best > 0.0) & (rest > 0.0)
+    return np.log(best[told] / rest[told]) if told.any() else np.zeros(1)
 
 
 def _at_another(changes: Array) -> float:
