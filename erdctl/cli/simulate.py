@@ -35,8 +35,7 @@ def command(
         bool,
         typer.Option(
             "--causal",
-            help="As an exported block (C, FMU) computes it: from the past alone, and without"
-            " effects of the bench.",
+            help="As an exported block (C, FMU) has it: without effects of the bench.",
         ),
     ] = False,
     plot: Plots = [],
@@ -46,10 +45,11 @@ def command(
     Writes the log's columns and `force_model`. A record starts with F_ER at the steady value of
     its first sample; the duty is held from each sample to the next; sign(0) = 0.
 
-    Some effects look at the samples that follow, where that tells more of a log: whether a motion
-    that goes on comes by its place again, the slope of a noisy speed. On a vehicle nobody knows
-    them. With --causal the force is that of the block which `erdctl export` writes, to the last
-    digits, to check one against the other.
+    What is known at a sample is of the past alone, as on a vehicle: the force is that of the block
+    which `erdctl export` writes, to the last digits. Effects of the bench (a drift of the load
+    cell, a skew of its clock) are no part of a block; --causal leaves them out here too, and says
+    so, to check one against the other. A fit, which has the whole log, looks ahead in two places,
+    which cost little: `fluid_inertia`, and how `presliding_friction` begins.
 
     A long Parquet or Arrow file is read in stretches, and may be larger than memory.
 

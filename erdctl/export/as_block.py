@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from erdctl.export.damper_alone import damper_alone, without
 from erdctl.model.parameters import Parameters
 
@@ -11,12 +9,11 @@ from erdctl.model.parameters import Parameters
 def as_block(parameters: Parameters) -> tuple[Parameters, list[str]]:
     """The parameters whose force is that of the block that `erdctl export` writes of them.
 
-    What is known at a sample is of the past alone, and effects of the bench take no part. Their
-    force is that of the C to rounding, but for what the remarks say, which come second. Where T_d
-    is 0, a block takes the step ahead to be as long as the last.
+    Effects of the bench take no part. Their force is that of the C to rounding, but for what the
+    remarks say, which come second. Where T_d is 0, a block takes the step ahead to be as long as
+    the last.
     """
     alone, left_out = damper_alone(parameters)
-    model = alone.model.past_alone()
     laws = [(e.name, e.with_c().c) for e in alone.model.effects if e.causal is None]
     differs = [f"{name}: in a block, {c.note}" for name, c in laws if c is not None and c.note]
-    return replace(alone, model=model), [*without(left_out), *differs]
+    return alone, [*without(left_out), *differs]

@@ -121,8 +121,8 @@ def simulate(
         deformation, FACTOR 1 for healthy, e.g. ["oil=0.5@15:31", "electrical=0.8"]
     drive : in place of a log, e.g. "sine:freq=1,amp=0.01,duty=0.2" (Hz, m, 1); of several, one
         record each; see `erdctl simulate --help`
-    causal : as the block computes it that `erdctl export` writes (C, FMU): what it knows at a
-        sample is of the past alone, and effects of the bench are left out
+    causal : as the block has it that `erdctl export` writes (C, FMU): effects of the bench are
+        left out. What is known at a sample is of the past alone with and without
 
     Returns a Simulated: `.force` (n,) [N], `.table()` the log's columns and force_model, `.plot()`,
     `.write(path)`. `.remarks` says where it goes beyond what the parameters were identified on.

@@ -69,7 +69,7 @@ def mimic(
 
     The recording's duty is the healthy control.
     """
-    whole, values = parameters.model, parameters.values
+    whole, values = parameters.model.past_alone(), parameters.values
     model, left_out = _damper(whole)
     signals = Signals.of(recording)
     g = factors(faults, signals.t, signals.xdot, signals.starts)

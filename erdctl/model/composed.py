@@ -79,7 +79,7 @@ class Model:
         )
 
     def past_alone(self) -> Model:
-        """The same model of what is known at a sample from the past alone, as exported C has it."""
+        """The same model with the past alone known at a sample: `simulate`, exported C."""
         return Model(tuple(effect.past_alone() for effect in self.effects))
 
     def of(self, kind: type[S]) -> list[tuple[Effect, S]]:

@@ -70,7 +70,7 @@ class Variable(Enum):
 
 @dataclass(frozen=True, kw_only=True)
 class Causal:
-    """What stands in for an effect that looks at samples ahead where these are not known yet.
+    """What `simulate` and C do at a sample, where a fit, which has the whole log, looks ahead.
 
     slot, columns : in the place of the effect's own; None where that knows the past alone already
     """
@@ -106,7 +106,7 @@ class Effect:
         whose time a fit finds by a search of all (`estimate.onsets`); no others
     order : effects of one slot act in this order
     c : the same in C99, for the export;  writes_c : makes it, where that costs something
-    causal : what that does where the effect itself looks ahead
+    causal : what goes on sample by sample, where the effect itself, for fits, looks ahead
     earlier : parameters that files lack which were written before there were any, and what they are
         there: a number, or the symbol whose value it is
     """
@@ -155,7 +155,7 @@ class Effect:
         return self if self.writes_c is None else replace(self, c=self.writes_c())
 
     def past_alone(self) -> Effect:
-        """Itself as its C has it: what it does at a sample knows nothing of those ahead."""
+        """Itself as `simulate` and its C have it: no sample ahead is known."""
         if self.causal is None:
             return self
         return replace(

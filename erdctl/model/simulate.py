@@ -52,13 +52,15 @@ class Simulation:
     States restart with each record, so a long log is computed in runs of records that fit into a
     processor's cache, which is twice as fast as all at once. A record longer than a stretch is
     computed in parts, if the only state is F_ER, which is carried from one to the next.
+    What is known at a sample is of the past alone, as on a vehicle and in an exported block.
     """
 
     def __init__(self, parameters: Parameters, faults: Sequence[str] = ()) -> None:
         self.parameters = parameters
         self.faults = [parse_fault(f) for f in faults]
-        self.cuts = one_state(parameters.model)
-        self._watch = Watch(parameters.model, parameters.values)
+        self._model = parameters.model.past_alone()
+        self.cuts = one_state(self._model)
+        self._watch = Watch(self._model, parameters.values)
         self._state = 0.0
         self._since = 0.0  # s, at which the record began
 
@@ -81,7 +83,7 @@ class Simulation:
 
     def _of_records(self, recording: Recording) -> Array:
         signals = Signals.of(recording)
-        prepared = self.parameters.model.prepare(signals, self.parameters.values)
+        prepared = self._model.prepare(signals, self.parameters.values)
         return prepared.force(self.parameters.values, self._factors(signals, self.faults))
 
     def _of_part(self, stretch: Stretch) -> Array:
@@ -101,7 +103,7 @@ class Simulation:
             signals = Signals.of(part)
             if begun:
                 signals = replace(signals, begun=np.array([self._state]))
-            prepared = self.parameters.model.prepare(signals, values)
+            prepared = self._model.prepare(signals, values)
             bare = prepared.bare(values)
             force = prepared.total(bare, values, self._factors(signals, faults))
             # The piston moves at a cut, so that the sign that F_ER was given is 1 or -1.

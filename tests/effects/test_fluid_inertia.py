@@ -1,4 +1,4 @@
-"""Acceleration: exact for a straight line, and what the window costs a sine."""
+"""Acceleration: exact for a straight line, and what window and memory cost a sine."""
 
 from __future__ import annotations
 
@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 from made import signals, sine, unit_forces
 
-from erdctl.core.signals import HALF_CUBIC
+from erdctl.core.recording import Array
+from erdctl.core.signals import HALF_CUBIC, Signals
+from erdctl.effects import get
+from erdctl.effects.fluid_inertia import MEMORY
 
 
 def test_check_value() -> None:
@@ -41,3 +44,54 @@ def test_noise_is_averaged() -> None:
     u = np.arange(-20, 21)
     squares = np.linalg.inv([[np.sum(u**2), np.sum(u**4)], [np.sum(u**4), np.sum(u**6)]])
     assert slope[20:-20].std() == pytest.approx(np.sqrt(squares[0, 0]), rel=0.1)
+
+
+def past(s: Signals) -> Array:
+    """(n,) acceleration as `simulate` has it, of 1 kg."""
+    return get("fluid_inertia").past_alone().added(s, {})[0]
+
+
+def test_the_past_alone_is_exact_for_a_line_at_any_steps() -> None:
+    rng = np.random.default_rng(5)
+    t = np.cumsum(10.0 ** rng.uniform(-5, -1.5, 300))
+    rising = np.where(np.arange(300) < 180, 3.0, -7.0)
+    s = signals(rising * t, t=t, starts=[0, 180, 299, 300])
+    first = s.starts[:-1]
+    assert past(s)[first].tolist() == [0.0, 0.0, 0.0]  # nothing is known of a slope yet
+    rest = np.delete(np.arange(300), first)
+    assert past(s)[rest] == pytest.approx(rising[rest], rel=1e-6)
+
+
+def test_the_past_alone_follows_a_cubic_without_delay() -> None:
+    """It has forgotten its start after 20 memories."""
+    t = np.arange(2000) * 1e-4
+    bends = 5.0 + 40.0 * t - 900.0 * t**2
+    s = signals(5.0 * t + 20.0 * t**2 - 300.0 * t**3, t=t)
+    assert past(s)[600:] == pytest.approx(bends[600:], abs=1e-3)
+
+
+@pytest.mark.parametrize(("frequency", "gain"), [(7.0, 0.0022), (10.0, 0.0082), (20.0, 0.094)])
+def test_a_sine_passes_the_memory(frequency: float, gain: float) -> None:
+    """(q + q^2 + q^3 - 3 q^4) / T at i w, beside i w itself."""
+    s = sine(frequency, 0.01, 2.0, 10000.0)
+    w = 2 * np.pi * frequency
+    q = 1j * w * MEMORY / (1.0 + 1j * w * MEMORY)
+    passed = (q + q**2 + q**3 - 3.0 * q**4) / (1j * w * MEMORY)
+    assert abs(passed) - 1.0 == pytest.approx(gain, abs=1e-3)
+    late = np.interp(s.t + np.angle(passed) / w, s.t, -(w**2) * s.x)
+    inner = slice(1000, -1000)
+    assert past(s)[inner] == pytest.approx(abs(passed) * late[inner], abs=2e-3 * w**2 * 0.01)
+
+
+def test_noise_in_the_past_alone() -> None:
+    noise = 2e-3 * np.random.default_rng(1).standard_normal(20000)
+    assert past(signals(noise, step=1e-3))[100:].std() == pytest.approx(0.9, rel=0.1)
+
+
+def test_nothing_ahead_is_known() -> None:
+    rng = np.random.default_rng(6)
+    v, other = rng.standard_normal((2, 100))
+    other[:60] = v[:60]
+    before, after = (past(signals(x, step=1e-3)) for x in (v, other))
+    assert np.array_equal(before[:60], after[:60])
+    assert not np.array_equal(before[60:], after[60:])

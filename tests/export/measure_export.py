@@ -58,7 +58,7 @@ def far(found: Array, expected: Array) -> float:
 
 
 def differences(found: Model, values: dict[str, float]) -> list[float]:
-    """Double and float against `simulate --causal`; double against `simulate`, and the rms."""
+    """Double and float against `simulate`; double against what a fit has, and the rms."""
     s = motion()
     block = block_of(found, values, s)
     past = found.past_alone().force(s, values)
@@ -91,7 +91,7 @@ def force(*names: str) -> None:
         found, values = model(seed)
         cases.append((f"{seed}: " + " + ".join(e.name for e in found.effects), found, values))
     cases = [case for case in cases if not names or {e.name for e in case[1].effects} & {*names}]
-    show("", "double", "float", "looks ahead", "rms")
+    show("", "double", "float", "to a fit", "rms")
     exact, single, ahead = [], [], []
     for name, found, values in cases:
         row = differences(found, values)
@@ -103,7 +103,7 @@ def force(*names: str) -> None:
             ahead.append((name, row[3]))
     summed("double", exact, 1e-9)
     summed("float", single, 1e-5)
-    summed("rms of looking ahead", ahead, 0.01)
+    summed("rms to what a fit has", ahead, 0.01)
 
 
 @cache
@@ -166,7 +166,7 @@ def fmu(*names: str) -> None:
         return far(out, expected)
 
     s = Signals.of(schedule())
-    print("FMU by FMPy against `simulate --causal`, over the range; findings of validate_fmu")
+    print("FMU by FMPy against `simulate`, over the range; findings of validate_fmu")
     for number in ("2", "3"):
         off = difference(damper(number), s, Model().force(s, PAPER))
         show(

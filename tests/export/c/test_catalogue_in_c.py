@@ -42,7 +42,7 @@ def test_it_has_c(effect: Effect) -> None:
 def test_it_equals_python(
     effect: Effect, s: Signals, options: tuple[str, ...], near: float
 ) -> None:
-    """To the last digits, but for what looks ahead in Python."""
+    """To the last digits, with what `simulate` knows of a sample: the past alone."""
     values = acting(effect)
     expected = Model((effect,)).past_alone().force(s, values)
     off = np.abs(forces(block_of(Model((effect,)), values, s), s, *options) - expected)
@@ -51,7 +51,7 @@ def test_it_equals_python(
 
 @every
 @moved
-def test_not_to_look_ahead_costs_little(effect: Effect, s: Signals) -> None:
+def test_what_a_fit_has_by_looking_ahead_is_little(effect: Effect, s: Signals) -> None:
     assert effect.c is not None
     if effect.past_alone() is effect:
         return
