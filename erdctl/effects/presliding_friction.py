@@ -9,7 +9,8 @@ the z with which it comes by that place again in that direction, after two rever
 that had gone on before; where it never does, it has slid long (z = sign(xdot)). One that begins at
 rest has no force in its seal (z = 0).
 Valid for rate-independent seals; LuGre adds a fall of friction with speed.
-In C, which does not know what comes, a motion that goes on begins as one that has slid long.
+In `simulate` and C, which know the past alone, a motion that goes on begins as one that has slid
+long; a fit looks where it comes by its first place again.
 Check: x_d = 0.1 mm, z = 1; 0.1 mm after the reversal z = -1 + 2 exp(-1) = -0.2642.
 >>> s = signals([0.1, 0.0, -0.1], step=2e-3)  # the reversal at the second sample
 >>> presliding_friction(s, {"x_d": 1e-4})[0].round(4).tolist()
