@@ -154,9 +154,11 @@ class Screen:
         # What the changes can take lies in as many directions as there are of them.
         q, r = qr((X[use] / scale[use, None]).T, mode="economic")
         within = self.residual @ q
-        found = lsq_linear(r, within, bounds=bounds, method="bvls")
-        much[use] = found.x / scale[use]
-        taken = float(within @ within) - 2.0 * float(found.cost)
+        much[use] = most = np.linalg.lstsq(r, within)[0]
+        if ((most < bounds[0]) | (most > bounds[1])).any():
+            much[use] = most = lsq_linear(r, within, bounds=bounds, method="bvls").x
+        much /= np.where(use, scale, 1.0)
+        taken = float(within @ within) - float(np.sum((within - r @ most) ** 2))
         return taken / max(self.square, 1e-300), much
 
     def _beyond(self, rows: Array) -> Array:

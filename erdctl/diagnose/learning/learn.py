@@ -55,7 +55,9 @@ def learn(
         far apart to show it
     """
     x = Exploration(problem, base, Explored([base, named]), executor)
-    best, rivals = _laws(x, named, line, seed, wide=False)
+    best, rivals = named, dict[str, list[Hypothesis]]()
+    if line is not None or not _halved_by_two(x, named):
+        best, rivals = _laws(x, named, line, seed, wide=False)
     if search_is_worthwhile(best, seed):
         # A law over two coordinates can be an effect and a law at once: it comes where these fail.
         wide, others = _laws(x, named, line, seed, wide=True)
@@ -76,20 +78,16 @@ def _laws(
 ) -> tuple[Hypothesis, dict[str, list[Hypothesis]]]:
     """A hypothesis with laws, one after the other, and what does as well in the place of each.
 
-    wide : over two coordinates, too, and in the place of names
+    wide : the first over two coordinates, too, and in the place of names. A second one over two
+        would say what the few knots of the first leave.
     """
     best, rivals, least = named, dict[str, list[Hypothesis]](), 0.0
     for number in range(1, thresholds.MOST_LAWS + 1):
         if number > 1 and not search_is_worthwhile(best, seed):
             break
         stage = f"law {number}"
-        found, others = _beside(x, best, line, stage, wide=wide, least=least)
-        if (
-            wide
-            and number == 1
-            and x.added(named)
-            and (found is None or search_is_worthwhile(found, seed))
-        ):
+        found, others = _beside(x, best, line, stage, wide=wide and number == 1, least=least)
+        if wide and number == 1 and x.added(named) and _leaves_much(x, named, found):
             anew, instead = _in_place_of_names(x, named, line, stage)
             if anew and is_preferred(x.problem, anew, found or named):
                 found, others = anew, instead
@@ -101,6 +99,30 @@ def _laws(
     return best, rivals
 
 
+def _leaves_much(x: Exploration, parent: Hypothesis, found: Hypothesis | None) -> bool:
+    """Whether a law, if there is any, leaves so much that a name may hide where it acts."""
+    if found is None:
+        return True
+    return _taken(x.problem, parent, found) < (1.0 - thresholds.HIDDEN) * _square(parent)
+
+
+def _halved_by_two(x: Exploration, parent: Hypothesis) -> bool:
+    """Whether a law over two coordinates promises to leave half of what one over one leaves.
+
+    Then no law over one comes first, which would only be looked at to be replaced.
+    """
+    curves = _screened(x, parent, laws(x.problem))
+    surface = max((c.gain for c in _wider(x, parent, curves)), default=0.0)
+    curve = max((c.gain for c in curves), default=0.0)
+    return 1.0 - surface < thresholds.HALVED * (1.0 - curve)
+
+
+def _square(hypothesis: Hypothesis) -> float:
+    """The cross-validated mean square [N^2]."""
+    weight = hypothesis.problem.block.weight
+    return float(np.average(hypothesis.cross_validated**2, weights=weight))
+
+
 def _taken(problem: Problem, parent: Hypothesis, found: Hypothesis) -> float:
     """What a hypothesis takes of the cross-validated mean square of another [N^2]."""
     gain = compare(problem, parent, found)
@@ -109,9 +131,8 @@ def _taken(problem: Problem, parent: Hypothesis, found: Hypothesis) -> float:
 
 def _promised(parent: Hypothesis, tried: Sequence[Candidate]) -> float:
     """What some laws may take at most of the cross-validated mean square of a parent [N^2]."""
-    left = np.average(parent.cross_validated**2, weights=parent.problem.block.weight)
     most = max((c.gain for c in tried), default=0.0)
-    return float(thresholds.PROMISED * most * left)
+    return thresholds.PROMISED * most * _square(parent)
 
 
 def _beside(
