@@ -130,7 +130,7 @@ def refit(
     if whole and found.best.record_effects is None:  # which settle by and by
         explored = Explored(again.values())
     else:
-        explored = _on_all_samples(problem, again.values(), executor)
+        explored = _on_all_samples(problem, again.values(), found.best, executor)
     explored.restarts.update((key, key_of(found.best.effects)) for key in again)
     base = explored[key_of(found.base.effects)]
     x = Exploration(problem, base, explored, executor)
@@ -145,15 +145,24 @@ def refit(
 
 
 def _on_all_samples(
-    problem: Problem, hypotheses: Iterable[Hypothesis], executor: Executor
+    problem: Problem, hypotheses: Iterable[Hypothesis], best: Hypothesis, executor: Executor
 ) -> Explored:
-    tasks = [
-        Task(
-            "all samples", h.effects, (h.values,), thresholds.STEPS_AGAIN,
-            record_effects=h.record_effects,
-        )
-        for h in hypotheses
-    ]  # fmt: skip
+    """Hypotheses fitted to all samples, from where they ended on some.
+
+    Where a cost has several dips, as that of a delay has, also from where the best one has these
+    parameters: a dip that was next on some samples can be far on all.
+    """
+    tasks = []
+    for h in hypotheses:
+        dips = {e.key(q.symbol) for e in h.effects if e.guesses for q in e.quantities}
+        elsewhere = {n: v for n, v in best.values.items() if n in dips and v != h.values[n]}
+        starts = (h.values, {**h.values, **elsewhere}) if elsewhere else (h.values,)
+        tasks.append(
+            Task(
+                "all samples", h.effects, starts, thresholds.STEPS_AGAIN,
+                record_effects=h.record_effects,
+            )
+        )  # fmt: skip
     return Explored(executor.fit_compatible(problem, tasks))
 
 

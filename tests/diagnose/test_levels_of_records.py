@@ -20,6 +20,7 @@ from erdctl.diagnose.told import as_told
 from erdctl.effects import get
 from erdctl.estimate.starts import fresh_start
 from erdctl.model.composed import Model
+from erdctl.model.effect import Effect
 from erdctl.model.learned.curve import Curve
 from erdctl.model.learned.law import Law, LawSlot, LearnedEffect
 
@@ -66,7 +67,7 @@ def law(coordinate: str, knots: Array) -> LearnedEffect:
     return Law(LawSlot.FORCE, Curve(coordinate, tuple(knots.tolist()))).effect
 
 
-def fit(problem: Problem, *effects: LearnedEffect) -> Hypothesis:
+def fit(problem: Problem, *effects: Effect) -> Hypothesis:
     return fit_hypothesis(problem, effects, [fresh_start(0.05, 0.4)])
 
 
@@ -129,3 +130,18 @@ def test_a_curve_stays_at_its_end_value_beyond_what_is_told() -> None:
     assert beyond == pytest.approx(3.0)
     same, _ = as_told(Model((effect,)), values, s, whole, whole)
     assert same.effects == (effect,)
+
+
+def test_levels_of_a_record_with_few_samples_of_weight_speak_against_nothing() -> None:
+    """A gain and a zero from a moment of a record miss the rest of it: what no model has to pay."""
+    r = swept(STROKES)
+    ripple = np.where(np.arange(len(r)) < r.starts[1], 3.0 * np.sin(40.0 * r.t), 0.0)
+    problem = plus(r, np.repeat(ZEROS, np.diff(r.starts)) + 2.0 * np.sign(r.xdot) + ripple)
+    weight = problem.block.weight.copy()
+    fastest = 40 + int(np.argmax(np.abs(r.xdot[40:300])))
+    weight[: r.starts[1]] = 0.0
+    weight[fastest - 12 : fastest + 13] = 1.0
+    problem = replace(problem, block=problem.block._replace(weight=weight))
+    paper, rubbing = fit(problem), fit(problem, get("coulomb_friction"))
+    assert compare_alike(problem, paper, rubbing).significant
+    assert beyond_levels(problem, paper, rubbing)
