@@ -466,6 +466,21 @@ MISFIT_OVER_NOISE, MISFIT_PART = 0.3, 0.05
 # Origin: none; white noise of 1e5 bins has its highest line at about 12 times its mean.
 LINE_SHARE, LINE_HEIGHT, LINE_AROUND, LINE_OVER_PLAIN, LINE_LOWEST = 0.1, 50.0, 401, 2.0, 10
 
+# --- lines over travel --------------------------------------------------------------------------
+
+# Samples of a stroke at least, points of a spectrum over travel, strokes at least, cycles that a
+# usual one holds at least; part of a wave number around it with which it is compared, and cycles of
+# a usual stroke either way that are its own.
+# Decides: over which strokes and wavelengths a line is looked for.
+# Origin: budget; a slope within a stroke has no line of six cycles.
+TRAVEL_LEAST, TRAVEL_BINS, TRAVEL_STROKES, TRAVEL_CYCLES = 16, 512, 8, 6.0
+TRAVEL_AROUND, TRAVEL_WIDTH = 0.35, 2.0
+
+# Height of a line over the median around, and its share of the residual's square.
+# Decides: whether what is left comes again with the travel.
+# Origin: null; of 60 nulls the highest has 2.4.
+TRAVEL_HEIGHT, TRAVEL_SHARE = 4.0, 0.1
+
 # --- impulses -----------------------------------------------------------------------------------
 
 # Innovation over the robust scale; impulses and groups with any, at least.

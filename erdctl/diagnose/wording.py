@@ -100,6 +100,12 @@ def _left(found: Diagnosis) -> str:
             f"; {100 * left.impulses:.0f} % of it comes in sudden jumps, as of a seal that sticks"
             " and slips, a joint that knocks or a valve that opens"
         )
+    if left.travel_line is not None:
+        words += (
+            f"; {100 * left.travel_line.share:.0f} % of it comes again with every"
+            f" {1e3 * left.travel_line.wavelength:.3g} mm of travel, as teeth of a seal that sticks"
+            " and slips or a ripple of the bore do"
+        )
     resembles = found.resemblance
     if resembles is not None:
         words += f"; it is most like {resembles.form} (correlation {resembles.correlation:+.2f})"

@@ -11,7 +11,6 @@ from collections.abc import Hashable, Iterable, Sequence
 
 import numpy as np
 
-from erdctl.core.progress import part_of
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.backward_step import eliminate, without_each
 from erdctl.diagnose.carry_over import to_every_kind, to_other_motions
@@ -20,8 +19,15 @@ from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.forward_step import Exploration, Explored, key_of, with_effect
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.learning.closed_forms import closed_forms
-from erdctl.diagnose.learning.law_screen import LawScreen
-from erdctl.diagnose.learning.laws import finer, laws, plain_laws, surfaces, swings
+from erdctl.diagnose.learning.laws import finer, swings
+from erdctl.diagnose.learning.promising import (
+    Promising,
+    learned_in,
+    place_of,
+    promising,
+    promising_laws,
+    screened,
+)
 from erdctl.diagnose.learning.replaced_terms import takes_the_place_of_a_term
 from erdctl.diagnose.levels_of_records import beyond_levels
 from erdctl.diagnose.look_alikes import is_preferred
@@ -56,11 +62,12 @@ def learn(
     """
     x = Exploration(problem, base, Explored([base, named]), executor)
     best, rivals = named, dict[str, list[Hypothesis]]()
-    if line is not None or not _halved_by_two(x, named):
-        best, rivals = _laws(x, named, line, seed, wide=False)
+    first = promising_laws(x, named, wide=True)
+    if line is not None or not first.halved_by_two:
+        best, rivals = _laws(x, named, first.plain, line, seed, wide=False)
     if search_is_worthwhile(best, seed):
         # A law over two coordinates can be an effect and a law at once: it comes where these fail.
-        wide, others = _laws(x, named, line, seed, wide=True)
+        wide, others = _laws(x, named, first, line, seed, wide=True)
         if wide is not named and is_preferred(problem, wide, best):
             best, rivals = wide, others
     if best is not named:
@@ -74,10 +81,12 @@ def learn(
 
 
 def _laws(
-    x: Exploration, named: Hypothesis, line: float | None, seed: int, *, wide: bool
-) -> tuple[Hypothesis, dict[str, list[Hypothesis]]]:
+    x: Exploration, named: Hypothesis, first: Promising, line: float | None, seed: int, *,
+    wide: bool,
+) -> tuple[Hypothesis, dict[str, list[Hypothesis]]]:  # fmt: skip
     """A hypothesis with laws, one after the other, and what does as well in the place of each.
 
+    first : what promises most beside what is named
     wide : the first over two coordinates, too, and in the place of names. A second one over two
         would say what the few knots of the first leave.
     """
@@ -86,7 +95,8 @@ def _laws(
         if number > 1 and not search_is_worthwhile(best, seed):
             break
         stage = f"law {number}"
-        found, others = _beside(x, best, line, stage, wide=wide and number == 1, least=least)
+        likely = first if number == 1 else promising_laws(x, best, wide=False)
+        found, others = _beside(x, best, likely, line, stage, least)
         if wide and number == 1 and x.added(named) and _leaves_much(x, named, found):
             anew, instead = _in_place_of_names(x, named, line, stage)
             if anew and is_preferred(x.problem, anew, found or named):
@@ -104,17 +114,6 @@ def _leaves_much(x: Exploration, parent: Hypothesis, found: Hypothesis | None) -
     if found is None:
         return True
     return _taken(x.problem, parent, found) < (1.0 - thresholds.HIDDEN) * _square(parent)
-
-
-def _halved_by_two(x: Exploration, parent: Hypothesis) -> bool:
-    """Whether a law over two coordinates promises to leave half of what one over one leaves.
-
-    Then no law over one comes first, which would only be looked at to be replaced.
-    """
-    curves = _screened(x, parent, laws(x.problem))
-    surface = max((c.gain for c in _wider(x, parent, curves)), default=0.0)
-    curve = max((c.gain for c in curves), default=0.0)
-    return 1.0 - surface < thresholds.HALVED * (1.0 - curve)
 
 
 def _square(hypothesis: Hypothesis) -> float:
@@ -136,20 +135,19 @@ def _promised(parent: Hypothesis, tried: Sequence[Candidate]) -> float:
 
 
 def _beside(
-    x: Exploration, parent: Hypothesis, line: float | None, stage: str, *, wide: bool,
+    x: Exploration, parent: Hypothesis, likely: Promising, line: float | None, stage: str,
     least: float = 0.0,
 ) -> tuple[Hypothesis | None, list[Hypothesis]]:  # fmt: skip
     """A parent with one law more, if any carries over, and those that do as well in its place.
 
     least : that it must take of the mean square [N^2]
     """
-    promising = _screened(x, parent, laws(x.problem))
-    wider = _wider(x, parent, promising) if wide else []
+    tried = [*likely.curves, *likely.surfaces]
     if line is not None:
-        promising += swings(x.problem, line)
-    elif _promised(parent, [*promising, *wider]) < least:
+        tried += swings(x.problem, line)
+    elif _promised(parent, tried) < least:
         return None, []
-    more = _fitted(x, parent, [*promising, *wider], stage)
+    more = _fitted(x, parent, tried, stage)
     critical = critical_of(x.problem, parent, more)
     better = [
         h for h in more
@@ -172,7 +170,7 @@ def _in_place_of_names(
 
     A name that stood in for what no effect says also hides where that acts.
     """
-    found, alike = _beside(x, x.base, line, stage, wide=True)
+    found, alike = _beside(x, x.base, promising_laws(x, x.base, wide=True), line, stage)
     if found is None:
         return None, []
     effects = (*x.added(named), found.effects[-1])
@@ -192,61 +190,16 @@ def _catalogued(x: Exploration, best: Hypothesis, candidates: Sequence[Effect]) 
         (gone,) = (e for e in best.effects if e.name not in key_of(rest.effects))
         if isinstance(gone, LearnedEffect):
             tried = [e for e in candidates if e.name not in known]
-            likely = _promising(x, rest, tried, thresholds.NAMES_FITTED)
+            likely = promising(x, rest, tried, thresholds.NAMES_FITTED)
             for h in _fitted(x, rest, likely, "names of laws"):
                 if is_preferred(x.problem, h, best):
                     return _catalogued(x, h, candidates)
     return best
 
 
-def learned_in(effects: Iterable[Effect]) -> list[LearnedEffect]:
-    """Those of some effects that were learned."""
-    return [e for e in effects if isinstance(e, LearnedEffect)]
-
-
 def _apart(one: Hypothesis, other: Hypothesis) -> bool:
     """Whether their last laws differ in more than the form of the curve."""
-    return _what(_law(one)[0]) != _what(_law(other)[0])
-
-
-def _screened(
-    x: Exploration, parent: Hypothesis, tried: Iterable[Law], most: int = thresholds.LAWS_FITTED
-) -> list[Candidate]:
-    """The laws that promise most beside a parent."""
-    x.executor.progress("screening", part_of("laws to learn", 1, 1))
-    known = key_of(parent.effects)
-    taken = {_what(e.law) for e in learned_in(parent.effects) if not e.law.curve.kind.late}
-    new = (law for law in tried if law.name not in known and _what(law) not in taken)
-    return _promising(x, parent, (law.effect for law in new), most)
-
-
-def _what(law: Law) -> tuple[str, ...]:
-    """The slot and the coordinates; a curve over x can be any over its size."""
-    return law.slot, *(axis.coordinate.removeprefix("abs_") for axis in law.curve.axes)
-
-
-def _promising(
-    x: Exploration, parent: Hypothesis, tried: Iterable[Effect], most: int
-) -> list[Candidate]:
-    """The effects that promise most beside a parent; of the curves of one coordinate one."""
-    every = max(1, len(x.problem.block.force) // thresholds.LAW_SAMPLES)
-    screen = LawScreen(x.problem, parent, x.executor.most, every)
-    found = [c for c in map(screen.candidate, tried) if c is not None]
-    of: dict[object, Candidate] = {}
-    for c in found:  # those with fewer knots come first
-        kind, late = _kind(c.effect)
-        if kind not in of or (1.0 if late else thresholds.AS_FEW) * c.gain > of[kind].gain:
-            of[kind] = c
-    return sorted(of.values(), key=lambda c: -c.gain)[:most]
-
-
-def _kind(effect: Effect) -> tuple[object, bool]:
-    """What curves of few and of many knots, or over several times, have in common; whether over
-    times."""
-    if not isinstance(effect, LearnedEffect):
-        return effect.name, False
-    curve = effect.law.curve
-    return (effect.law.slot, *(axis.coordinate for axis in curve.axes)), curve.kind.late
+    return place_of(_law(one)[0]) != place_of(_law(other)[0])
 
 
 def _fitted(
@@ -268,24 +221,6 @@ def _asked(task: Task) -> Hashable:
     effects = ((e.name, e.law) if isinstance(e, LearnedEffect) else e.name for e in task.effects)
     starts = (tuple(start.items()) for start in task.starts)
     return tuple(effects), tuple(starts)
-
-
-def _wider(x: Exploration, parent: Hypothesis, curves: Sequence[Candidate]) -> list[Candidate]:
-    """Laws over two coordinates that could take far more than any over one.
-
-    Beside those of promising curves; where none of these could take most, beside any.
-    """
-    found = [c.effect.law for c in curves if isinstance(c.effect, LearnedEffect)]
-    most = max((c.gain for c in curves), default=0.0)
-    if most < thresholds.MOST_OF_IT:
-        found += plain_laws(x.problem)
-    every = (s for law in found for s in surfaces(x.problem, law, Memory(law.curve.tau)))
-    tried = {
-        (law.slot, frozenset(a.coordinate for a in law.curve.axes)): law for law in every
-    }.values()
-    least = most + thresholds.WIDER * (1.0 - most)
-    wide = _screened(x, parent, tried, thresholds.SURFACES_FITTED)
-    return [c for c in wide if c.gain > least]
 
 
 def _of_fewest(
@@ -310,7 +245,7 @@ def _sharpened(x: Exploration, parent: Hypothesis, found: Hypothesis, stage: str
     if law.curve.form is not None:
         return found
     while (more := finer(x.problem, law, Memory.of(values))) is not None:
-        better = _fitted(x, parent, _screened(x, parent, [more]), stage)
+        better = _fitted(x, parent, screened(x, parent, [more]), stage)
         if not (better and is_preferred(x.problem, better[0], found)):
             break
         found = better[0]

@@ -13,7 +13,8 @@ from erdctl.diagnose.executor import Executor
 from erdctl.diagnose.findings import Finding, findings
 from erdctl.diagnose.fit_errors import fit_errors
 from erdctl.diagnose.hypothesis import Hypothesis
-from erdctl.diagnose.learning.learn import learn, learned_in
+from erdctl.diagnose.learning.learn import learn
+from erdctl.diagnose.learning.promising import learned_in
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.record_effects import RecordEffects
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_of

@@ -4,8 +4,8 @@ Measurement noise, white or coloured, cannot be predicted from motion and contro
 does not depend on the state of the damper; physics left out changes one or the other. So what a
 flexible regression predicts of the residual on groups that it has not seen is misfit, and so is
 variance beyond that of the states where it is smallest, whatever the form and whether or not the
-catalogue knows it. Two kinds of physics keep a time of their own, and are looked for by themselves:
-a ripple of the yield force (a spectral line), and impulses.
+catalogue knows it. Some physics keeps a phase of its own, and is looked for by itself: a ripple of
+the yield force (a spectral line), teeth of one length (a line over travel), and impulses.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from erdctl.diagnose.problem import Problem, t_statistic
 from erdctl.diagnose.residual.impulses import impulse_share
 from erdctl.diagnose.residual.regression import cross_predicted, features
 from erdctl.diagnose.residual.spectral_line import SpectralLine, spectral_lines
+from erdctl.diagnose.residual.travel_line import TravelLine, travel_line
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +37,7 @@ class LackOfFit:
     spectral_line : that turns over with the motion, if the rest holds one
     impulses : the share of the rest's square that they hold, if there are any
     hum : a line of the force channel's own, which is noise
+    travel_line : what comes again with every so much travel, if the rest holds it
     measures : the statistics on which this rests, by the names of their thresholds
     """
 
@@ -48,6 +50,7 @@ class LackOfFit:
     spectral_line: SpectralLine | None
     impulses: float
     hum: SpectralLine | None = None
+    travel_line: TravelLine | None = None
     measures: Mapping[str, float] = field(default_factory=dict)
 
     def square(self, found: Array) -> Array:
@@ -123,7 +126,9 @@ def lack_of_fit_test(
     excess = predicted**2 + beyond
     part = 0.0 if line is None else line.share
     impulses = impulse_share(problem, rest)
-    swings = 1.0 - (1.0 - part) * (1.0 - impulses)
+    # A line in time is one over travel, too, where the speed is the same throughout.
+    teeth = travel_line(problem, rest) if line is None and hum is None else None
+    swings = 1.0 - (1.0 - part) * (1.0 - impulses) * (1.0 - (teeth.share if teeth else 0.0))
     excess += swings * rest**2  # it is where the rest is large
     left *= 1.0 - swings
     noise = min(noise, left)
@@ -138,6 +143,7 @@ def lack_of_fit_test(
         spectral_line=line,
         impulses=impulses,
         hum=hum,
+        travel_line=teeth,
         measures=measures,
     )
 
