@@ -322,6 +322,11 @@ PROMISED = 2.5
 # Origin: budget; what is hidden so leaves more than half of it.
 HIDDEN, HALVED = 0.1, 0.55
 
+# Rest at the beginning of records, which no fit weighs, over that behind it.
+# Decides: a sentence alone, never a name.
+# Origin: none.
+BEGINS = 2.0
+
 # Highest speed (that of all but a hundredth of the samples) at large deflections (beyond a quarter
 # of the range from its middle) over that at any, below which nothing tests a model at both.
 # Decides: a sentence alone, never a name.

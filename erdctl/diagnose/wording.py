@@ -6,8 +6,11 @@ from collections.abc import Sequence
 from math import isfinite
 from typing import Any
 
+import numpy as np
+
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import Bench
+from erdctl.core.blocks import SETTLE
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.conditions import one_condition, one_motion, slow_far_out
 from erdctl.diagnose.detectable import Detectable
@@ -74,7 +77,7 @@ def _left(found: Diagnosis) -> str:
     if found.verdict is not Verdict.UNEXPLAINED:
         rms = f"{found.carried.overall.rms:.3g} N rms"
         rest = f"what remains, {rms}, is noise as far as these data tell{_hum(left)}"
-        rest += _withdrawn(found)
+        rest += _begins(found) + _withdrawn(found)
         rest += "; the log has one duty and one speed, and says nothing of others" * one_condition(
             found.problem.recording
         )
@@ -111,6 +114,26 @@ def _left(found: Diagnosis) -> str:
         words += f"; it is most like {resembles.form} (correlation {resembles.correlation:+.2f})"
     words += _hum(left) + _withdrawn(found)
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
+
+
+def _begins(found: Diagnosis) -> str:
+    """That records begin with a misfit, where nothing weighs it."""
+    best = found.selection.best
+    s, weight = best.problem.block.signals, best.problem.block.weight
+    begun = np.repeat(s.t[s.starts[:-1]], np.diff(s.starts))
+    first = (weight == 0.0) & (s.t - begun <= SETTLE)
+    if not first.any():
+        return ""
+    there, behind = (
+        float(np.sqrt(np.mean(best.residual[part] ** 2))) for part in (first, weight > 0.0)
+    )
+    if there < thresholds.BEGINS * behind:
+        return ""
+    return (
+        f"; in the first {SETTLE:g} s of records, which no fit weighs since states settle there, it"
+        f" is {there:.3g} N rms, and {behind:.3g} N behind that: with which state a"
+        " record begins is not told, and what acts there alone is not looked for"
+    )
 
 
 def _untested_motion(found: Diagnosis) -> str:
