@@ -316,8 +316,8 @@ LAW_PART = 0.04
 # Origin: budget; up to 1.9 of 60 laws over two coordinates and one, 2.3 of small ones.
 PROMISED = 2.5
 
-# Part of the mean square without it that a law may leave before a name is thought to hide where it
-# acts; part of what a curve promises to leave that a surface must, to be looked at first.
+# Part of the misfit's square that a law may leave before a name is thought to hide where it acts;
+# part of what a curve promises to leave that a surface must, to be looked at first.
 # Decides: whether laws are looked for in the place of names; whether curves come before surfaces.
 # Origin: budget; what is hidden so leaves more than half of it.
 HIDDEN, HALVED = 0.1, 0.55

@@ -32,7 +32,7 @@ from erdctl.diagnose.learning.replaced_terms import takes_the_place_of_a_term
 from erdctl.diagnose.levels_of_records import beyond_levels
 from erdctl.diagnose.look_alikes import is_preferred
 from erdctl.diagnose.problem import Problem
-from erdctl.diagnose.residual.predictability import search_is_worthwhile
+from erdctl.diagnose.residual.predictability import lack_of_fit_of, search_is_worthwhile
 from erdctl.diagnose.screening import Candidate
 from erdctl.diagnose.search import Selection
 from erdctl.estimate.least_squares import at_bound
@@ -97,7 +97,7 @@ def _laws(
         stage = f"law {number}"
         likely = first if number == 1 else promising_laws(x, best, wide=False)
         found, others = _beside(x, best, likely, line, stage, least)
-        if wide and number == 1 and x.added(named) and _leaves_much(x, named, found):
+        if wide and number == 1 and x.added(named) and _leaves_much(named, found, seed):
             anew, instead = _in_place_of_names(x, named, line, stage)
             if anew and is_preferred(x.problem, anew, found or named):
                 found, others = anew, instead
@@ -109,11 +109,14 @@ def _laws(
     return best, rivals
 
 
-def _leaves_much(x: Exploration, parent: Hypothesis, found: Hypothesis | None) -> bool:
+def _leaves_much(parent: Hypothesis, found: Hypothesis | None, seed: int) -> bool:
     """Whether a law, if there is any, leaves so much that a name may hide where it acts."""
     if found is None:
         return True
-    return _taken(x.problem, parent, found) < (1.0 - thresholds.HIDDEN) * _square(parent)
+    if not search_is_worthwhile(found, seed):
+        return False
+    before, after = (lack_of_fit_of(h, seed).misfit_rms ** 2 for h in (parent, found))
+    return after > thresholds.HIDDEN * before
 
 
 def _square(hypothesis: Hypothesis) -> float:
