@@ -322,6 +322,11 @@ PROMISED = 2.5
 # Origin: budget; what is hidden so leaves more than half of it.
 HIDDEN, HALVED = 0.1, 0.55
 
+# Part of the range of its values at samples by which a surface may leave that where none lies.
+# Decides: whether a law over two coordinates is one.
+# Origin: none.
+CORNERS = 0.5
+
 # Rest at the beginning of records, which no fit weighs, over that behind it.
 # Decides: a sentence alone, never a name.
 # Origin: none.

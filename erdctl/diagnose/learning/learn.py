@@ -29,6 +29,7 @@ from erdctl.diagnose.learning.promising import (
     screened,
 )
 from erdctl.diagnose.learning.replaced_terms import takes_the_place_of_a_term
+from erdctl.diagnose.learning.unseen_corners import goes_beyond_what_was_seen
 from erdctl.diagnose.levels_of_records import beyond_levels
 from erdctl.diagnose.look_alikes import is_preferred
 from erdctl.diagnose.problem import Problem
@@ -157,6 +158,7 @@ def _beside(
         if compare_alike(x.problem, parent, h).beyond(critical)
         and beyond_levels(x.problem, parent, h, critical)
         and not takes_the_place_of_a_term(parent, h)
+        and not goes_beyond_what_was_seen(h)
     ]  # fmt: skip
     if not better or _taken(x.problem, parent, better[0]) < least:
         return None, []

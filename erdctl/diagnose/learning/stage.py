@@ -15,6 +15,7 @@ from erdctl.diagnose.fit_errors import fit_errors
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.learning.learn import learn
 from erdctl.diagnose.learning.promising import learned_in
+from erdctl.diagnose.learning.unseen_corners import goes_beyond_what_was_seen
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.record_effects import RecordEffects
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_of
@@ -91,6 +92,8 @@ def learned(
     # What predicts anything worse than the model without it is no correction.
     parts = on_unseen(aside, named.best, found.best)
     if not learned_in(found.named) or any(u.worse for u in parts):
+        return None
+    if goes_beyond_what_was_seen(found.best):
         return None
     said = findings(seen, found)
     unseen = on_unseen(aside, found.base, found.best)
