@@ -88,15 +88,16 @@ def _laws(
     """A hypothesis with laws, one after the other, and what does as well in the place of each.
 
     first : what promises most beside what is named
-    wide : the first over two coordinates, too, and in the place of names. A second one over two
-        would say what the few knots of the first leave.
+    wide : over two coordinates, too, and in the place of names. A further one over two only where
+        much is left: else it would say what the few knots of the first leave.
     """
     best, rivals, least = named, dict[str, list[Hypothesis]](), 0.0
     for number in range(1, thresholds.MOST_LAWS + 1):
         if number > 1 and not search_is_worthwhile(best, seed):
             break
         stage = f"law {number}"
-        likely = first if number == 1 else promising_laws(x, best, wide=False)
+        two = wide and number > 1 and _leaves_much(named, best, seed)
+        likely = first if number == 1 else promising_laws(x, best, wide=two)
         found, others = _beside(x, best, likely, line, stage, least)
         if wide and number == 1 and x.added(named) and _leaves_much(named, found, seed):
             anew, instead = _in_place_of_names(x, named, line, stage)
