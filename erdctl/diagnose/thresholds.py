@@ -306,6 +306,12 @@ SMOOTH_STEP = 1e-4
 FEW_KNOTS, MANY_KNOTS, CURVE_ENDS = 6, 12, 0.005
 MOST_KNOTS = 24, 48
 
+# Step between values of a coordinate, over their range, from which on they are two levels; and the
+# width of a level over the least such step.
+# Decides: where the knots of a curve lie.
+# Origin: none; clocks, converters and sums of floats write a level with less.
+SAME_LEVEL, LEVEL_WIDTH = 0.005, 0.5
+
 # Part of what the first law takes that a further one must.
 # Decides: whether what a law leaves is another one, or the error of its own form.
 # Origin: a curve of few knots is right to a fifth.

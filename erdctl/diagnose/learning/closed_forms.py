@@ -12,7 +12,7 @@ from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.diagnose import thresholds
 from erdctl.model.learned.curve import Curve
-from erdctl.model.learned.forms import FORMS
+from erdctl.model.learned.forms import FORMS, STEEPEST, Form
 from erdctl.model.learned.law import Law
 from erdctl.model.slots import Values
 
@@ -23,7 +23,7 @@ def closed_forms(law: Law, values: Values, z: Array) -> list[tuple[Law, dict[str
     values : of the law's own parameters;  z : (n,) samples of the coordinate: the curve is weighed
         where they lie
     """
-    curve, adds = law.curve, law.slot.adds
+    curve, adds, samples = law.curve, law.slot.adds, z
     z = np.quantile(z, np.linspace(0.0, 1.0, thresholds.CURVE_POINTS))
     sizes = np.array([values[q.symbol] for q in curve.amplitudes(law.unit)])
     target = sizes @ curve.at(z, values)
@@ -31,11 +31,25 @@ def closed_forms(law: Law, values: Values, z: Array) -> list[tuple[Law, dict[str
     found = []
     for form, facts in ((name, f) for name, f in FORMS.items() if f.bends):
         new = replace(curve, knots=curve.range, form=form, zero_first=False)
-        shape = facts.parameters(curve.kind.unit, *curve.range)
+        shape = _told(facts, facts.parameters(curve.kind.unit, *curve.range), samples)
+        if shape is None:
+            continue
         miss, own = _nearest(new, shape, z, target, constant=not adds)
         found.append((miss, replace(law, curve=new), {**own, **memory}))
     found.sort(key=lambda f: f[0])
     return [(new, own) for _, new, own in found[: thresholds.FORMS_FITTED]]
+
+
+def _told(form: Form, shape: Sequence[Quantity], z: Array) -> list[Quantity] | None:
+    """The parameters of a form within what samples (n,) tell; None where they tell none of it."""
+    least, out = form.narrowest(z), []
+    for q in shape:
+        if q.symbol == "w" and q.low < least:
+            if least >= q.high:
+                return None
+            q = replace(q, low=least, start=max(q.start, least))
+        out.append(q)
+    return out
 
 
 def _nearest(
@@ -50,6 +64,8 @@ def _nearest(
     def solved(point: Sequence[float]) -> tuple[Array, Array]:
         own = {q.symbol: v for q, v in zip(shape, point, strict=True)}
         rows = curve.at(z, own)
+        if np.abs(rows).max() < np.exp(-STEEPEST):
+            rows = np.zeros_like(rows)  # what no size makes up for
         rows = np.vstack([rows, np.ones_like(z)]) if constant else rows
         sizes = np.linalg.lstsq(rows.T, target, rcond=None)[0]
         return target - sizes @ rows, sizes.astype(np.float64)

@@ -110,14 +110,34 @@ def spread(
     z = z[(problem.block.weight > 0.0) & np.isfinite(z)]
     if z.size == 0:
         return None
+    levels = _levels(z)
+    if len(levels) <= count:
+        return tuple(levels.tolist()) if len(levels) >= least else None
     part = np.linspace(0.0, 1.0, count)
     ends = thresholds.CURVE_ENDS
     dense = np.quantile(z, ends + part * (1.0 - 2.0 * ends))
-    levels: Array = np.unique(z)
-    if len(levels) <= count:
-        return tuple(levels.tolist()) if len(levels) >= least else None
     knots = 0.5 * (dense + dense[0] + part * (dense[-1] - dense[0]))
     return tuple(knots.tolist()) if (np.diff(knots) > 0.0).all() else None
+
+
+def _levels(z: Array) -> Array:
+    """The (k,) levels about which samples (n,) lie, or every value where these are no levels.
+
+    Levels that a log writes with its last digits, or with noise, are one: a curve through two
+    values of nearly one place has any value beside it.
+
+    Check: 0.1 + 0.2 is 0.3 but for the last digit, so that these are 0.0, 0.3 and 0.5.
+    >>> _levels(np.array([0.0, 0.3, 0.1 + 0.2, 0.5, 0.0])).round(12).tolist()
+    [0.0, 0.3, 0.5]
+    """
+    values = np.unique(z)
+    steps = np.diff(values)
+    cut = steps > thresholds.SAME_LEVEL * (values[-1] - values[0])
+    groups = np.split(values, np.flatnonzero(cut) + 1)
+    widest = max(float(np.ptp(g)) for g in groups)
+    if not cut.any() or widest > thresholds.LEVEL_WIDTH * float(steps[cut].min()):
+        return values
+    return np.array([0.5 * (g[0] + g[-1]) for g in groups])
 
 
 def finer(problem: Problem, law: Law, memory: Memory | None) -> Law | None:

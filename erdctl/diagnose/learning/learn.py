@@ -11,6 +11,7 @@ from collections.abc import Hashable, Iterable, Sequence
 
 import numpy as np
 
+from erdctl.core.recording import Array
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.backward_step import eliminate, without_each
 from erdctl.diagnose.carry_over import to_every_kind, to_other_motions
@@ -39,6 +40,7 @@ from erdctl.diagnose.search import Selection
 from erdctl.estimate.least_squares import at_bound
 from erdctl.model.effect import Effect
 from erdctl.model.learned.coordinates import Memory, along
+from erdctl.model.learned.forms import FORMS
 from erdctl.model.learned.law import Law, LearnedEffect
 
 
@@ -252,6 +254,7 @@ def _sharpened(x: Exploration, parent: Hypothesis, found: Hypothesis, stage: str
         return found
     while (more := finer(x.problem, law, Memory.of(values))) is not None:
         better = _fitted(x, parent, screened(x, parent, [more]), stage)
+        better = [h for h in better if not goes_beyond_what_was_seen(h)]
         if not (better and is_preferred(x.problem, better[0], found)):
             break
         found = better[0]
@@ -263,7 +266,11 @@ def _sharpened(x: Exploration, parent: Hypothesis, found: Hypothesis, stage: str
         Candidate(new.effect, 0.0, ({new.effect.key(symbol): v for symbol, v in own.items()},))
         for new, own in closed_forms(law, values, z)
     ]
-    fits = [h for h in _fitted(x, parent, forms, stage) if not _at_an_end(h)]
+    fits = [
+        h
+        for h in _fitted(x, parent, forms, stage)
+        if not (_at_an_end(h) or _untold(h, z) or goes_beyond_what_was_seen(h))
+    ]
     alike = [h for h in fits if compare(x.problem, h, found).tied]
     # A power of 0.99 is a line.
     return min(alike, key=lambda h: len(h.model.quantities), default=found)
@@ -273,6 +280,13 @@ def _at_an_end(hypothesis: Hypothesis) -> bool:
     """Whether a parameter of the last law is as large as can be: then it is of another form."""
     effect = hypothesis.effects[-1]
     return any(at_bound(q, hypothesis.values[effect.key(q.symbol)]) for q in effect.quantities)
+
+
+def _untold(hypothesis: Hypothesis, z: Array) -> bool:
+    """Whether the form of the last law swings or bulges between samples (n,) of its coordinate."""
+    law, own = _law(hypothesis)
+    assert law.curve.form is not None
+    return own.get("w", np.inf) < FORMS[law.curve.form].narrowest(z)
 
 
 def _law(hypothesis: Hypothesis) -> tuple[Law, dict[str, float]]:

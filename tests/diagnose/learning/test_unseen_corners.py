@@ -1,4 +1,4 @@
-"""A law over two coordinates says nothing large where no sample lies."""
+"""A law says nothing large where no sample lies."""
 
 from __future__ import annotations
 
@@ -53,6 +53,9 @@ def test_a_plane_that_is_filled_may_be_large_anywhere(paper: Hypothesis) -> None
     assert not goes_beyond_what_was_seen(found)
 
 
-def test_a_curve_has_no_corners(paper: Hypothesis) -> None:
-    effect = Law(LawSlot.FORCE, Curve("x", (-0.01, 0.0, 0.01))).effect
-    assert not goes_beyond_what_was_seen(with_values(paper, effect, [0.0, 50.0, -50.0]))
+def test_a_curve_through_two_values_of_nearly_one_level_is_beyond(paper: Hypothesis) -> None:
+    """The log has the levels 0, 0.1, 0.2, 0.3 and 0.45: what is far off at 0.25 no sample shows."""
+    near = Law(LawSlot.FORCE, Curve("duty", (0.0, 0.2, 0.3, 0.45))).effect
+    assert not goes_beyond_what_was_seen(with_values(paper, near, [0.0, 5.0, -5.0, 0.0]))
+    off = Law(LawSlot.FORCE, Curve("duty", (0.0, 0.2, 0.25, 0.3, 0.45))).effect
+    assert goes_beyond_what_was_seen(with_values(paper, off, [0.0, 1.0, 20.0, 1.0, 0.0]))

@@ -1,0 +1,67 @@
+"""Between the few levels of a coordinate that a log has, a law does nothing of its own."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trajectories
+from hypothesis import given
+from hypothesis import strategies as st
+from rig import campaign, noisy, recording
+
+from erdctl.core.recording import Recording, concatenate
+from erdctl.diagnose.corrected import baseline, parameters
+from erdctl.diagnose.diagnosis import diagnose
+from erdctl.diagnose.learning.closed_forms import closed_forms
+from erdctl.effects import get
+from erdctl.model.learned.curve import Curve
+from erdctl.model.learned.forms import FORMS
+from erdctl.model.learned.law import Law, LawSlot
+from erdctl.model.simulate import simulate
+
+BETWEEN = (0.05, 0.15, 0.25, 0.35, 0.4)
+
+
+@given(
+    levels=st.lists(st.integers(0, 100), min_size=4, max_size=12, unique=True).map(sorted),
+    seed=st.integers(0, 1000),
+)
+def test_no_form_is_narrower_than_the_widest_step(levels: list[int], seed: int) -> None:
+    z = np.array(levels) / 100.0
+    values = np.random.default_rng(seed).standard_normal(len(z))
+    law = Law(LawSlot.FRICTION, Curve("duty", tuple(z.tolist())))
+    own = {f"f_{k + 1}": float(v) for k, v in enumerate(values)}
+    with np.errstate(over="raise", invalid="raise"):
+        found = closed_forms(law, own, z.repeat(9))
+    for form, width in ((new.curve.form, at.get("w", np.inf)) for new, at in found):
+        assert form is not None
+        assert width >= FORMS[form].steps * np.diff(z).max() * (1.0 - 1e-12)
+
+
+def with_viscosity_of_duty(r: Recording) -> Recording:
+    """30 N s/m that rise and fall with the duty: a sine of 0.52 of it."""
+    assert r.force is not None
+    return replace(r, force=r.force + 30.0 * np.sin(12.0 * r.duty) * r.xdot)
+
+
+@pytest.mark.long
+@pytest.mark.untraced
+def test_a_law_of_duty_is_right_between_the_levels_of_the_log() -> None:
+    """A sine of 0.024 goes through the levels 0, 0.1, 0.2, 0.3, 0.45 as well as one of 0.52."""
+    log = noisy(with_viscosity_of_duty(campaign(100.0, 8.0)), seed=41)
+    found = diagnose(log, [get("coulomb_friction")], limits=False)
+    assert found.learned is not None
+    t = np.arange(400) / 100.0
+    tones = trajectories.sine(2.0, 0.015, 0.0)
+    fresh = with_viscosity_of_duty(
+        concatenate([
+            recording(t, tones.x(t), tones.velocity(t), np.full(len(t), duty), f"{duty}")
+            for duty in BETWEEN
+        ])
+    )  # fmt: skip
+    assert fresh.force is not None
+    models = baseline(found), parameters(found)
+    errors = [float(np.std(fresh.force - simulate(p, fresh))) for p in models]
+    assert errors[1] < 0.3 * errors[0]
