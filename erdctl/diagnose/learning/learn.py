@@ -7,27 +7,25 @@ it was among many.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Sequence
 
-import numpy as np
-
-from erdctl.core.recording import Array
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.backward_step import eliminate, without_each
 from erdctl.diagnose.carry_over import to_every_kind, to_other_motions
-from erdctl.diagnose.comparison import compare, compare_alike, critical_of, ranked
+from erdctl.diagnose.comparison import compare, compare_alike, critical_of
 from erdctl.diagnose.executor import Executor, Task
-from erdctl.diagnose.forward_step import Exploration, Explored, key_of, with_effect
+from erdctl.diagnose.forward_step import Exploration, Explored, key_of
 from erdctl.diagnose.hypothesis import Hypothesis
-from erdctl.diagnose.learning.closed_forms import closed_forms
-from erdctl.diagnose.learning.laws import finer, swings
+from erdctl.diagnose.learning.law_fits import fitted, law_of, promised, taken
+from erdctl.diagnose.learning.law_form import of_fewest
+from erdctl.diagnose.learning.laws import swings
 from erdctl.diagnose.learning.promising import (
     Promising,
+    coordinates_of,
     learned_in,
     place_of,
     promising,
     promising_laws,
-    screened,
 )
 from erdctl.diagnose.learning.replaced_terms import takes_the_place_of_a_term
 from erdctl.diagnose.learning.unseen_corners import goes_beyond_what_was_seen
@@ -35,13 +33,12 @@ from erdctl.diagnose.levels_of_records import beyond_levels
 from erdctl.diagnose.look_alikes import is_preferred
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.predictability import lack_of_fit_of, search_is_worthwhile
-from erdctl.diagnose.screening import Candidate
 from erdctl.diagnose.search import Selection
-from erdctl.estimate.least_squares import at_bound
 from erdctl.model.effect import Effect
-from erdctl.model.learned.coordinates import Memory, along
-from erdctl.model.learned.forms import FORMS
-from erdctl.model.learned.law import Law, LearnedEffect
+from erdctl.model.learned.law import LearnedEffect
+
+# A hypothesis, and of each of its laws what does as well in its place.
+Found = tuple[Hypothesis, dict[str, list[Hypothesis]]]
 
 
 def learn(
@@ -64,29 +61,65 @@ def learn(
         far apart to show it
     """
     x = Exploration(problem, base, Explored([base, named]), executor)
-    best, rivals = named, dict[str, list[Hypothesis]]()
-    first = promising_laws(x, named, wide=True)
-    if line is not None or not first.halved_by_two:
-        best, rivals = _laws(x, named, first.plain, line, seed, wide=False)
-    if search_is_worthwhile(best, seed):
-        # A law over two coordinates can be an effect and a law at once: it comes where these fail.
-        wide, others = _laws(x, named, first, line, seed, wide=True)
-        if wide is not named and is_preferred(problem, wide, best):
-            best, rivals = wide, others
-    if best is not named:
-        best = _catalogued(x, best, candidates)
-        best = to_other_motions(x, eliminate(x, best), or_records=True)
-        best = to_every_kind(x, best)
+    best, rivals = _carrying(x, named, candidates, line, seed)
     names = [e.name for e in x.added(best)]
     without = dict(zip(names, without_each(x, best), strict=True))
     alike = {n: tuple((h.effects[-1].name, h) for h in rivals.get(n, ())) for n in names}
     return Selection(x.explored[key_of(base.effects)], best, (), without, alike)
 
 
+def _carrying(
+    x: Exploration,
+    named: Hypothesis,
+    candidates: Sequence[Effect],
+    line: float | None,
+    seed: int,
+) -> Found:
+    """The best laws of those that carry over, or what is left without any.
+
+    What predicts best beside its like need not hold for another kind of motion: a law of the
+    largest duty so far tells records apart as well as what happens in them. Then others are looked
+    for, over other coordinates.
+    """
+    failed: set[frozenset[str]] = set()
+    best: Hypothesis = named
+    for _ in range(thresholds.LAWS_ANEW):
+        tried = _likeliest(x, named, line, seed, failed)
+        for laws, rivals in tried:
+            whole = eliminate(x, _catalogued(x, laws, candidates))
+            best = to_every_kind(x, to_other_motions(x, whole, or_records=True))
+            if learned_in(best.effects) or not learned_in(whole.effects):
+                return best, rivals
+            failed |= {coordinates_of(e.law) for e in learned_in(whole.effects)}
+        if not tried:
+            break
+    return best, {}
+
+
+def _likeliest(
+    x: Exploration, named: Hypothesis, line: float | None, seed: int, failed: set[frozenset[str]]
+) -> list[Found]:
+    """The best hypotheses with laws over one coordinate, and over two, the better first.
+
+    failed : coordinates over which a law did not carry over
+    """
+    found: list[Found] = []
+    first = promising_laws(x, named, wide=True, failed=failed)
+    if line is not None or not first.halved_by_two:
+        found.append(_laws(x, named, first.plain, line, seed, failed, wide=False))
+    best = found[0][0] if found else named
+    if search_is_worthwhile(best, seed):
+        # A law over two coordinates can be an effect and a law at once: it comes where these fail.
+        wide = _laws(x, named, first, line, seed, failed, wide=True)
+        first_is_wide = wide[0] is not named and is_preferred(x.problem, wide[0], best)
+        found.insert(0 if first_is_wide else len(found), wide)
+    return [f for f in found if f[0] is not named]
+
+
 def _laws(
-    x: Exploration, named: Hypothesis, first: Promising, line: float | None, seed: int, *,
-    wide: bool,
-) -> tuple[Hypothesis, dict[str, list[Hypothesis]]]:  # fmt: skip
+    x: Exploration, named: Hypothesis, first: Promising, line: float | None, seed: int,
+    failed: set[frozenset[str]], *, wide: bool,
+) -> Found:  # fmt: skip
     """A hypothesis with laws, one after the other, and what does as well in the place of each.
 
     first : what promises most beside what is named
@@ -99,15 +132,15 @@ def _laws(
             break
         stage = f"law {number}"
         two = wide and number > 1 and _leaves_much(named, best, seed)
-        likely = first if number == 1 else promising_laws(x, best, wide=two)
+        likely = first if number == 1 else promising_laws(x, best, wide=two, failed=failed)
         found, others = _beside(x, best, likely, line, stage, least)
         if wide and number == 1 and x.added(named) and _leaves_much(named, found, seed):
-            anew, instead = _in_place_of_names(x, named, line, stage)
+            anew, instead = _in_place_of_names(x, named, line, stage, failed)
             if anew and is_preferred(x.problem, anew, found or named):
                 found, others = anew, instead
         if found is None:
             break
-        least = least or thresholds.LAW_PART * _taken(x.problem, best, found)
+        least = least or thresholds.LAW_PART * taken(x.problem, best, found)
         rivals[learned_in(found.effects)[-1].name] = others
         best = found
     return best, rivals
@@ -123,24 +156,6 @@ def _leaves_much(parent: Hypothesis, found: Hypothesis | None, seed: int) -> boo
     return after > thresholds.HIDDEN * before
 
 
-def _square(hypothesis: Hypothesis) -> float:
-    """The cross-validated mean square [N^2]."""
-    weight = hypothesis.problem.block.weight
-    return float(np.average(hypothesis.cross_validated**2, weights=weight))
-
-
-def _taken(problem: Problem, parent: Hypothesis, found: Hypothesis) -> float:
-    """What a hypothesis takes of the cross-validated mean square of another [N^2]."""
-    gain = compare(problem, parent, found)
-    return gain.before - gain.after
-
-
-def _promised(parent: Hypothesis, tried: Sequence[Candidate]) -> float:
-    """What some laws may take at most of the cross-validated mean square of a parent [N^2]."""
-    most = max((c.gain for c in tried), default=0.0)
-    return thresholds.PROMISED * most * _square(parent)
-
-
 def _beside(
     x: Exploration, parent: Hypothesis, likely: Promising, line: float | None, stage: str,
     least: float = 0.0,
@@ -152,9 +167,9 @@ def _beside(
     tried = [*likely.curves, *likely.surfaces]
     if line is not None:
         tried += swings(x.problem, line)
-    elif _promised(parent, tried) < least:
+    elif promised(parent, tried) < least:
         return None, []
-    more = _fitted(x, parent, tried, stage)
+    more = fitted(x, parent, tried, stage)
     critical = critical_of(x.problem, parent, more)
     better = [
         h for h in more
@@ -163,22 +178,23 @@ def _beside(
         and not takes_the_place_of_a_term(parent, h)
         and not goes_beyond_what_was_seen(h)
     ]  # fmt: skip
-    if not better or _taken(x.problem, parent, better[0]) < least:
+    if not better or taken(x.problem, parent, better[0]) < least:
         return None, []
-    found = _of_fewest(x, parent, better, stage)
+    found = of_fewest(x, parent, better, stage)
     best = better[0]
     alike = [h for h in better if _apart(h, found) and compare(x.problem, h, best).tied]
     return found, alike
 
 
 def _in_place_of_names(
-    x: Exploration, named: Hypothesis, line: float | None, stage: str
+    x: Exploration, named: Hypothesis, line: float | None, stage: str, failed: set[frozenset[str]]
 ) -> tuple[Hypothesis | None, list[Hypothesis]]:
     """A law beside the model to answer for, and then what the names still say beside it.
 
     A name that stood in for what no effect says also hides where that acts.
     """
-    found, alike = _beside(x, x.base, promising_laws(x, x.base, wide=True), line, stage)
+    likely = promising_laws(x, x.base, wide=True, failed=failed)
+    found, alike = _beside(x, x.base, likely, line, stage)
     if found is None:
         return None, []
     effects = (*x.added(named), found.effects[-1])
@@ -199,7 +215,7 @@ def _catalogued(x: Exploration, best: Hypothesis, candidates: Sequence[Effect]) 
         if isinstance(gone, LearnedEffect):
             tried = [e for e in candidates if e.name not in known]
             likely = promising(x, rest, tried, thresholds.NAMES_FITTED)
-            for h in _fitted(x, rest, likely, "names of laws"):
+            for h in fitted(x, rest, likely, "names of laws"):
                 if is_preferred(x.problem, h, best):
                     return _catalogued(x, h, candidates)
     return best
@@ -207,90 +223,4 @@ def _catalogued(x: Exploration, best: Hypothesis, candidates: Sequence[Effect]) 
 
 def _apart(one: Hypothesis, other: Hypothesis) -> bool:
     """Whether their last laws differ in more than the form of the curve."""
-    return place_of(_law(one)[0]) != place_of(_law(other)[0])
-
-
-def _fitted(
-    x: Exploration, parent: Hypothesis, candidates: Iterable[Candidate], stage: str
-) -> list[Hypothesis]:
-    """Some laws fitted beside a parent, the best first; what was fitted before is not again."""
-    tasks = {_asked(t): t for t in (with_effect(stage, parent, c) for c in candidates)}
-    known = x.explored.asked
-    new = {key: task for key, task in tasks.items() if key not in known}
-    known.update(zip(new, x.executor.fit(x.problem, list(new.values())), strict=True))
-    found = [h for h in map(known.get, tasks) if h is not None]
-    for h in found:
-        x.explored.keep(h)
-    return ranked(found)
-
-
-def _asked(task: Task) -> Hashable:
-    """What a task asks for."""
-    effects = ((e.name, e.law) if isinstance(e, LearnedEffect) else e.name for e in task.effects)
-    starts = (tuple(start.items()) for start in task.starts)
-    return tuple(effects), tuple(starts)
-
-
-def _of_fewest(
-    x: Exploration, parent: Hypothesis, better: Sequence[Hypothesis], stage: str
-) -> Hypothesis:
-    """The best of some laws over one coordinate, unless one over two is worth its parameters."""
-    plain = [h for h in better if len(_law(h)[0].curve.axes) == 1]
-    wide = [h for h in better if h not in plain]
-    if not plain:
-        return wide[0]
-    if wide:
-        parts = [_taken(x.problem, parent, h) for h in (plain[0], wide[0])]
-        if parts[0] < thresholds.MOST_OF_IT * parts[1]:
-            return wide[0]  # to sharpen the other one would not make up for it
-    found = _sharpened(x, parent, plain[0], stage)
-    return wide[0] if wide and is_preferred(x.problem, wide[0], found) else found
-
-
-def _sharpened(x: Exploration, parent: Hypothesis, found: Hypothesis, stage: str) -> Hypothesis:
-    """A law with more knots where these pay, and in a closed form where one does as well."""
-    law, values = _law(found)
-    if law.curve.form is not None:
-        return found
-    while (more := finer(x.problem, law, Memory.of(values))) is not None:
-        better = _fitted(x, parent, screened(x, parent, [more]), stage)
-        better = [h for h in better if not goes_beyond_what_was_seen(h)]
-        if not (better and is_preferred(x.problem, better[0], found)):
-            break
-        found = better[0]
-        law, values = _law(found)
-    s, weight = x.problem.block.signals, x.problem.block.weight
-    z = along(law.curve.coordinate, s, Memory.of(values))
-    z = z[(weight > 0.0) & np.isfinite(z)]
-    forms = [
-        Candidate(new.effect, 0.0, ({new.effect.key(symbol): v for symbol, v in own.items()},))
-        for new, own in closed_forms(law, values, z)
-    ]
-    fits = [
-        h
-        for h in _fitted(x, parent, forms, stage)
-        if not (_at_an_end(h) or _untold(h, z) or goes_beyond_what_was_seen(h))
-    ]
-    alike = [h for h in fits if compare(x.problem, h, found).tied]
-    # A power of 0.99 is a line.
-    return min(alike, key=lambda h: len(h.model.quantities), default=found)
-
-
-def _at_an_end(hypothesis: Hypothesis) -> bool:
-    """Whether a parameter of the last law is as large as can be: then it is of another form."""
-    effect = hypothesis.effects[-1]
-    return any(at_bound(q, hypothesis.values[effect.key(q.symbol)]) for q in effect.quantities)
-
-
-def _untold(hypothesis: Hypothesis, z: Array) -> bool:
-    """Whether the form of the last law swings or bulges between samples (n,) of its coordinate."""
-    law, own = _law(hypothesis)
-    assert law.curve.form is not None
-    return own.get("w", np.inf) < FORMS[law.curve.form].narrowest(z)
-
-
-def _law(hypothesis: Hypothesis) -> tuple[Law, dict[str, float]]:
-    """The law that was added last, and its own values."""
-    effect = hypothesis.effects[-1]
-    assert isinstance(effect, LearnedEffect)
-    return effect.law, effect.local(hypothesis.values)
+    return place_of(law_of(one)[0]) != place_of(law_of(other)[0])
