@@ -312,10 +312,6 @@ MOST_KNOTS = 24, 48
 # Origin: none; clocks, converters and sums of floats write a level with less.
 SAME_LEVEL, LEVEL_WIDTH = 0.005, 0.5
 
-# Rounds of looking for laws, each over other coordinates than those that did not carry over.
-# Origin: budget.
-LAWS_ANEW = 3
-
 # Part of what the first law takes that a further one must.
 # Decides: whether what a law leaves is another one, or the error of its own form.
 # Origin: a curve of few knots is right to a fifth.

@@ -21,7 +21,6 @@ from erdctl.diagnose.learning.law_form import of_fewest
 from erdctl.diagnose.learning.laws import swings
 from erdctl.diagnose.learning.promising import (
     Promising,
-    coordinates_of,
     learned_in,
     place_of,
     promising,
@@ -36,9 +35,6 @@ from erdctl.diagnose.residual.predictability import lack_of_fit_of, search_is_wo
 from erdctl.diagnose.search import Selection
 from erdctl.model.effect import Effect
 from erdctl.model.learned.law import LearnedEffect
-
-# A hypothesis, and of each of its laws what does as well in its place.
-Found = tuple[Hypothesis, dict[str, list[Hypothesis]]]
 
 
 def learn(
@@ -61,65 +57,29 @@ def learn(
         far apart to show it
     """
     x = Exploration(problem, base, Explored([base, named]), executor)
-    best, rivals = _carrying(x, named, candidates, line, seed)
+    best, rivals = named, dict[str, list[Hypothesis]]()
+    first = promising_laws(x, named, wide=True)
+    if line is not None or not first.halved_by_two:
+        best, rivals = _laws(x, named, first.plain, line, seed, wide=False)
+    if search_is_worthwhile(best, seed):
+        # A law over two coordinates can be an effect and a law at once: it comes where these fail.
+        wide, others = _laws(x, named, first, line, seed, wide=True)
+        if wide is not named and is_preferred(problem, wide, best):
+            best, rivals = wide, others
+    if best is not named:
+        best = _catalogued(x, best, candidates)
+        best = to_other_motions(x, eliminate(x, best), or_records=True)
+        best = to_every_kind(x, best)
     names = [e.name for e in x.added(best)]
     without = dict(zip(names, without_each(x, best), strict=True))
     alike = {n: tuple((h.effects[-1].name, h) for h in rivals.get(n, ())) for n in names}
     return Selection(x.explored[key_of(base.effects)], best, (), without, alike)
 
 
-def _carrying(
-    x: Exploration,
-    named: Hypothesis,
-    candidates: Sequence[Effect],
-    line: float | None,
-    seed: int,
-) -> Found:
-    """The best laws of those that carry over, or what is left without any.
-
-    What predicts best beside its like need not hold for another kind of motion: a law of the
-    largest duty so far tells records apart as well as what happens in them. Then others are looked
-    for, over other coordinates.
-    """
-    failed: set[frozenset[str]] = set()
-    best: Hypothesis = named
-    for _ in range(thresholds.LAWS_ANEW):
-        tried = _likeliest(x, named, line, seed, failed)
-        for laws, rivals in tried:
-            whole = eliminate(x, _catalogued(x, laws, candidates))
-            best = to_every_kind(x, to_other_motions(x, whole, or_records=True))
-            if learned_in(best.effects) or not learned_in(whole.effects):
-                return best, rivals
-            failed |= {coordinates_of(e.law) for e in learned_in(whole.effects)}
-        if not tried:
-            break
-    return best, {}
-
-
-def _likeliest(
-    x: Exploration, named: Hypothesis, line: float | None, seed: int, failed: set[frozenset[str]]
-) -> list[Found]:
-    """The best hypotheses with laws over one coordinate, and over two, the better first.
-
-    failed : coordinates over which a law did not carry over
-    """
-    found: list[Found] = []
-    first = promising_laws(x, named, wide=True, failed=failed)
-    if line is not None or not first.halved_by_two:
-        found.append(_laws(x, named, first.plain, line, seed, failed, wide=False))
-    best = found[0][0] if found else named
-    if search_is_worthwhile(best, seed):
-        # A law over two coordinates can be an effect and a law at once: it comes where these fail.
-        wide = _laws(x, named, first, line, seed, failed, wide=True)
-        first_is_wide = wide[0] is not named and is_preferred(x.problem, wide[0], best)
-        found.insert(0 if first_is_wide else len(found), wide)
-    return [f for f in found if f[0] is not named]
-
-
 def _laws(
-    x: Exploration, named: Hypothesis, first: Promising, line: float | None, seed: int,
-    failed: set[frozenset[str]], *, wide: bool,
-) -> Found:  # fmt: skip
+    x: Exploration, named: Hypothesis, first: Promising, line: float | None, seed: int, *,
+    wide: bool,
+) -> tuple[Hypothesis, dict[str, list[Hypothesis]]]:  # fmt: skip
     """A hypothesis with laws, one after the other, and what does as well in the place of each.
 
     first : what promises most beside what is named
@@ -132,10 +92,10 @@ def _laws(
             break
         stage = f"law {number}"
         two = wide and number > 1 and _leaves_much(named, best, seed)
-        likely = first if number == 1 else promising_laws(x, best, wide=two, failed=failed)
+        likely = first if number == 1 else promising_laws(x, best, wide=two)
         found, others = _beside(x, best, likely, line, stage, least)
         if wide and number == 1 and x.added(named) and _leaves_much(named, found, seed):
-            anew, instead = _in_place_of_names(x, named, line, stage, failed)
+            anew, instead = _in_place_of_names(x, named, line, stage)
             if anew and is_preferred(x.problem, anew, found or named):
                 found, others = anew, instead
         if found is None:
@@ -187,14 +147,13 @@ def _beside(
 
 
 def _in_place_of_names(
-    x: Exploration, named: Hypothesis, line: float | None, stage: str, failed: set[frozenset[str]]
+    x: Exploration, named: Hypothesis, line: float | None, stage: str
 ) -> tuple[Hypothesis | None, list[Hypothesis]]:
     """A law beside the model to answer for, and then what the names still say beside it.
 
     A name that stood in for what no effect says also hides where that acts.
     """
-    likely = promising_laws(x, x.base, wide=True, failed=failed)
-    found, alike = _beside(x, x.base, likely, line, stage)
+    found, alike = _beside(x, x.base, promising_laws(x, x.base, wide=True), line, stage)
     if found is None:
         return None, []
     effects = (*x.added(named), found.effects[-1])

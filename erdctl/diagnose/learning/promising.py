@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from erdctl.core.progress import part_of
@@ -41,42 +41,26 @@ class Promising:
         return Promising(self.curves)
 
 
-def promising_laws(
-    x: Exploration, parent: Hypothesis, *, wide: bool, failed: Collection[frozenset[str]] = ()
-) -> Promising:
-    """The laws that promise most beside a parent.
-
-    wide : over two coordinates, too;  failed : none that goes by these
-    """
-    curves = screened(x, parent, laws(x.problem), failed=failed)
-    surfaces = wider(x, parent, curves, failed) if wide else []
-    return Promising(tuple(curves), tuple(surfaces))
+def promising_laws(x: Exploration, parent: Hypothesis, *, wide: bool) -> Promising:
+    """The laws that promise most beside a parent; wide : over two coordinates, too."""
+    curves = screened(x, parent, laws(x.problem))
+    return Promising(tuple(curves), tuple(wider(x, parent, curves)) if wide else ())
 
 
 def screened(
-    x: Exploration, parent: Hypothesis, tried: Iterable[Law], most: int = thresholds.LAWS_FITTED,
-    failed: Collection[frozenset[str]] = (),
-) -> list[Candidate]:  # fmt: skip
+    x: Exploration, parent: Hypothesis, tried: Iterable[Law], most: int = thresholds.LAWS_FITTED
+) -> list[Candidate]:
     """The laws that promise most beside a parent."""
     x.executor.progress("screening", part_of("laws to learn", 1, 1))
     known = key_of(parent.effects)
     taken = {place_of(e.law) for e in learned_in(parent.effects) if not e.law.curve.kind.late}
-    new = (
-        law for law in tried
-        if law.name not in known and place_of(law) not in taken
-        and not any(some <= coordinates_of(law) for some in failed)
-    )  # fmt: skip
+    new = (law for law in tried if law.name not in known and place_of(law) not in taken)
     return promising(x, parent, (law.effect for law in new), most)
 
 
 def place_of(law: Law) -> tuple[str, ...]:
     """The slot and the coordinates; a curve over x can be any over its size."""
     return law.slot, *(axis.coordinate.removeprefix("abs_") for axis in law.curve.axes)
-
-
-def coordinates_of(law: Law) -> frozenset[str]:
-    """What a law goes by."""
-    return frozenset(axis.coordinate for axis in law.curve.axes)
 
 
 def promising(
@@ -103,10 +87,7 @@ def _kind(effect: Effect) -> tuple[object, bool]:
     return (effect.law.slot, *(axis.coordinate for axis in curve.axes)), curve.kind.late
 
 
-def wider(
-    x: Exploration, parent: Hypothesis, curves: Sequence[Candidate],
-    failed: Collection[frozenset[str]] = (),
-) -> list[Candidate]:  # fmt: skip
+def wider(x: Exploration, parent: Hypothesis, curves: Sequence[Candidate]) -> list[Candidate]:
     """Laws over two coordinates that could take far more than any over one.
 
     Beside those of promising curves; where none of these could take most, beside any.
@@ -120,7 +101,7 @@ def wider(
         (law.slot, frozenset(a.coordinate for a in law.curve.axes)): law for law in every
     }.values()
     least = most + thresholds.WIDER * (1.0 - most)
-    wide = screened(x, parent, tried, thresholds.SURFACES_FITTED, failed)
+    wide = screened(x, parent, tried, thresholds.SURFACES_FITTED)
     return [c for c in wide if c.gain > least]
 
 
