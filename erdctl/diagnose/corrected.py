@@ -15,6 +15,8 @@ def parameters(found: Diagnosis) -> Parameters:
     few = f"at {found.cannot_tell} other effects, with other values, explain the log as well"
     reasons = dict.fromkeys(found.fit.values, few) if found.cannot_tell else {}
     reasons |= {name: lack.reason for name, lack in best.problem.needs.items()}
+    said = "a learned law over the duty says it as well: it keeps the value from before"
+    reasons |= dict.fromkeys(found.fit.model.said_by_effects, said)
     told = estimates(found.fit, reasons)
     return Parameters(
         model=found.fit.model,

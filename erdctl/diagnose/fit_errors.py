@@ -18,7 +18,8 @@ def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEff
     model = hypothesis.model
     block, record_effects = hypothesis.problem.block, hypothesis.record_effects
     shared = block if record_effects is None else record_effects.shared(block)
-    held, onsets = set(hypothesis.problem.held), set(placed(model))
+    held = {*hypothesis.problem.held, *model.said_by_effects}
+    onsets = set(placed(model))
     bounded = set(model.quantities).difference(hypothesis.free, held, onsets)
     levels = None if record_effects is None else record_effects.levels(problem.free)
     fit = assess(

@@ -59,7 +59,8 @@ class Hypothesis:
     @property
     def free(self) -> list[str]:
         """The parameters that the data determine: neither held, nor at a bound, nor `instant`."""
-        held, model = self.problem.held.keys() | self.instant, self.model
+        model = self.model
+        held = self.problem.held.keys() | self.instant | model.said_by_effects
         return [
             name for name, q in model.quantities.items()
             if name not in held and not at_bound(q, self.values[name])
@@ -172,11 +173,12 @@ def _fitted(
     """A search from one start, which may be that of a larger model; beyond the record effects."""
     full = _complete(problem, model, start)
     block = problem.block if record_effects is None else record_effects.shared(problem.block)
+    held = problem.held.keys() | model.said_by_effects
     tolerance = thresholds.SETTLED / max(int(np.count_nonzero(block.weight)), 1)
 
     def searched(begin: Mapping[str, float], at_once: Sequence[str], steps: int) -> Fitted:
         return fit(
-            model, block, start=begin, fixed=problem.held.keys() | set(at_once),
+            model, block, start=begin, fixed=held | set(at_once),
             max_evaluations=steps, tolerance=tolerance, anchor=whole,
         )  # fmt: skip
 

@@ -71,6 +71,11 @@ class Model:
         return tuple(name for name in self.quantities if name not in self.linear)
 
     @cached_property
+    def said_by_effects(self) -> frozenset[str]:
+        """Names of the paper's parameters that keep their value, as an effect says them as well."""
+        return frozenset(name for e in self.effects for name in e.says_as_well)
+
+    @cached_property
     def separable(self) -> bool:
         """Whether the force is linear in the amplitudes: no effect is made from the force."""
         return not any(

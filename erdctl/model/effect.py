@@ -200,6 +200,11 @@ class Effect:
         return {symbol: values[key] for symbol, key in keys.items() if key in values}
 
     @property
+    def says_as_well(self) -> tuple[str, ...]:
+        """Parameters of the paper's model that it says as well; they keep their value beside it."""
+        return ()
+
+    @property
     def off(self) -> dict[str, float]:
         """Values with which the effect is exactly absent, as in those of a whole model."""
         return {self.key(q.symbol): q.off for q in self.quantities}

@@ -20,7 +20,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from erdctl.core.recording import Array
+from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.core.signals import Signals
 from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Effect, Stage, Variable
@@ -36,6 +36,8 @@ from erdctl.model.slots import (
     TermSlot,
     Values,
 )
+
+EXPONENTS = tuple(f"{d}.beta" for d in DIRECTIONS)
 
 
 @dataclass(frozen=True)
@@ -161,3 +163,13 @@ class LearnedEffect(Effect):
     """An effect that a law makes."""
 
     law: Law
+
+    @property
+    def says_as_well(self) -> tuple[str, ...]:
+        """The exponent of the field, of a factor of it over the duty alone.
+
+        Within the log each can be the other; beyond it the factor stays and the exponent goes on.
+        """
+        field = self.law.slot is LawSlot.DUTY or "yield" in self.law.slot.groups
+        over_duty = [axis.coordinate for axis in self.law.curve.axes] == ["duty"]
+        return EXPONENTS if field and over_duty else ()

@@ -1,4 +1,4 @@
-"""Between the few levels of a coordinate that a log has, a law does nothing of its own."""
+"""Between the few levels of a log, and beyond them, a law does nothing of its own."""
 
 from __future__ import annotations
 
@@ -9,16 +9,20 @@ import pytest
 import trajectories
 from hypothesis import given
 from hypothesis import strategies as st
-from rig import campaign, noisy, recording
+from rig import TRUTH, campaign, noisy, recording
 
 from erdctl.core.recording import Recording, concatenate
 from erdctl.diagnose.corrected import baseline, parameters
 from erdctl.diagnose.diagnosis import diagnose
+from erdctl.diagnose.fit_errors import fit_errors
+from erdctl.diagnose.hypothesis import fit_hypothesis
 from erdctl.diagnose.learning.closed_forms import closed_forms
+from erdctl.diagnose.problem import prepare
 from erdctl.effects import get
 from erdctl.model.learned.curve import Curve
 from erdctl.model.learned.forms import FORMS
 from erdctl.model.learned.law import Law, LawSlot
+from erdctl.model.learned.surface import Surface
 from erdctl.model.simulate import simulate
 
 BETWEEN = (0.05, 0.15, 0.25, 0.35, 0.4)
@@ -65,3 +69,19 @@ def test_a_law_of_duty_is_right_between_the_levels_of_the_log() -> None:
     models = baseline(found), parameters(found)
     errors = [float(np.std(fresh.force - simulate(p, fresh))) for p in models]
     assert errors[1] < 0.3 * errors[0]
+
+
+def test_the_exponent_of_the_field_stays_beside_a_law_of_the_duty_that_acts() -> None:
+    """Either can be the other within the log; beyond it a factor stays, and an exponent goes on."""
+    problem = prepare(noisy(campaign(100.0, 4.0), seed=42))
+    paper = fit_hypothesis(problem, (), [TRUTH], 20)
+    knots = (0.0, 0.1, 0.2, 0.3, 0.45)
+    law = Law(LawSlot.DUTY, Curve("duty", knots, zero_first=True)).effect
+    beside = fit_hypothesis(problem, (law,), [paper.values], 20)
+    fit, _ = fit_errors(problem, beside)
+    for name in ("compression.beta", "release.beta"):
+        assert beside.values[name] == fit.values[name] == paper.values[name]
+        assert name not in fit.free
+    assert beside.values["compression.sigma"] != paper.values["compression.sigma"]
+    surface = Surface("duty", knots, across=Curve("x", (-0.01, 0.01)))
+    assert Law(LawSlot.YIELD, surface).effect.says_as_well == ()
