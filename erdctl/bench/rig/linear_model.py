@@ -11,9 +11,11 @@ import numpy.typing as npt
 
 from erdctl.bench.rig.pieces import Piece
 from erdctl.core.blocks import SETTLE
+from erdctl.core.quantiles import median
 from erdctl.core.recording import Array, Index
 
 LEAST_RECORDS = 4
+STEADY = 0.02  # of the duty in a record, below which it is a level
 SAMPLES, TRIED = 60_000, 8_000  # that the model is fitted to, and tried on
 STEPS = 2_000  # of the duty; a control that never rests shows no lag of its own
 LAGS, EXPONENTS = (0.01, 0.0, 0.03, 0.1), (0.5, 0.35, 0.7, 1.0, 1.4)  # T_d [s] and beta [1]
@@ -179,8 +181,33 @@ def model(rows: Sequence[Rows]) -> Array:
     return _solved(np.asarray(AA), np.asarray(AF))
 
 
+def of_others(rows: Sequence[Rows], index: int) -> Array:
+    """The same of all records but one."""
+    return model([r for i, r in enumerate(rows) if i != index])
+
+
 def _solved(AA: Array, AF: Array) -> Array:
     scale = np.sqrt(np.diag(AA))
     unit = np.where(scale > 0, 1.0 / np.where(scale > 0, scale, 1.0), 0.0)
     inverse = np.linalg.pinv(AA * np.outer(unit, unit), rcond=1e-9, hermitian=True)
     return np.asarray(unit * (inverse @ (unit * AF)))
+
+
+def steady(rows: Sequence[Rows]) -> bool:
+    """Whether the duty is held in every record."""
+    return all(np.ptp(r.piece.of("duty")) < STEADY for r in rows)
+
+
+def levels_and_motion(rows: Sequence[Rows]) -> Array | None:
+    """(k, p) level of the duty, log speed and log stroke of records in which it is held.
+
+    None if there are too many levels for a trend.
+    """
+    at = np.array([round(median(r.piece.of("duty")), 2) for r in rows])
+    levels = np.array(sorted(set(at.tolist())))
+    if len(levels) > len(rows) // 2:
+        return None
+    motion = np.log([
+        [max(float(np.std(v)), 1e-12) for v in (r.piece.xdot, r.piece.x)] for r in rows
+    ])  # fmt: skip
+    return np.column_stack([at[:, None] == levels, motion]).astype(np.float64)

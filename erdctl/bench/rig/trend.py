@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +12,8 @@ from erdctl.core.recording import Array
 FREEDOM = 2  # degrees of freedom that the scatter of the others has, at least
 LEVER = 4.0  # uncertainty of the trend over the scatter, squared, beyond which it tells nothing
 EPS = float(np.finfo(np.float64).eps)
+CLEAR = 3.0  # below which nobody need ask for the chance
+CHANCE = 4e-3  # of such a number among records that are alike, all of them together
 PRIOR = 4  # degrees of freedom that a scatter known beforehand counts
 
 
@@ -72,3 +75,17 @@ def studentised(values: Array, trend: Array, prior: float = 0.0) -> list[Away]:
         t = away / (max(scatter, 1e-12) * others**-0.5)
         out.append(Away(i, away, scatter, t, free + more))
     return out
+
+
+def clearest(
+    values: Sequence[float], trend: Array, least: Sequence[float], prior: float
+) -> Away | None:
+    """The record that is farthest out, by its number, if any is by more than `least` of it."""
+    found = [
+        a
+        for a in studentised(np.array(values), trend, prior)
+        if abs(a.difference) > least[a.index]
+        and abs(a.student) > CLEAR
+        and a.chance * len(values) < CHANCE
+    ]
+    return max(found, key=lambda a: abs(a.student), default=None)
