@@ -1,8 +1,10 @@
 """Where a misfit lives: over each of the contract's variables, the interval in which most of its
-energy lies although the log spends little of its time there."""
+energy lies although the log spends little of its time there; of deflection and speed also two, one
+on either side, as of what grows towards both ends of the stroke or with speed either way."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +18,7 @@ CELLS = 200  # of equal numbers of samples
 LEAST_SHARE = 0.5  # of the energy that a region must hold
 LEAST_EXCESS = 0.25  # of that share over the share of the samples
 MOST_WIDTH = 0.6  # of the variable's range
+SECOND = 0.1  # of that excess by which two intervals are more than one
 NEAR = 2  # samples next to a reversal
 
 
@@ -82,18 +85,43 @@ def regions(samples: Joined, force: Array, misfit: Array) -> tuple[MisfitRegion,
         return ()
     found = []
     for name, value in variables(samples, force).items():
-        region = _interval(name, value, energy, total)
-        if region is not None:
-            found.append(region)
+        whole = _sharpest(name, value, energy, total, np.isfinite(value))
+        if whole is None:
+            continue
+        two = _either_side(whole, value, energy, total) if name in ("x", "xdot") else []
+        for places in (two, [whole]):
+            if _points(places):
+                found += places
+                break
     return tuple(sorted(found, key=lambda r: r.time - r.share))
 
 
-def _interval(name: str, value: Array, energy: Array, total: float) -> MisfitRegion | None:
-    known = np.isfinite(value)
+def _points(places: Sequence[MisfitRegion]) -> bool:
+    share, time, width = (sum(getattr(r, of) for r in places) for of in ("share", "time", "width"))
+    enough: bool = share >= max(LEAST_SHARE, time + LEAST_EXCESS)
+    return enough and 0.0 < width <= MOST_WIDTH
+
+
+def _either_side(
+    whole: MisfitRegion, value: Array, energy: Array, total: float
+) -> list[MisfitRegion]:
+    """The best interval on either side of rest, or of the middle of the stroke, if the two have
+    more than the best one of all."""
+    middle = 0.0 if whole.variable == "xdot" else float(value.min() + value.max()) / 2
+    sides = (value < middle, value > middle)
+    found = [_sharpest(whole.variable, value, energy, total, side) for side in sides]
+    two = [r for r in found if r is not None]
+    return two if sum(r.share - r.time for r in two) >= whole.share - whole.time + SECOND else []
+
+
+def _sharpest(
+    name: str, value: Array, energy: Array, total: float, known: npt.NDArray[np.bool_]
+) -> MisfitRegion | None:
+    """The interval of some samples whose part of the energy most exceeds its part of the time."""
     u, e = value[known], energy[known]
     if len(u) < CELLS:
         return None
-    low_end, high_end = np.quantile(u, [0.002, 0.998])
+    low_end, high_end = np.quantile(value[np.isfinite(value)], [0.002, 0.998])
     if high_end <= low_end:
         return None
     edges = np.unique(np.quantile(u, np.linspace(0, 1, CELLS + 1)))
@@ -103,12 +131,11 @@ def _interval(name: str, value: Array, energy: Array, total: float) -> MisfitReg
     share = np.bincount(cell, e, len(edges) - 1) / total
     time = np.bincount(cell, minlength=len(edges) - 1) / len(energy)
     a, b = _most(share - time)
-    part, spent = float(share[a:b].sum()), float(time[a:b].sum())
     low, high = float(edges[a]), float(edges[b])
     width = (min(high, high_end) - max(low, low_end)) / (high_end - low_end)
-    if part < max(LEAST_SHARE, spent + LEAST_EXCESS) or not 0.0 < width <= MOST_WIDTH:
-        return None
-    return MisfitRegion(name, low, high, part, spent, float(width))
+    return MisfitRegion(
+        name, low, high, float(share[a:b].sum()), float(time[a:b].sum()), float(width)
+    )
 
 
 def _most(excess: Array) -> tuple[int, int]:

@@ -26,6 +26,23 @@ def test_a_misfit_at_the_end_of_the_stroke() -> None:
     assert overlap(region, (0.009, float(samples().x.max()))) > 0.6
 
 
+def test_a_misfit_at_high_speed_either_way() -> None:
+    """Two intervals, either of which holds less than one must have."""
+    v = samples().v
+    fast = 0.7 * np.abs(v).max()
+    two = [
+        r
+        for r in regions(samples(), plain(), np.where(np.abs(v) > fast, 1.0, 0.02))
+        if r.variable == "xdot"
+    ]
+    assert sorted(np.sign(r.low + r.high) for r in two) == [-1.0, 1.0]
+    for r in two:
+        low, high = sorted((np.sign(r.low + r.high) * fast, np.sign(r.low + r.high) * fast / 0.7))
+        assert overlap(r, (low, high)) > 0.8
+    one_way = regions(samples(), plain(), np.where(v > fast, 1.0, 0.02))
+    assert sum(r.variable == "xdot" for r in one_way) == 1
+
+
 def test_a_misfit_after_events() -> None:
     known = variables(samples(), plain())
     for name, time in (("since_reversal", 0.05), ("since_duty_step", 0.08), ("t", 1.1)):

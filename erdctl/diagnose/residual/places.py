@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import chain
 
 from erdctl.core.recording import Array
@@ -19,8 +20,10 @@ from erdctl.diagnose.residual.localisation import (
     since_onset,
     variables,
 )
-from erdctl.model.effect import Effect
+from erdctl.model.effect import Effect, Variable
 from erdctl.model.slots import Values
+
+AGES = (Variable.TIME, Variable.ENERGY)  # what grows from the beginning of a record
 
 
 def acting(
@@ -53,20 +56,27 @@ def places(
     That is where the effect that explains most of it shows by what physics says: from its onset on,
     or where misfit gathers in its variable, or where it acts if there is no less misfit there than
     elsewhere; unless the misfit gathers far more sharply elsewhere. Next where it gathers most
-    sharply, then the same of the other effects.
+    sharply, then the same of the other effects. Where it gathers nowhere, where the first one acts.
     square : (n,) squared misfit [N^2];  effects : each with where it acts, the first one first
     sure : whether they explain it; if not, they come second
     """
     gathered = locate(problem, square)
+    if sure and any(effect.sets_in for effect, _ in effects):
+        # A fit to before and after misses the shorter of the two by more, whichever it is.
+        gathered = [r for r in gathered if r.variable not in AGES]
     own = [_own(problem, square, gathered, effect, acts) for effect, acts in effects]
     sharpest = [r for r in gathered if r.variable is gathered[0].variable]
     least = thresholds.REGION_OWN * excess(sharpest)
-    if not own or not sure or not (effects[0][0].sets_in or excess(own[0]) >= least):
+    t = problem.block.signals.t
+    since = bool(effects) and effects[0][0].sets_in and points(own[0], t)
+    if not own or not sure or not (since or excess(own[0]) >= least):
         own.insert(0, sharpest)
     listed: list[Region] = []
     for region in chain(*own[:1], sharpest, *own[1:], gathered):
         if not any(_same(region, other) for other in listed):
             listed.append(region)
+    if not listed and sure and effects:
+        listed = [_of_effect(effects[0][0], region) for region in effects[0][1]]
     return listed[: thresholds.REGIONS]
 
 
@@ -81,10 +91,14 @@ def _own(
     own = [r for r in gathered if r.variable is effect.shows]
     within = [_measured(problem, r, square) for r in acts if r.variable is effect.shows]
     if effect.sets_in:
-        # A fit to before and after misses the shorter of the two by more, whichever it is.
-        t = problem.block.signals.t
-        return [r for r in within if points([r], t)] or own
+        return within
     return own or [r for r in within if r.share >= r.time]
+
+
+def _of_effect(effect: Effect, region: Region) -> Region:
+    """A region of what an effect adds, where the misfit itself has none."""
+    own = region.text.replace("of the misfit", f"of what {effect.name} adds", 1)
+    return replace(region, text=f"{own}; the misfit itself gathers nowhere")
 
 
 def _same(a: Region, b: Region) -> bool:

@@ -99,8 +99,14 @@ def test_a_place_that_is_most_of_the_range_is_none() -> None:
     acts = acting(problem(), leak, {leak.key("t_0"): 3.0}, [1.0 * (t >= 3.0)])
     assert (acts[0].low, acts[0].high) == (3.0, t.max())  # there it acts, and this is said of it
     first = places(problem(), square, [(leak, acts)])[0]
-    assert first.variable is Variable.TIME
-    assert first.high == pytest.approx(3.0, abs=0.1)
+    assert (first.variable, first.low, first.high) == (Variable.TIME, 3.0, t.max())
+    # Where the duty points at something it goes first, and never what was before the onset.
+    high = np.where(signals().duty > 0.25, 3.0, 0.1) * square
+    listed = places(problem(), high, [(leak, acts)])
+    assert [r.variable for r in listed[:2]] == [Variable.DUTY, Variable.TIME]
+    assert all(r.high > 3.0 for r in listed if r.variable is Variable.TIME)
+    [before] = of(Variable.TIME, places(problem(), square))
+    assert before.high == pytest.approx(3.0, abs=0.1)
     # Little of the time, yet most of what times since a reversal there are.
     since = signals().since_reversal
     late = 0.3 * since[np.isfinite(since)].max()
@@ -122,8 +128,12 @@ def test_where_nothing_gathers_in_its_variable_an_effect_is_where_it_acts() -> N
     assert (listed.low, listed.high) == (acted.low, acted.high)
     assert listed.time < listed.share < 0.5
     assert f"{100 * listed.share:.0f} % of the misfit" in listed.text
-    # Not where the misfit is less than elsewhere.
-    assert places(problem(), np.where(x > 0.7 * x.max(), 0.5, 1.0), [(end_stop, acts)]) == []
+    # Where the misfit is less than there elsewhere, and gathers nowhere, it is said of the effect.
+    less = np.where(x > 0.7 * x.max(), 0.5, 1.0)
+    [only] = places(problem(), less, [(end_stop, acts)])
+    assert (only.low, only.share) == (acted.low, acted.share)
+    assert "of what end_stop adds" in only.text
+    assert places(problem(), less, [(end_stop, acts)], sure=False) == []
 
 
 def test_what_sets_in_at_a_time_acts_from_then_on() -> None:
