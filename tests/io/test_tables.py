@@ -17,7 +17,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from erdctl.core.errors import ComputationProblem, InputProblem, UsageProblem
@@ -66,7 +66,20 @@ def test_binary_round_trip_is_exact(suffix: str, table: pa.Table) -> None:
         assert read_table(path).equals(table)
 
 
+def over_lines(texts: list[str], name: str) -> pa.Table:
+    """Texts that go over lines, and a column whose name is a number."""
+    zeros = pa.array([0.0] * len(texts))
+    names = pa.array(["0"] * len(texts))
+    return pa.table(
+        {"t": zeros, "f": zeros, "i": pa.array([0] * len(texts)), "s": texts, "record": names}
+        | {name: zeros}
+    )
+
+
 @given(tables())
+@example(over_lines(["a\nb", "", ""], "0"))
+@example(over_lines(["\n", "x"], "1.5"))
+@example(over_lines(["1\n2"], "5"))
 @settings(max_examples=150, deadline=None)
 def test_csv_round_trip_is_exact(table: pa.Table) -> None:
     with tempfile.TemporaryDirectory() as folder:

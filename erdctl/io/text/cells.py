@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from erdctl.io.text.options import FORMS_OF
@@ -20,6 +21,10 @@ _ANY_NUMBER = re.compile(
     re.IGNORECASE | re.ASCII,
 )
 COMMENTS = ("#", "%", "//")
+# A cell in quotes that its line leaves open, and the end of one; lines that it may go over.
+_OPEN = re.compile(r'(?:^|.*[,;\t| ])"(?:[^"]|"")*')
+_CLOSE = re.compile(r'(?:[^"]|"")*"[ ]*(?:[,;\t|].*)?')
+LONGEST = 100
 
 
 @dataclass(frozen=True)
@@ -65,6 +70,28 @@ def cells_of(line: str, separator: str) -> list[str]:
     except csv.Error:
         return [line]
     return [cell.strip() for cell in rows[0]] if rows else []
+
+
+def unbroken(lines: Sequence[str]) -> list[str]:
+    """Lines (n,) with each cell in quotes that goes over several of them in its first one.
+
+    The others are blank, so that lines keep their numbers.
+    >>> unbroken(['0,"a', 'b",1', '2,c,3'])
+    ['0,"a\\nb",1', '', '2,c,3']
+    """
+    out = list(lines)
+    at = 0
+    while at < len(out):
+        end = at + 1
+        if out[at].count('"') % 2 and _OPEN.fullmatch(out[at]):
+            beyond = range(at + 1, min(at + LONGEST, len(out)))
+            last = next((k for k in beyond if out[k].count('"') % 2), None)
+            if last is not None and _CLOSE.fullmatch(out[last]):
+                end = last + 1
+                whole = "\n".join(out[at:end])
+                out[at:end] = [whole, *[""] * (last - at)]
+        at = end
+    return out
 
 
 def kind_of(cell: str) -> str:

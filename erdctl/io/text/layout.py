@@ -8,7 +8,16 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from erdctl.core.errors import InputProblem
-from erdctl.io.text.cells import EMPTY, NUMBER, STAMP, Dialect, cells_of, comment_of, kind_of
+from erdctl.io.text.cells import (
+    EMPTY,
+    NUMBER,
+    STAMP,
+    Dialect,
+    cells_of,
+    comment_of,
+    kind_of,
+    unbroken,
+)
 from erdctl.io.text.encoding import CALLED, LINE_END, UTF8, decoded, encoding_of
 from erdctl.io.text.labview import LabView, labview_of
 from erdctl.io.text.names import Header, header_of
@@ -124,6 +133,7 @@ def recognise(data: Data, file: str, options: TextOptions) -> TextLayout | None:
     lines = LINE_END.split(decoded(head[mark:], encoding, file, whole=whole))
     if not whole and len(lines) > 1:
         lines = lines[:-1]  # cut
+    lines = unbroken(lines)
     first = next((n for n, line in enumerate(lines, 1) if line.strip()), 1)
     excel = _EXCEL.fullmatch(lines[first - 1])
     above = first if excel else 0

@@ -145,7 +145,7 @@ def _samples(rows: Sequence[Row]) -> list[Row]:
 
     def fits(row: Row) -> bool:
         pairs = zip(row.kinds, kinds, strict=False)
-        alike = all(k in (known, EMPTY) or known == TEXT for k, known in pairs)
+        alike = all(k in (known, EMPTY) or known in (TEXT, EMPTY) for k, known in pairs)
         return row.is_sample and alike and _texts_beyond(row, len(kinds))
 
     first = next((i for i, row in enumerate(rows) if fits(row)), 0)
