@@ -1,0 +1,34 @@
+"""What was searched on some samples is fitted to all from more than one dip of the cost."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from rig import campaign
+
+from erdctl.diagnose.executor import Executor
+from erdctl.diagnose.hypothesis import fit_hypothesis
+from erdctl.diagnose.problem import prepare
+from erdctl.diagnose.search import _on_all_samples
+from erdctl.effects import get
+
+DELAY = 0.0175  # s
+SKEW = "time_skew.tau"
+
+
+def test_a_smaller_model_is_fitted_from_the_delay_of_the_best_one() -> None:
+    """The cost has a dip wherever a jump of the force meets one of the model."""
+    r = campaign()
+    force = np.concatenate([np.interp(r.t[s] - DELAY, r.t[s], r.force[s]) for s in r.slices])
+    force += np.random.default_rng(1).normal(0.0, 0.3, len(force))
+    problem = prepare(replace(r, force=force))
+    skew, friction = get("time_skew"), get("coulomb_friction")
+    stuck = fit_hypothesis(problem, (skew,), [{SKEW: -0.3}])
+    assert abs(stuck.values[SKEW] - DELAY) > 0.01
+    best = fit_hypothesis(problem, (skew, friction), [{SKEW: 0.015}])
+    again = _on_all_samples(problem, [stuck, best], best, Executor([problem]))
+    found = again[frozenset({"time_skew"})]
+    assert found.values[SKEW] == pytest.approx(DELAY, abs=5e-4)
+    assert found.score < stuck.score
