@@ -4,7 +4,8 @@
 
 h : (n,) heat held by the damper [J], >= 0, and 0 as a record begins;  P : (n,) power that the fluid
 dissipates [W];  g : static force gained per heat [N/J], g >= 0, off at 0, that is P_0 A_s / (T_0 C)
-of Gay-Lussac's law with the heat capacity C;  tau_g : time constant of cooling [s]
+of Gay-Lussac's law with the heat capacity C;  tau_g : time constant of cooling [s], not below 1 s,
+as that of `thermal_fade`
 The force of the gas itself, which comes back, heats nothing, so that nothing is fed back.
 Valid for gas and fluid at one temperature, a small part of T_0 warmer than at first; its stiffness,
 which rises by the same part, changes far less than the static force.
@@ -75,7 +76,7 @@ EFFECT = Effect(
         ),
         Quantity(
             symbol="tau_g", unit="s", title="time constant of cooling",
-            low=0.1, high=1e6, start=100.0, off=100.0, scale=Scale.LOG,
+            low=1.0, high=1e6, start=100.0, off=100.0, scale=Scale.LOG, read_low=0.1,
         ),
     ),
     guesses=warming,

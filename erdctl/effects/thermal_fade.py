@@ -6,7 +6,8 @@
 h : (n,) heat held by the fluid [J], >= 0, and 0 as a record begins: the rise of the unlogged
 temperature times the heat capacity;  P : (n,) power that the fluid dissipates [W]
 a_v, a_y : loss of viscosity and of yield stress per heat [1/J], >= 0, off at 0
-tau : time constant of cooling [s]; on records much shorter it does not matter
+tau : time constant of cooling [s]; on records much shorter it does not matter. Not below 1 s: heat
+leaves the oil (alpha = 1e-7 m^2/s) of a gap of 1 mm in d_e^2 / (pi^2 alpha) = 1 s, the rest later
 The force of the gas, which comes back, heats nothing. Marched in time with the force that the
 model itself makes. In temperature, a theta = a h with theta = h / tau would need tau to be known.
 Valid for one lumped temperature, and falls of up to a few tenths, where exp is as good as others.
@@ -71,7 +72,7 @@ EFFECT = Effect(
         ),
         Quantity(
             symbol="tau", unit="s", title="time constant of cooling",
-            low=0.1, high=1e6, start=100.0, off=100.0, scale=Scale.LOG,
+            low=1.0, high=1e6, start=100.0, off=100.0, scale=Scale.LOG, read_low=0.1,
         ),
     ),
     c=CLaw(
