@@ -193,8 +193,8 @@ def _only_gain(rows: Sequence[Rows], index: int, ratio: float) -> bool:
     if abs(gain - ratio) > SAME_GAIN * abs(gain - 1.0):
         return False
     before, after = misfit(r, 1.0), misfit(r, gain)
-    # What the model misses is multiplied as well, and so may be the noise.
-    usual = max(1.0, abs(gain)) * median([misfit(r, 1.0) for r in others])
+    # What the model misses is multiplied as well; noise may come behind the amplifier.
+    usual = max(abs(gain) * median([misfit(o, 1.0) for o in others]), r.piece.noise("force")[0])
     return after < LIKE_OTHERS * usual and after**2 < (1.0 - EXPLAINED) * before**2
 
 
