@@ -76,7 +76,7 @@ def places(
         if not any(_same(region, other) for other in listed):
             listed.append(region)
     if not listed and sure and effects:
-        listed = [_of_effect(effects[0][0], region) for region in effects[0][1]]
+        listed = [_of_effect(problem, square, effects[0][0], r) for r in effects[0][1]]
     return listed[: thresholds.REGIONS]
 
 
@@ -95,10 +95,11 @@ def _own(
     return own or [r for r in within if r.share >= r.time]
 
 
-def _of_effect(effect: Effect, region: Region) -> Region:
-    """A region of what an effect adds, where the misfit itself has none."""
+def _of_effect(problem: Problem, square: Array, effect: Effect, region: Region) -> Region:
+    """A region in which an effect acts, with its share of a misfit that gathers nowhere."""
     own = region.text.replace("of the misfit", f"of what {effect.name} adds", 1)
-    return replace(region, text=f"{own}; the misfit itself gathers nowhere")
+    text = f"{own}; the misfit itself gathers nowhere"
+    return replace(_measured(problem, region, square), text=text)
 
 
 def _same(a: Region, b: Region) -> bool:
