@@ -91,8 +91,18 @@ def _own(
     own = [r for r in gathered if r.variable is effect.shows]
     within = [_measured(problem, r, square) for r in acts if r.variable is effect.shows]
     if effect.sets_in:
-        return within
+        return [r if r.share >= r.time else _after_less(effect, r) for r in within]
     return own or [r for r in within if r.share >= r.time]
+
+
+def _after_less(effect: Effect, region: Region) -> Region:
+    """From an onset on, where a fit to before and after misses the less."""
+    text = (
+        f"{effect.name} acts from {region.low:.4g} s to the end of the records, in"
+        f" {100 * region.time:.0f} % of the time; a fit to before and after alike misses the"
+        f" shorter by more, which has {100 * (1 - region.share):.0f} % of the misfit"
+    )
+    return replace(region, text=text)
 
 
 def _of_effect(problem: Problem, square: Array, effect: Effect, region: Region) -> Region:

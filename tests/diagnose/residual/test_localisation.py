@@ -100,6 +100,9 @@ def test_a_place_that_is_most_of_the_range_is_none() -> None:
     assert (acts[0].low, acts[0].high) == (3.0, t.max())  # there it acts, and this is said of it
     first = places(problem(), square, [(leak, acts)])[0]
     assert (first.variable, first.low, first.high) == (Variable.TIME, 3.0, t.max())
+    assert first.share < first.time
+    assert first.text.startswith("oil_leakage acts from 3 s to the end of the records")
+    assert f"{100 * (1 - first.share):.0f} % of the misfit" in first.text
     # Where the duty points at something it goes first, and never what was before the onset.
     high = np.where(signals().duty > 0.25, 3.0, 0.1) * square
     listed = places(problem(), high, [(leak, acts)])
