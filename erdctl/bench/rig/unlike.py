@@ -243,4 +243,4 @@ def _only_zero(rows: Sequence[Rows], index: int) -> bool:
     """
     r = rows[index]
     rest = (r.force - r.columns @ of_others(rows, index))[r.smooth]
-    return float(np.var(rest)) < (1.0 - ZERO_EXPLAINED) * float(np.mean(rest**2))
+    return len(rest) > 0 and float(np.var(rest)) < (1.0 - ZERO_EXPLAINED) * float(np.mean(rest**2))
