@@ -117,7 +117,8 @@ def command(
     that no effect of the catalogue explains; the diagnosis says where it is and what it resembles.
     So is a log of one duty and one speed in which an effect was found, or of two duties and two
     kinds of motion at most in which several were, since others would do as well there; the drives
-    that would tell them apart are named.
+    that would tell them apart are named. And so is a log in which a channel stops at a limit, where
+    the model holds within it: what lay beyond is not in the log.
     Look-alikes, which these data cannot tell apart, are listed with a drive on which they differ.
 
     The JSON holds the corrected parameter file under corrected.params (schema: erdctl schema

@@ -13,7 +13,7 @@ def parameters(found: Diagnosis) -> Parameters:
     # Under few conditions an interval holds in the model that is named, which may be another.
     best = (found.learned or found).selection.best
     few = f"at {found.cannot_tell} other effects, with other values, explain the log as well"
-    reasons = dict.fromkeys(found.fit.values, few) if found.cannot_tell else {}
+    reasons = dict.fromkeys(found.fit.values, few) if found.cannot_tell and found.findings else {}
     reasons |= {name: lack.reason for name, lack in best.problem.needs.items()}
     said = "a learned law over the duty says it as well: it keeps the value from before"
     reasons |= dict.fromkeys(found.fit.model.said_by_effects, said)

@@ -62,7 +62,8 @@ class Diagnosis:
 
     cannot_tell : under which conditions something is left out that several effects, and other
         values of the paper's parameters, would explain alike: one duty and one speed, or several
-        effects at two duties and two kinds of motion at most; "" where the log can tell
+        effects at two duties and two kinds of motion at most; or that the model holds within the
+        limits of a channel, beyond which nothing is known; "" where the log can tell
     baseline : scores of the given parameters as they are, or else of the paper's model refitted
     refitted : scores of that model fitted to this recording
     corrected, carried : scores of the best model without and with the record effects, which
@@ -199,6 +200,8 @@ def diagnose(
             )
     if not left and not untold and len(selection.named) > 1 and few_conditions(recording):
         untold = "two duties and two kinds of motion at most"
+    if not left and not selection.named and rig.cut:
+        untold = "a channel that stops at a limit"
     named = selection.best
     noise = lack_of_fit.noise_rms
     if left or rig.blocking or untold:

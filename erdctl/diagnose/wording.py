@@ -66,7 +66,8 @@ def _left(found: Diagnosis) -> str:
             "nothing was searched, because the recording itself is at fault:"
             f" {'; '.join(f.text for f in found.rig.blocking)}"
         )
-    if found.cannot_tell:
+    cut = bool(found.cannot_tell and not found.findings and found.rig.cut)
+    if found.cannot_tell and not cut:
         bench = Bench.of(Survey.of(found.problem.recording))
         return (
             f"the log has {found.cannot_tell}, at which other effects, and other values of the"
@@ -74,10 +75,14 @@ def _left(found: Diagnosis) -> str:
             f" them apart, record --drive {bench.sweep}, --drive {bench.levels} and --drive"
             f" {bench.steps}{_hum(left)}"
         )
-    if found.verdict is not Verdict.UNEXPLAINED:
+    if cut or found.verdict is not Verdict.UNEXPLAINED:
         rms = f"{found.carried.overall.rms:.3g} N rms"
         rest = f"what remains, {rms}, is noise as far as these data tell{_hum(left)}"
         rest += _begins(found) + _withdrawn(found)
+        if cut:
+            rest += (
+                f"; of what lay beyond it tells nothing: {'; '.join(f.text for f in found.rig.cut)}"
+            )
         rest += "; the log has one duty and one speed, and says nothing of others" * one_condition(
             found.problem.recording
         )

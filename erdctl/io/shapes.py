@@ -207,7 +207,8 @@ class LeftOut(TypedDict):
 class DiagnosisFile(TypedDict):
     """A diagnosis; verdict : adequate, explained or unexplained.
 
-    cannot_tell : whether it is unexplained because so few duties and motions cannot tell what it is
+    cannot_tell : whether it is unexplained because so few duties and motions cannot tell what it
+        is, or because a channel that stops at a limit cannot tell whether the model holds beyond
     """
 
     schema: str

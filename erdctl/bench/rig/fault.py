@@ -74,6 +74,11 @@ class Rig:
         lost = [f for f in self.faults if f.blocks]
         return tuple(lost) if len({f.record for f in lost}) == len(self.names) else ()
 
+    @property
+    def cut(self) -> tuple[RigFault, ...]:
+        """Channels that stop at a limit: what was beyond it is not in the recording."""
+        return tuple(f for f in self.faults if f.code in ("force_clipped", "x_clipped"))
+
     def name_of(self, fault: RigFault) -> str | None:
         """The record of a fault by its name."""
         return None if fault.record is None else self.names[fault.record]

@@ -137,6 +137,8 @@ def _answers(doc: Json, name: str, peak: float) -> Json:
             head = f"{start} holds: the residual is measurement noise."
         case "explained":
             head = f"{start} does not hold; {joined(named)} {many} what it misses."
+        case _ if _cut(doc):
+            head = f"{start} holds within the limits of the channels, and beyond nothing is known."
         case _ if doc.get("cannot_tell"):
             head = (
                 f"{start} does not hold, but the log has too few conditions to tell what it misses."
@@ -150,8 +152,9 @@ def _answers(doc: Json, name: str, peak: float) -> Json:
             head = f"{start} does not hold, and nothing in the catalogue explains what it misses."
     if _laws(doc):
         head += " What the data say of that was learned, and has no name."
-    if verdict == "adequate":
-        holds = f"Yes. Its error is {digits(rms, 3)} N rms, the noise {digits(noise, 3)} N rms."
+    if verdict == "adequate" or _cut(doc):
+        sure = "Yes" if verdict == "adequate" else "As far as was recorded"
+        holds = f"{sure}. Its error is {digits(rms, 3)} N rms, the noise {digits(noise, 3)} N rms."
         where = "Nowhere: no misfit beyond the noise."
         why = (
             "Nothing that these data show: no effect in the catalogue improves data that no fit has"
@@ -250,6 +253,12 @@ def _levels(doc: Json, r: Recording, levels: Levels, plain_name: str) -> Json:
         "before": plain_name if _changed(doc) else "",
         "after": "corrected" if _changed(doc) else plain_name,
     }  # fmt: skip
+
+
+def _cut(doc: Json) -> bool:
+    """Whether nothing is missed but what lies beyond the limit of a channel."""
+    cut = any(fault["code"].endswith("_clipped") for fault in doc["rig"])
+    return bool(doc.get("cannot_tell")) and not doc["findings"] and cut
 
 
 def _by_duty(scores: Json) -> dict[float, float]:
