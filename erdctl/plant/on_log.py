@@ -175,7 +175,10 @@ def _with_law(plant: Plant, twin: Twin, values: Mapping[str, float], by: Scales)
         return twin.build(plant, math.exp(at[0]), shape, by)
 
     def off(at: Array) -> float:
-        found = law(built(at))[1]
+        try:
+            found = law(built(at))[1]
+        except ArithmeticError:
+            return 1e300  # shapes of which no number can be told are near none
         return max((abs(found.get(k, 0.0) / v - 1.0) for k, v in values.items() if v), default=0.0)
 
     # A shape may be a choice, as of a sign, which no simplex walks across: one from every corner.

@@ -119,6 +119,21 @@ def hideable(chosen: Sequence[str] | None) -> list[str]:
     return [n for n in names if chosen is None or n in chosen]
 
 
+def with_all(bare: OnLog, laws: Sequence[tuple[Twin, Mapping[str, float]]]) -> OnLog:
+    """A damper on a log with effects whose laws have some values, as many as it can have together.
+
+    The first ones first: behind a soft mount, say, the plant simulates no law of the rod's motion.
+    """
+    present: list[Twin] = []
+    for twin, values in laws:
+        fits = all(twin.goes_with(other) for other in present)
+        there = bare.also_with(twin, values) if fits else None
+        if there is not None:
+            bare = there
+            present.append(twin)
+    return bare
+
+
 class Hiding:
     """Hides effects in a host."""
 
@@ -133,9 +148,8 @@ class Hiding:
         self.stage: OnLog = stage(records, sides)
         twins = [(every()[e.name], e) for e in best.effects if e.name in every()]
         self.present = [twin for twin, _ in twins]
-        for twin, effect in twins:
-            there = self.stage.also_with(twin, effect.local(best.values))
-            self.stage = there or self.stage
+        laws = [(twin, effect.local(best.values)) for twin, effect in twins]
+        self.stage = with_all(self.stage, laws)
         self.injection = Injection(host.found.problem, best)
         self.rest = best.residual
 

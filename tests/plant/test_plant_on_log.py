@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 from plant_rig import DAMPER, campaign, effect
 
 from erdctl.plant.on_log import Logged, OnLog, stage
 from erdctl.plant.simulate import force, rides
+from erdctl.plant.twins import every
+from erdctl.prove.on_log import with_all
 
 
 def logged() -> list[Logged]:
@@ -128,3 +132,21 @@ def test_a_channel_of_the_log_is_not_applied_again(on_log: OnLog) -> None:
     twin, shape = effect("force_drift"), {k: a for k, (a, _) in effect("force_drift").shape.items()}
     drifted = late.with_effect(twin, twin.start, shape, late.plain)
     assert drifted - late.plain == pytest.approx(late.added(twin, twin.start, shape), abs=1e-6)
+
+
+def test_a_damper_has_as_many_effects_as_go_together(on_log: OnLog) -> None:
+    """Any that a log may be said to have: what the plant cannot simulate beside others is left."""
+    random = np.random.default_rng(7)
+    twins = [t for t in every().values() if t.law is not None]
+    laws = []
+    for twin in twins:
+        shape = {k: 0.5 * (a + b) for k, (a, b) in twin.shape.items()}
+        _, values = twin.law(twin.build(on_log.base, twin.start, shape, on_log.scales))
+        laws.append((twin, values))
+    clashes = 0
+    for _ in range(40):
+        chosen = [laws[k] for k in random.permutation(len(laws))[:3]]
+        clashes += any(not a.goes_with(b) for (a, _), (b, _) in combinations(chosen, 2))
+        first = on_log.also_with(*chosen[0])
+        assert (with_all(on_log, chosen) is on_log) <= (first is None)
+    assert clashes > 3
