@@ -39,7 +39,7 @@ def test_it_is_never_adequate(error: str) -> None:
     assert document["findings"] == []
     said = document["remaining"]["text"]
     assert "is noise as far as these data tell" in said
-    assert "of what lay beyond it tells nothing" in said
+    assert "of what lay beyond a limit the log tells nothing" in said
     assert "is clipped" in said
     answers = _answers(document, "the model", 80.0)
     assert answers["head"].startswith("The model holds within the limits of the channels")
