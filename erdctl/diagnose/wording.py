@@ -80,7 +80,8 @@ def _left(found: Diagnosis) -> str:
         rest = f"what remains, {rms}, is noise as far as these data tell{_hum(left)}"
         rest += _begins(found) + _withdrawn(found)
         if cut:
-            rest += f"; of what lay beyond a limit the log tells nothing: {'; '.join(f.text for f in found.rig.cut)}"
+            limits = "; ".join(f.text for f in found.rig.cut)
+            rest += f"; of what lay beyond a limit the log tells nothing: {limits}"
         rest += "; the log has one duty and one speed, and says nothing of others" * one_condition(
             found.problem.recording
         )
