@@ -49,6 +49,7 @@ SLOW = 0.25  # s, over which the deflection holds the integral of the speed
 BENT = 0.02  # s, over which the acceleration is the slope of the speed
 NEAR = 0.05  # of the values of a law that a plant's effect is to have
 FAR = 100.0  # times the largest force of the damper so far
+NO_LAG = 1e-6  # s
 FURTHER = 1e5  # times a shape's least and largest, as it is drawn, that a law may have
 STILL = Trajectory("tones", (), (), ())  # in place of the closed form that a recording has not
 
@@ -149,7 +150,9 @@ def stage(records: Sequence[Logged], sides: Sequence[Mapping[str, float]]) -> On
 
     sides : k_nom, c_vis, T_d, sigma and beta in compression and in release
     """
-    up, down = (Side(**{f: float(side[f]) for f in Side._fields}) for side in sides)
+    # A log without a step of its duty tells no lag; a damper has one, from which others are drawn.
+    told = [{f: float(side[f]) for f in Side._fields} for side in sides]
+    up, down = (Side(**{**side, "T_d": max(side["T_d"], NO_LAG)}) for side in told)
     base = Plant(up, down)
     over = tuple(_ride(r) for r in records)
     plain = forces(base, over)

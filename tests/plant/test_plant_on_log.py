@@ -150,3 +150,13 @@ def test_a_damper_has_as_many_effects_as_go_together(on_log: OnLog) -> None:
         first = on_log.also_with(*chosen[0])
         assert (with_all(on_log, chosen) is on_log) <= (first is None)
     assert clashes > 3
+
+
+def test_a_log_that_tells_no_lag_and_no_spring_can_hide_all(on_log: OnLog) -> None:
+    """As of a real damper at held currents: its diagnosis has T_d = 0, and often k_nom = 0."""
+    sides = [s._asdict() | {"T_d": 0.0, "k_nom": 0.0} for s in (DAMPER.compression, DAMPER.release)]
+    poor = stage(logged(), sides)
+    for name, twin in every().items():
+        shape = twin.drawn(np.random.default_rng(3))
+        added = poor.added(twin, twin.start, shape)
+        assert np.isfinite(added).all(), name
