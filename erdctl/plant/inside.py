@@ -2,7 +2,8 @@
 
 A spring in series hides the speed of what lies behind it; it is found from
 
-    mount:  (z - x_p) / s = fluid + gas + stops + seals + m dv/dt,   x_p' = x_p + h v
+    mount:  e / s = fluid + gas + stops + seals + m dv/dt,   x_p' = x_p + h v
+            e = x - x_p beyond -g/2..g/2, 0 within: play in the mount's joint bears no force
     fluid column:  (e - h v) / s = fluid,   e = deflection of the column if its fluid stood still
 
 by implicit Euler, which is stable for every s > 0. At v = 0 the dry forces may take any value
@@ -87,11 +88,17 @@ def beside(x: float, v: float, way: float, i: Instant, up: Side, down: Side, p: 
 
 
 @njit(cache=True)
+def stretch(apart: float, p: Physics) -> float:
+    """Of the mount between a rod and a piston that are so far apart [m]."""
+    return max(apart - 0.5 * p.gap, 0.0) + min(apart + 0.5 * p.gap, 0.0)
+
+
+@njit(cache=True)
 def _excess(v: float, way: float, mode: int, i: Instant, up: Side, down: Side, p: Physics) -> float:
     """Force of the spring beyond that of the body behind it [N]; falls with v."""
     if mode == MOUNT:
         x = i.x0 + i.h * v
-        spring = (i.drive - x) / p.mount
+        spring = stretch(i.drive - x, p) / p.mount
         inertia = p.mass * (v - i.v0) / i.h
         return (
             spring - inertia

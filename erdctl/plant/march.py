@@ -20,7 +20,16 @@ from numba import njit
 
 from erdctl.plant import outside as out
 from erdctl.plant.field import commanded, fades, slewed, target
-from erdctl.plant.inside import COLUMN, MOUNT, Instant, balanced, beside, fluid, yield_state
+from erdctl.plant.inside import (
+    COLUMN,
+    MOUNT,
+    Instant,
+    balanced,
+    beside,
+    fluid,
+    stretch,
+    yield_state,
+)
 from erdctl.plant.law import bent
 from erdctl.plant.plant import Outside, Physics, Side
 
@@ -125,14 +134,14 @@ def march(
         za = 0.0 if free else a[k]
         if p.mount > 0.0 and k > 0:
             i = Instant(
-                h, xp, vp, way, z, 0.0, fade, yielding, goal_c, goal_r, bend, void, oil, on_viscous,
-                on_yield, told, sign,
+                h, xp, vp, way, x[k], 0.0, fade, yielding, goal_c, goal_r, bend, void, oil,
+                on_viscous, on_yield, told, sign,
             )  # fmt: skip
             vp1, now = balanced(MOUNT, i, up, down, p)
             if step > 0.0:
                 yielding = yield_state(vp1, now, i, up, down, p)
             xp1 = xp + h * vp1
-            F[k] = (z - xp1) / p.mount
+            F[k] = stretch(x[k] - xp1, p) / p.mount
             power = 0.0
             if p.heating != 0.0:
                 power = fluid(xp1, vp1, now, i, up, down, p) * vp1

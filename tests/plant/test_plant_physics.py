@@ -79,6 +79,22 @@ def test_behind_a_mount_the_yield_force_holds_the_piston_at_reversals() -> None:
     assert np.abs(force).max() == pytest.approx(20.0, rel=1e-6)
 
 
+@pytest.mark.parametrize("s", [1e-6, 1e-4])
+def test_the_play_of_a_mounts_joint_is_crossed_without_force(s: float) -> None:
+    """After a turn the mount unloads over 20 s, then g without force, then it loads over 20 s."""
+    g = 3e-3
+    force = simulate(BINGHAM.with_physics(mount=s, gap=g), record(sine(F, A), constant(1.0)))
+    _, x, _ = ride(record(sine(F, A), constant(1.0))).sampled()
+    free = np.abs(force) < 1e-6
+    begins, ends = (np.flatnonzero(np.diff(free.astype(int)) == way)[1:-1] for way in (1, -1))
+    ends = ends[ends > begins[0]]
+    assert len(ends) > 6
+    crossed = np.abs(x[ends] - x[begins[: len(ends)]])
+    per_sample = OMEGA * A / RATE
+    np.testing.assert_allclose(crossed, g, atol=1.5 * per_sample)
+    assert np.abs(force).max() == pytest.approx(20.0, rel=1e-6)
+
+
 def test_play_is_lost_motion() -> None:
     """A spring behind a gap follows x - g/2 upward and x + g/2 downward."""
     g = 0.004
