@@ -5,12 +5,13 @@
 
 x, xdot : (n,) logged deflection [m] and velocity [m/s]
 V[x] : (n,) what the deflection says of the velocity, without phase: slopes over 1 to 40 samples
-each way, weighted by a_k such that V[x] comes as near as it can to xdot, in each record by itself
+each way, weighted by a_k such that V[x] comes as near as it can to what is no noise of xdot, in
+each record by itself
 w : part of the velocity that is taken from the deflection [1], 0..1, off at 0; by the theory of
 errors s_v^2 / (s_v^2 + s_x^2) with the noise of xdot and that of V[x], and 1 where xdot is late
 Valid for a velocity with a sensor of its own. Of an xdot that was derived from x by any filter that
 is not late V[x] is the same, whatever its noise: then nothing changes. Towards the ends of a record
-it rests on fewer slopes; in records of few samples xdot stays as logged.
+it rests on fewer slopes, and so it does in records of few samples.
 Check: x = 0.1 t m, xdot = 0.1 m/s with an error of +-0.02 m/s from sample to sample, w = 0.5: half
 of the error is left.
 >>> way = np.where(np.arange(900) % 2, 1.0, -1.0)
@@ -40,8 +41,9 @@ from erdctl.model.slots import MotionSlot, Values
 
 REACHES = (*range(1, 17), 20, 25, 32, 40)  # samples each way
 ENDS = (40, 20, 10, 5, 2, 1)  # the most that are used, the nearer to an end of a record the fewer
-FEWEST = 20  # samples of a record for each weight, or these would follow the noise
-DETERMINED = 1e-9  # of the largest singular value
+FEWEST = 20  # samples of a record for each weight
+DETERMINED = 1e-5  # of the largest singular value
+CERTAIN = 4.0  # times its standard error, from which on a part of xdot is none of its noise
 
 
 def velocity_noise(s: Signals, p: Values) -> Signals:
@@ -59,21 +61,22 @@ def _of_deflection(s: Signals) -> Array:
         return np.asarray(_of_deflection(whole)[rows])
     out = s.xdot.copy()
     for a, b in pairwise(s.starts.tolist()):
-        if b - a >= 2 * REACHES[-1] + FEWEST * len(REACHES):
-            out[a:b] = _of_record(s.x[a:b], s.t[a:b], s.xdot[a:b])
+        reaches = [k for i, k in enumerate(REACHES, start=1) if 2 * k + FEWEST * i <= b - a]
+        if reaches:
+            out[a:b] = _of_record(s.x[a:b], s.t[a:b], s.xdot[a:b], reaches)
     return out
 
 
-def _of_record(x: Array, t: Array, xdot: Array) -> Array:
+def _of_record(x: Array, t: Array, xdot: Array, reaches: Sequence[int]) -> Array:
     """(n,) V[x] of a record; towards its ends from the slopes that there are, where these are
     nearer to it than xdot is."""
-    out, done = xdot.copy(), len(x) // 2
-    whole = slice(REACHES[-1], len(x) - REACHES[-1])
-    best = _slopes(x, t, xdot, REACHES)
-    far = np.sqrt(np.mean((xdot[whole] - best[whole]) ** 2))
-    for most in ENDS:
-        found = _slopes(x, t, xdot, [k for k in REACHES if k <= most])
-        if np.sqrt(np.mean((found[whole] - best[whole]) ** 2)) <= far:
+    out, done, far = xdot.copy(), len(x) // 2, reaches[-1]
+    whole = slice(far, len(x) - far)
+    best = _slopes(x, t, xdot, reaches)
+    apart = np.sqrt(np.mean((xdot[whole] - best[whole]) ** 2))
+    for most in (far, *(k for k in ENDS if k < far)):
+        found = _slopes(x, t, xdot, [k for k in reaches if k <= most])
+        if np.sqrt(np.mean((found[whole] - best[whole]) ** 2)) <= apart:
             for part in (slice(most, done), slice(len(x) - done, len(x) - most)):
                 out[part] = found[part]
             done = most
@@ -88,8 +91,23 @@ def _slopes(x: Array, t: Array, xdot: Array, reaches: Sequence[int]) -> Array:
     for row, k in zip(rows, reaches, strict=True):
         on, back = slice(far + k, far + k + n), slice(far - k, far - k + n)
         row[:] = (x[on] - x[back]) / (t[on] - t[back])
-    out[inner] = np.linalg.lstsq(rows.T, xdot[inner], rcond=DETERMINED)[0] @ rows
+    out[inner] = _projected(rows, xdot[inner])
     return out
+
+
+def _projected(rows: Array, values: Array) -> Array:
+    """(n,) what rows (k, n) have of values (n,), along directions in which that is no noise.
+
+    Slopes of a smooth motion are nearly alike: with weights of thousands their differences would
+    follow what the values have beyond it.
+    """
+    directions, size, _ = np.linalg.svd(rows.T, full_matrices=False)
+    directions = directions[:, size > DETERMINED * size[:1]]
+    part = directions.T @ values
+    left = values - directions @ part
+    noise = np.sqrt(left @ left / max(len(values) - len(part), 1))
+    part[np.abs(part) < CERTAIN * noise] = 0.0
+    return np.asarray(directions @ part)
 
 
 def replaced(s: Signals, rest: Array) -> list[dict[str, float]]:
