@@ -43,6 +43,7 @@ REACHES = (*range(1, 17), 20, 25, 32, 40)  # samples each way
 ENDS = (40, 20, 10, 5, 2, 1)  # the most that are used, the nearer to an end of a record the fewer
 FEWEST = 20  # samples of a record for each weight
 DETERMINED = 1e-5  # of the largest singular value
+BEND = 4  # of as many slopes one has the bend of the deflection over its reach beside it
 CERTAIN = 4.0  # times its standard error, from which on a part of xdot is none of its noise
 
 
@@ -80,6 +81,10 @@ def _of_record(x: Array, t: Array, xdot: Array, reaches: Sequence[int]) -> Array
             for part in (slice(most, done), slice(len(x) - done, len(x) - most)):
                 out[part] = found[part]
             done = most
+    if done == 1:  # beyond the last slope, as fast as the next two say
+        for end, near, far in ((0, 1, 2), (-1, -2, -3)):
+            ahead = (t[end] - t[near]) / (t[near] - t[far])
+            out[end] = out[near] + ahead * (out[near] - out[far])
     return out
 
 
@@ -88,26 +93,34 @@ def _slopes(x: Array, t: Array, xdot: Array, reaches: Sequence[int]) -> Array:
     far, out = reaches[-1], xdot.copy()
     n = len(x) - 2 * far
     inner, rows = slice(far, far + n), np.empty((len(reaches), n))
-    for row, k in zip(rows, reaches, strict=True):
+    bends = np.empty((len(reaches[::BEND]), n))
+    for i, k in enumerate(reaches):
         on, back = slice(far + k, far + k + n), slice(far - k, far - k + n)
-        row[:] = (x[on] - x[back]) / (t[on] - t[back])
-    out[inner] = _projected(rows, xdot[inner])
+        span = t[on] - t[back]
+        rows[i] = (x[on] - x[back]) / span
+        if i % BEND == 0:
+            bends[i // BEND] = (x[on] - 2.0 * x[inner] + x[back]) / span**2
+    out[inner] = _weights(rows, bends, xdot[inner]) @ rows
     return out
 
 
-def _projected(rows: Array, values: Array) -> Array:
-    """(n,) what rows (k, n) have of values (n,), along directions in which that is no noise.
+def _weights(rows: Array, bends: Array, values: Array) -> Array:
+    """(k,) of rows (k, n) that come near to values (n,), along directions that are no noise in it.
 
     Slopes of a smooth motion are nearly alike: with weights of thousands their differences would
-    follow what the values have beyond it.
+    follow what the values have beyond it. What is late in them goes with the bends (m, n).
     """
-    directions, size, _ = np.linalg.svd(rows.T, full_matrices=False)
-    directions = directions[:, size > DETERMINED * size[:1]]
-    part = directions.T @ values
-    left = values - directions @ part
-    noise = np.sqrt(left @ left / max(len(values) - len(part), 1))
+    late, size, _ = np.linalg.svd(bends.T, full_matrices=False)
+    late = late[:, size > DETERMINED * size[:1]]
+    rest = values - late @ (late.T @ values)
+    u, size, v = np.linalg.svd(rows.T - late @ (late.T @ rows.T), full_matrices=False)
+    sure = size > DETERMINED * size[:1]
+    u, size, v = u[:, sure], size[sure], v[sure]
+    part = u.T @ rest
+    left = rest - u @ part
+    noise = np.sqrt(left @ left / max(len(values) - len(part) - late.shape[1], 1))
     part[np.abs(part) < CERTAIN * noise] = 0.0
-    return np.asarray(directions @ part)
+    return np.asarray((part / size) @ v)
 
 
 def replaced(s: Signals, rest: Array) -> list[dict[str, float]]:
