@@ -108,8 +108,27 @@ def _moved(
                 e - way * grid[high] * span, x, k, half, s, viscous[branch, high] * g_visc,
                 Y * sign[branch, high], friction[branch, high],
             )  # fmt: skip
+        slow, fast = grid[low], grid[high]
+        if half > 0.0:
+            # The spring bends where it loses or takes up its play, and is far stiffer than the
+            # damper beyond: H is straight on either side, not across.
+            for side in range(2):
+                edge = half if side == 0 else -half
+                u = way * (e - edge) / span
+                if slow < u < fast:
+                    w = (u - grid[low]) / (grid[high] - grid[low])
+                    h = _excess(
+                        edge, x, k, half, s,
+                        (viscous[branch, low] * (1.0 - w) + viscous[branch, high] * w) * g_visc,
+                        Y * (sign[branch, low] * (1.0 - w) + sign[branch, high] * w),
+                        friction[branch, low] * (1.0 - w) + friction[branch, high] * w,
+                    )  # fmt: skip
+                    if h * way < 0.0:
+                        slow, a = u, h
+                    else:
+                        fast, b = u, h
         part = -a / (b - a) if b != a else 0.0
-        v = way * (grid[low] + part * (grid[high] - grid[low]))
+        v = way * (slow + part * (fast - slow))
         return e - v * span, v, low
     return e, 0.0, 1
 

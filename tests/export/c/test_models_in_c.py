@@ -72,6 +72,17 @@ def test_it_equals_python(seed: int, options: tuple[str, ...], near: float) -> N
     assert off.max() <= near * np.ptp(expected), [e.name for e in found.effects]
 
 
+@pytest.mark.parametrize("s_m", [1e-8, 1e-6, 1e-4])
+def test_play_in_the_joint_of_a_stiff_mount_equals_python(s_m: float) -> None:
+    """There the spring bends between two nodes of the speed."""
+    found = Model((get("backlash"), get("mount_compliance")))
+    s = random_motion()
+    values = PAPER | {"backlash.g": 2e-3, "mount_compliance.s_m": s_m}
+    expected = found.past_alone().force(s, values)
+    off = np.abs(forces(block_of(found, values, s), s) - expected)
+    assert off.max() <= 1e-9 * np.ptp(expected)
+
+
 def packed() -> list[Model]:
     """All effects in as few models as hold those that go together: each costs a compiler's run."""
     groups: list[tuple[Effect, ...]] = []

@@ -88,7 +88,8 @@ static void advance(const State *st, Spring *b, const Joint *to, real mean, real
                     real x, real Y)
 {
     real e = b->stretch + mean * dt, ahead = K(1.0), way, span, rest, at_low, at_high, h, share;
-    int branch, low, high, mid, reach;
+    real slow, fast;
+    int branch, low, high, mid, reach, side;
 
     if (mean * end > K(0.0))
         ahead = FMIN(FMAX(end / mean, SLOWEST), K(2.0));
@@ -126,8 +127,29 @@ static void advance(const State *st, Spring *b, const Joint *to, real mean, real
         }
         at_low = excess(st, to, e - way * st->grid[low] * span, x, Y, branch, low);
         at_high = excess(st, to, e - way * st->grid[high] * span, x, Y, branch, high);
+        slow = st->grid[low];
+        fast = st->grid[high];
+        /* The spring bends where it loses or takes up its play: straight on either side. */
+        for (side = 0; to->half > K(0.0) && side < 2; side++) {
+            real edge = side == 0 ? to->half : -to->half, u = way * (e - edge) / span, w;
+
+            if (!(u > slow && u < fast))
+                continue;
+            w = (u - st->grid[low]) / (st->grid[high] - st->grid[low]);
+            h = to->k[branch] * (x - edge) - held(edge, to)
+                + between(st->viscous_at[branch], high, w) * to->gain.viscous
+                + Y * between(st->sign_at[branch], high, w)
+                + between(st->friction_at[branch], high, w);
+            if (h * way < K(0.0)) {
+                slow = u;
+                at_low = h;
+            } else {
+                fast = u;
+                at_high = h;
+            }
+        }
         share = FABS(at_high - at_low) > K(0.0) ? -at_low / (at_high - at_low) : K(0.0);
-        b->speed = way * (st->grid[low] + share * (st->grid[high] - st->grid[low]));
+        b->speed = way * (slow + share * (fast - slow));
         b->stretch = e - b->speed * span;
         b->near = low;
         return;
