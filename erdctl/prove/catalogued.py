@@ -6,10 +6,14 @@ package, needs no word here: a twin of that name is from then on no stranger to 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
+from erdctl.core.errors import IncompatibleEffects
+from erdctl.core.signals import Signals
 from erdctl.effects import catalogue
+from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
+from erdctl.model.slots import Values
 
 
 def nameable() -> frozenset[str]:
@@ -38,3 +42,16 @@ def structure(hidden: str) -> Effect:
     """The catalogue's effect for a hidden one: of its name, or the first that is equivalent."""
     own = [e for e in catalogue() if e.name == hidden]
     return (own or [e for e in catalogue() if hidden in e.equivalents])[0]
+
+
+def no_model_has(names: Collection[str], beside: Model, s: Signals, values: Values) -> bool:
+    """Whether none of some effects can act in one model with those of another, whose values are
+    given: no diagnosis that begins with that can name one."""
+    for effect in (e for e in catalogue() if e.name in names):
+        start = {effect.key(q.symbol): q.start for q in effect.quantities}
+        try:
+            Model((*beside.effects, effect)).force(s, {**values, **start})
+        except IncompatibleEffects:
+            continue
+        return False
+    return True

@@ -36,7 +36,7 @@ from erdctl.model.parameters import Parameters
 from erdctl.plant.on_log import Logged, OnLog, stage
 from erdctl.plant.twin import Twin
 from erdctl.plant.twins import every
-from erdctl.prove.catalogued import nameable, right_names
+from erdctl.prove.catalogued import nameable, no_model_has, right_names
 from erdctl.prove.score import Found, HiddenEffect, matches
 
 MOST = 6  # effects in one diagnosis
@@ -167,6 +167,10 @@ class Hiding:
             return [Trial(name, s, skipped=why) for s in sizes]
         if all(lacking):
             return [Trial(name, s, skipped=f"cannot be tested: {lacking[0]}") for s in sizes]
+        best = self.host.found.selection.best
+        if no_model_has(same, best.model, self.host.found.problem.block.signals, best.values):
+            why = "no model holds it beside the effects that are in the log"
+            return [Trial(name, s, skipped=why) for s in sizes]
         shape = twin.drawn(np.random.default_rng([self.host.seed, crc32(name.encode())]))
         out, at = [], log(twin.start)
         for size in sizes:

@@ -5,17 +5,22 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
+from by_hand import signals
 from results import document, key, sealed
 
 from erdctl.core.errors import UsageProblem
+from erdctl.core.recording import DIRECTIONS
 from erdctl.effects import catalogue, get, names
+from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
+from erdctl.model.paper import QUANTITIES
 from erdctl.plant import twins
 from erdctl.plant.plan import draw_plan
 from erdctl.prove import catalogued
 from erdctl.prove.case import Wish, check
-from erdctl.prove.catalogued import nameable, right_names, structure
+from erdctl.prove.catalogued import nameable, no_model_has, right_names, structure
 from erdctl.prove.judge import scored
 from erdctl.prove.score import Errors
 
@@ -88,3 +93,13 @@ def test_a_stranger_has_no_right_name() -> None:
     assert result.named is None
     assert result.spurious == 1
     assert math.isfinite(result.level)
+
+
+def test_what_no_model_holds_beside_a_spring_is_known() -> None:
+    spring = get("mount_compliance")
+    s = signals(np.cos(np.arange(40) / 3.0), x=0.01 * np.sin(np.arange(40) / 3.0), duty=0.3)
+    values = {f"{d}.{q}": v.start for d in DIRECTIONS for q, v in QUANTITIES.items()}
+    values |= {spring.key("s_m"): 1e-6}
+    assert no_model_has({"yield_hysteresis"}, Model((spring,)), s, values)
+    assert not no_model_has({"yield_hysteresis", "backlash"}, Model((spring,)), s, values)
+    assert not no_model_has({"yield_hysteresis"}, Model(()), s, values)
