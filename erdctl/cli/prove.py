@@ -118,7 +118,7 @@ def command(
 
     --on LOG hides effects in your own recording, under its own noise and misfit: to the measured
     force is added what the simulator says an effect would add on the motion and duty of the log.
-    A size is the rms of what the model of the log's own diagnosis cannot absorb of that, over what
+    A size is the rms of what the log's own model, refitted, does not absorb of that, over what
     that diagnosis left where the effect acts. The table says from which size each effect is named
     beyond what is named anyway, and what is named when nothing was hidden.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 from erdctl.core.progress import part_of
@@ -46,12 +47,16 @@ class Explored(dict[frozenset[str], Hypothesis]):
 
 
 class Exploration(NamedTuple):
-    """A search under way: its data, the model it begins with, what it has fitted, its executor."""
+    """A search under way: its data, the model it begins with, what it has fitted, its executor.
+
+    as_given : that model with the values that a user gave, before any fit
+    """
 
     problem: Problem
     base: Hypothesis
     explored: Explored
     executor: Executor
+    as_given: Hypothesis | None = None
 
     def added(self, hypothesis: Hypothesis) -> tuple[Effect, ...]:
         """The effects of a hypothesis that the base does not have."""
@@ -64,10 +69,10 @@ def forward_step(
     """Hypotheses with one effect more than some parents, none of them fitted before."""
     waiting: dict[frozenset[str], list[Task]] = {}
     for parent in parents:
-        for candidate in _worth_a_fit(x, parent, candidates):
+        for seen_from, candidate in _worth_a_fit(x, parent, candidates):
             key = key_of(parent.effects) | {candidate.effect.name}
             if key not in x.explored:
-                waiting.setdefault(key, []).append(with_effect(stage, parent, candidate))
+                waiting.setdefault(key, []).append(with_effect(stage, seen_from, candidate))
     found = []
     while waiting:
         # Where several parents lead to one hypothesis the next is asked only if the first fails.
@@ -95,23 +100,34 @@ def with_effect(stage: str, parent: Hypothesis, candidate: Candidate) -> Task:
 
 def _worth_a_fit(
     x: Exploration, parent: Hypothesis, candidates: Sequence[Effect]
-) -> list[Candidate]:
-    """The effects worth a fit together with the parent's, the most promising first."""
-    screen = Screen(x.problem, parent, x.executor.most)
-    found = []
+) -> list[tuple[Hypothesis, Candidate]]:
+    """The effects worth a fit together with the parent's, the most promising first, each with the
+    hypothesis from which it was seen."""
+    views = [parent]
+    if parent is x.base and x.as_given is not None:
+        # What is missing in a model bends its parameters, and far away from where they were it may
+        # seem to be worth nothing: a friction that shear thinning has taken up, say.
+        views.append(x.as_given)
+    screens = [Screen(x.problem, view, x.executor.most) for view in views]
+    found = list[tuple[Hypothesis, Candidate]]()
     tried = list(_additions(parent, candidates))
     for number, effect in enumerate(tried, start=1):
         x.executor.progress("screening", part_of(effect.name, number, len(tried)))
-        candidate = screen.candidate(effect)
-        if candidate is not None:
-            found.append(candidate)
+        seen = []
+        for screen in screens:
+            candidate = screen.candidate(effect)
+            if candidate is not None:
+                left = (1.0 - candidate.gain) * screen.square / max(screens[0].square, 1e-300)
+                seen.append((screen.parent, replace(candidate, gain=1.0 - left)))
+        if seen:
+            found.append(max(seen, key=lambda s: s[1].gain))
     # Of two that are the same force the damper's own comes first, before an error of the rig.
-    found.sort(key=lambda c: (-round(c.gain, 6), c.effect.stage is Stage.SENSOR))
+    found.sort(key=lambda f: (-round(f[1].gain, 6), f[1].effect.stage is Stage.SENSOR))
     found = _one_of_each_kind(found)
-    bar = thresholds.SCREENED_GAIN * found[0].gain if found else 0.0
+    bar = thresholds.SCREENED_GAIN * found[0][1].gain if found else 0.0
     # What feeds the force back can be worth nothing near the present fit and all of it elsewhere.
     return [
-        c for i, c in enumerate(found)
+        (view, c) for i, (view, c) in enumerate(found)
         if i < thresholds.SCREENED_LEAST or c.gain > bar
         or isinstance(c.effect.slot, SeriesSlot | FeedbackSlot)
     ]  # fmt: skip
@@ -125,12 +141,14 @@ def _additions(parent: Hypothesis, candidates: Sequence[Effect]) -> Iterator[Eff
             yield effect
 
 
-def _one_of_each_kind(candidates: Sequence[Candidate]) -> list[Candidate]:
+def _one_of_each_kind(
+    seen: Sequence[tuple[Hypothesis, Candidate]],
+) -> list[tuple[Hypothesis, Candidate]]:
     """Of those that no force data can tell apart the first; the others are fitted in its place."""
-    kept: list[Candidate] = []
-    for c in candidates:
-        if not any(c.effect.name in k.effect.equivalents for k in kept):
-            kept.append(c)
+    kept: list[tuple[Hypothesis, Candidate]] = []
+    for view, c in seen:
+        if not any(c.effect.name in k.effect.equivalents for _, k in kept):
+            kept.append((view, c))
     return kept
 
 

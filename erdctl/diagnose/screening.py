@@ -23,7 +23,9 @@ from erdctl.estimate.linearisation import jacobian
 from erdctl.estimate.onsets import profile
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
-from erdctl.model.slots import TermSlot, Values
+from erdctl.model.slots import ChannelSlot, MotionSlot, SeriesSlot, TermSlot, Values
+
+CARRYING = (MotionSlot, SeriesSlot, ChannelSlot)  # what an added force acts behind, or through
 
 
 @dataclass(frozen=True)
@@ -96,16 +98,40 @@ class Screen:
 
     def _smooth(self, effect: Effect) -> Candidate | None:
         """What changes the force in proportion to its sizes, all else of it at its start."""
-        signals = self.problem.block.signals
         start = {q.symbol: q.start for q in effect.quantities}
         sizes = effect.sizes
         try:
-            rows = [*effect.added(signals, start), *self._slopes(effect, start)]
+            rows = [*self._added(effect, start), *self._slopes(effect, start)]
         except IncompatibleEffects:
             return None
         gain, found = self._taken(rows, [q.low for q in sizes], [q.high for q in sizes])
         start |= {q.symbol: float(v) for q, v in zip(sizes, found, strict=True)}
         return Candidate(effect, gain, ({effect.key(s): v for s, v in start.items()},))
+
+    def _added(self, effect: Effect, guess: Values) -> Array:
+        """(k, n) what a unit of each amplitude of an effect changes in the recorded force [N].
+
+        It acts on the motion that the parent's effects leave the piston, and goes through their
+        springs and their force channel.
+        """
+        signals = self.problem.block.signals
+        rows = effect.added(signals, guess)
+        if not (len(rows) and any(isinstance(e.slot, CARRYING) for e in self.parent.effects)):
+            return rows
+        model = Model((*self.parent.effects, effect))
+        names = [effect.key(q.symbol) for q in effect.amplitudes]
+        values = {**self.parent.values, **effect.off, **dict.fromkeys(names, 0.0)}
+        values |= {effect.key(s): v for s, v in guess.items()}
+        if model.separable:
+            columns = model.columns(signals, values)
+            return columns[[model.linear.index(name) for name in names]]
+        bare = model.force(signals, values)
+        step = thresholds.ADDED_STEP * float(np.ptp(self.problem.block.force))
+        out = np.empty_like(rows)
+        for name, row, added in zip(names, out, rows, strict=True):
+            size = step / max(float(np.abs(added).max()), 1e-300)
+            row[:] = (model.force(signals, {**values, name: size}) - bare) / size
+        return out
 
     def _slopes(self, effect: Effect, start: dict[str, float]) -> list[Array]:
         """(n,) slopes of the force by the sizes that are no amplitudes."""
@@ -125,7 +151,7 @@ class Screen:
         A nonlinear effect can only be more or less what its start says: its amount is not negative.
         """
         signals = self.problem.block.signals
-        rows = list(effect.added(signals, guess))
+        rows = list(self._added(effect, guess))
         low = [-np.inf if q.low < 0 else 0.0 for q in effect.amplitudes]
         if not isinstance(effect.slot, TermSlot):
             model = Model((*self.parent.effects, effect))

@@ -75,7 +75,11 @@ def search(
     untested : effects that the log cannot show, which are no candidates but may be look-alikes
     """
     base = _base(problem, given, executor)
-    x = Exploration(problem, base, Explored([base]), executor)
+    # One evaluation is the start itself.
+    told = (
+        None if given is None else fit_hypothesis(problem, given.model.effects, [given.values], 1)
+    )
+    x = Exploration(problem, base, Explored([base]), executor, told)
     best, singles = _forward_selection(x, base, candidates, most, seed)
     if misfit_is_left(best, seed):
         alone = best

@@ -298,6 +298,10 @@ BASIS = 1e-4
 # Origin: the rounding of a one-sided difference is a hundred-millionth of that.
 SMOOTH_STEP = 1e-4
 
+# Step of an added force that acts behind a spring, as a part of the range of the force.
+# Origin: what is worth a name is as large; at a turn a spring answers a small friction otherwise.
+ADDED_STEP = 0.03
+
 # --- learned laws -------------------------------------------------------------------------------
 
 # Knots of a curve that is looked at, and the part of the samples beyond its ends; how many there

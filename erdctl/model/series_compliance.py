@@ -109,7 +109,7 @@ def _moved(
                 Y * sign[branch, high], friction[branch, high],
             )  # fmt: skip
         slow, fast = grid[low], grid[high]
-        if half > 0.0:
+        if half > 0.0 and span > 0.0:
             # The spring bends where it loses or takes up its play, and is far stiffer than the
             # damper beyond: H is straight on either side, not across.
             for side in range(2):

@@ -6,8 +6,11 @@ independent simulation (`erdctl.plant`) says what it would add to the force on t
 motion and duty, which is added to what was measured, noise, misfit and all. An effect of the force
 channel, as an average or a delay, is applied to what was measured itself.
 
-    size = rms of what the model cannot absorb of the added force / local noise
+    size = rms of what the model, refitted, does not absorb of the added force / local noise
     local noise^2 = mean of (what the diagnosis left)^2, weighted by the square of that force
+
+The strength for a size is sought with a model that absorbs to first order, and then with refits:
+a large friction bends a shear thinning until most of what the first order leaves is absorbed.
 
 Against it stand nulls: the recording with nothing added but what was left of it turned over, group
 by group at random, so that a name is chance. What is asked is which effects are named, so no
@@ -16,7 +19,7 @@ diagnosis learns laws.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import exp, log
 from zlib import crc32
@@ -26,10 +29,11 @@ import numpy as np
 from erdctl.core.blocks import thinned
 from erdctl.core.errors import ErdctlError, UsageProblem
 from erdctl.core.progress import Progress
-from erdctl.core.recording import DIRECTIONS, Recording
+from erdctl.core.recording import DIRECTIONS, Array, Recording
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.detectable import Injection
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
+from erdctl.diagnose.hypothesis import fit_hypothesis
 from erdctl.effects import catalogue
 from erdctl.model.paper import QUANTITIES
 from erdctl.model.parameters import Parameters
@@ -42,6 +46,8 @@ from erdctl.prove.score import Found, HiddenEffect, matches
 MOST = 6  # effects in one diagnosis
 CLOSE = 0.03  # of the logarithm of a size
 STEPS = 16  # of the search for a strength
+REFIT_CLOSE, REFITS = 0.05, 6  # the same where each step is a fit
+FAR = 0.15  # of the logarithm of a size, from which on an effect is not of that size
 
 
 @dataclass(frozen=True)
@@ -152,6 +158,8 @@ class Hiding:
         self.stage = with_all(self.stage, laws)
         self.injection = Injection(host.found.problem, best)
         self.rest = best.residual
+        block = host.found.problem.block
+        self.force = float(np.sqrt(np.average(block.force**2, weights=block.weight)))
 
     def trials(self, name: str, sizes: Sequence[float]) -> list[Trial]:
         """An effect hidden in each of some sizes."""
@@ -193,33 +201,62 @@ class Hiding:
     def _sought(
         self, twin: Twin, shape: Mapping[str, float], size: float, at: float
     ) -> tuple[Trial, float]:
-        """An effect as strong as it must be for a size, by halves of a bracket and secants."""
+        """An effect as strong as it must be for a size: to first order, then by refits."""
+        rough = self._nearest(twin, shape, size, at, self.injection.beyond, STEPS, CLOSE)
+        at = rough[2]
+        off, trial, at = self._nearest(twin, shape, size, at, self._refitted, REFITS, REFIT_CLOSE)
+        if off > FAR:
+            nearest = f"the nearest is {trial.size:.2g}"
+            trial = replace(trial, skipped=f"not {size:g} times the noise on this log: {nearest}")
+        elif trial.force > self.force:
+            much = f"{trial.force:.3g} N rms where the log has {self.force:.3g} N"
+            trial = replace(trial, skipped=f"it would be another damper: {much}")
+        return trial, at
+
+    def _nearest(
+        self, twin: Twin, shape: Mapping[str, float], size: float, at: float,
+        beyond: Callable[[Array], Array], steps: int, close: float,
+    ) -> tuple[float, Trial, float]:  # fmt: skip
+        """What comes nearest to a size, by halves of a bracket and secants: by how much it is off,
+        itself, and the logarithm of its strength.
+
+        beyond : (n,) what is not absorbed of a force (n,)
+        """
         low, high = log(twin.low), log(twin.high)
         best: tuple[float, Trial, float] | None = None
-        for _ in range(STEPS):
-            trial = self._measured(twin, shape, exp(at), size)
+        for _ in range(steps):
+            trial = self._measured(twin, shape, exp(at), size, beyond)
             off = log(max(trial.size, 1e-12) / size)
             if best is None or abs(off) < best[0]:
                 best = abs(off), trial, at
-            if abs(off) < CLOSE or high - low < 1e-3:
+            if abs(off) < close or high - low < 1e-3:
                 break
             low, high = (low, at) if off > 0.0 else (at, high)
             following = at - off
             at = following if low < following < high else 0.5 * (low + high)
         assert best is not None
-        off, trial, at = best
-        if off > 5 * CLOSE:
-            nearest = f"the nearest is {trial.size:.2g}"
-            trial = replace(trial, skipped=f"not {size:g} times the noise on this log: {nearest}")
-        return trial, at
+        return best
 
-    def _measured(self, twin: Twin, shape: Mapping[str, float], s: float, wanted: float) -> Trial:
-        """What an effect of a strength is on this log."""
+    def _refitted(self, added: Array) -> Array:
+        """(n,) what the log's own model does not absorb of a force (n,) when it is fitted again."""
+        problem, best = self.host.found.problem, self.host.found.selection.best
+        block = problem.block._replace(force=problem.block.force + added)
+        again = fit_hypothesis(
+            replace(problem, block=block), best.effects, [best.values],
+            record_effects=best.record_effects,
+        )  # fmt: skip
+        return again.residual - self.rest
+
+    def _measured(
+        self, twin: Twin, shape: Mapping[str, float], s: float, wanted: float,
+        absorbed: Callable[[Array], Array],
+    ) -> Trial:  # fmt: skip
+        """What an effect of a strength is on this log, of whose force a model absorbs some."""
         added = self.stage.added(twin, s, shape)
         r = self.host.recording
         here = _thinned(replace(r, force=added), self.host.every).force
         assert here is not None
-        beyond = self.injection.beyond(here)
+        beyond = absorbed(here)
         weight = self.host.found.problem.block.weight
         energy = float(np.dot(weight, beyond**2))
         local = float(np.sqrt(np.dot(weight, (beyond * self.rest) ** 2) / max(energy, 1e-300)))

@@ -76,3 +76,11 @@ def test_play_in_its_joint_equals_an_ode_solver(s_m: float, duty: float, rate: f
     settled = s.t > 0.2
     assert np.sqrt(np.mean(error[settled] ** 2)) < 0.02 * np.ptp(expected)
     assert np.quantile(error[settled], 0.8) < 0.01 * np.ptp(expected)
+
+
+def test_a_rod_that_turns_at_a_sample_has_a_leg_of_no_length() -> None:
+    xdot = np.array([0.05, 0.03, -1e-20, -0.03, -0.05, -1e-20, 0.05])
+    model = Model((get("backlash"), get("mount_compliance")))
+    s = signals(xdot, x=np.cumsum(xdot) * 1e-3, step=1e-3)
+    found = model.force(s, PLAIN | {"backlash.g": 2e-5, "mount_compliance.s_m": 1e-6})
+    assert np.isfinite(found).all()

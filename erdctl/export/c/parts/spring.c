@@ -130,7 +130,7 @@ static void advance(const State *st, Spring *b, const Joint *to, real mean, real
         slow = st->grid[low];
         fast = st->grid[high];
         /* The spring bends where it loses or takes up its play: straight on either side. */
-        for (side = 0; to->half > K(0.0) && side < 2; side++) {
+        for (side = 0; to->half > K(0.0) && span > K(0.0) && side < 2; side++) {
             real edge = side == 0 ? to->half : -to->half, u = way * (e - edge) / span, w;
 
             if (!(u > slow && u < fast))
