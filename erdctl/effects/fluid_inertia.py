@@ -5,13 +5,14 @@
 d2x/dt2 : (n,) acceleration [m/s^2]
 m : mass [kg], m >= 0, off at 0; that of the fluid in a duct counts with the square of the ratio
 of piston to duct area
-A fit, which has the whole log, takes the slope of xdot within 20 ms each way (`Signals.xddot`,
-99.9 % of the acceleration at 7 Hz). What goes on sample by sample, `simulate` as well as C, has the
-past alone: there a filter of fourth order with a memory T of 2.5 ms takes the slope of a cubic
-through it: with q = T s / (1 + T s) that is (q + q^2 + q^3 - 3 q^4) / T, as s = (q + q^2 ...) / T,
-without what would follow the last sample at once. Of a sine it gives 0.2 % too much at 7 Hz, 0.8 at
-10 and 9 at 20; noise of xdot of 2 mm/s at 1 kHz becomes 0.9 m/s^2, a third of what the slope of a
-step has. With steps above 5 ms it becomes that slope, half a step late.
+A fit, which has the whole log, takes the slope of xdot within 20 ms each way, or less where noise
+lets it (`Signals.xddot`, 99.9 % of the acceleration at 7 Hz at least). What goes on sample by
+sample, `simulate` as well as C, has the past alone: there a filter of fourth order with a memory T
+of 2.5 ms takes the slope of a cubic through it: with q = T s / (1 + T s) that is (q + q^2 + q^3 - 3
+q^4) / T, as s = (q + q^2 ...) / T, without what would follow the last sample at once. Of a sine it
+gives 0.2 % too much at 7 Hz, 0.8 at 10 and 9 at 20; noise of xdot of 2 mm/s at 1 kHz becomes 0.9
+m/s^2, a third of what the slope of a step has. With steps above 5 ms it becomes that slope, half a
+step late.
 Valid below about 20 Hz. At one frequency m cannot be distinguished from k_nom, as then
 d2x/dt2 = -omega^2 x.
 Check: m = 2 kg, xdot = 0.5 t m/s gives 1 N.

@@ -60,7 +60,10 @@ class Finer(NamedTuple):
         warmth = s.temperature
         if warmth is not None:
             warmth = np.interp(place, np.arange(len(s)), warmth)
-        return cls(s, Signals(t, x, xdot, duty, step, starts, temperature=warmth), rows)
+        fine = Signals(
+            t, x, xdot, duty, step, starts, temperature=warmth, logged_step=s.typical_step
+        )
+        return cls(s, fine, rows)
 
     def force(self, model: Model, values: Values) -> Array:
         """(n,) force at the log's samples [N]."""
