@@ -190,8 +190,9 @@ class Signals:
         neighbours of a sample. 0 in a record of one sample.
         Source: A. Savitzky, M. J. E. Golay, Analytical Chemistry 36 (1964) 1627-1639.
         """
-        slope = self._slope_of_lines()
-        step = self.common_step
+        if self.sampled and np.array_equal(self.xdot, self.sampled[0].xdot[self.sampled[1]]):
+            return self.sampled[0].xddot[self.sampled[1]]  # not of what lies farther apart
+        slope, step = self._slope_of_lines(), self.common_step
         if step is None or round(HALF_CUBIC / step) < 2:
             return slope
         most = round(HALF_CUBIC / step)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from made import signals, sine, unit_forces
@@ -52,6 +54,17 @@ def test_a_stroke_that_turns_fast_has_its_whole_acceleration() -> None:
     slope = signals(speed, t=t).xddot[inner]
     expected = 0.5 * (exact[inner] + exact[51:-49])  # a difference lies half a step before
     assert np.dot(slope, expected) / np.dot(expected, expected) == pytest.approx(1.0, abs=0.01)
+
+
+def test_some_of_the_samples_have_the_acceleration_of_all() -> None:
+    s = sine(7.0, 0.01, 2.0, 500.0)
+    rows = np.arange(0, 1000, 10)
+    some = replace(s, t=s.t[rows], x=s.x[rows], xdot=s.xdot[rows], duty=s.duty[rows],
+                   step=np.append(np.full(99, 0.02), 0.0), starts=np.array([0, 100]),
+                   sampled=(s, rows))  # fmt: skip
+    assert (some.xddot == s.xddot[rows]).all()
+    moved = some.with_motion(some.x, 0.5 * some.xdot)
+    assert np.abs(moved.xddot).max() < 0.6 * np.abs(some.xddot).max()
 
 
 def test_noise_is_averaged() -> None:
