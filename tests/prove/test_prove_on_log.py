@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import jsonschema
+import numpy as np
 import pandas as pd
 import pytest
 from rig import campaign, noisy
@@ -65,6 +66,17 @@ def test_a_large_effect_is_found_and_nothing_is_not(
     (found,) = document["summary"]["effects"]
     assert found["size"] == 2.0
     assert found["parameters"] == large["parameters"]
+
+    # The paper's model absorbs to first order what it absorbs at all.
+    hiding = on_log.Hiding(diagnosed[0])
+    s = diagnosed[0].found.problem.block.signals
+    rubs = 2.0 * np.sign(s.xdot)
+    first, again = (float(np.std(f(rubs))) for f in (hiding.injection.beyond, hiding._refitted))
+    assert again == pytest.approx(first, rel=0.05)
+    hiding.force = 0.01
+    (trial,) = hiding.trials("quadratic_damping", [2.0])
+    assert trial.skipped is not None
+    assert "another damper" in trial.skipped
 
     # What is kept is not done again: an outcome that was changed there comes back changed.
     (file,) = kept.glob("quadratic_damping-*.json")
