@@ -122,8 +122,8 @@ class Screen:
         names = [effect.key(q.symbol) for q in effect.amplitudes]
         values = {**self.parent.values, **effect.off, **dict.fromkeys(names, 0.0)}
         values |= {effect.key(s): v for s, v in guess.items()}
-        if model.separable:
-            columns = model.columns(signals, values)
+        if model.separable or not effect.of_speed:  # what knows more than that acts beside a spring
+            columns = model.prepare(signals, values).columns()
             return columns[[model.linear.index(name) for name in names]]
         bare = model.force(signals, values)
         step = thresholds.ADDED_STEP * float(np.ptp(self.problem.block.force))
