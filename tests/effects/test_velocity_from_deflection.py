@@ -63,3 +63,9 @@ def test_slopes_of_a_smooth_chirp_do_not_follow_what_is_late() -> None:
 
     assert lag(logged) == pytest.approx(late, rel=0.1)
     assert abs(lag(better)) < 0.25 * late
+
+
+def test_the_first_and_the_last_sample_go_on_as_fast_as_their_neighbours_say() -> None:
+    x, true, logged = record(late=0.004, noise=0.0)
+    better = velocity_noise(signals(logged, x=x, step=1 / 400.0), {"w": 1.0}).xdot
+    assert (np.abs(better - true) < 0.1 * np.abs(logged - true).max())[[0, -1]].all()

@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import jsonschema
 import numpy as np
 import pandas as pd
 import pytest
+from dampers import damper
 from rig import campaign, noisy
 from typer.testing import CliRunner
 
 from erdctl.cli.app import build
+from erdctl.diagnose.detectable import Injection
+from erdctl.diagnose.hypothesis import fit_hypothesis
+from erdctl.diagnose.problem import prepare
+from erdctl.diagnose.record_effects import NONE_VARY
 from erdctl.prove import on_log
 from erdctl.prove.on_log import Host, Trial, hideable
 from erdctl.prove.on_log_document import json_schema, line, tables
@@ -114,3 +121,22 @@ def test_found_from_the_size_from_which_all_larger_are() -> None:
     assert skipped[2] == [["b", "is in the log already"]]
     assert "found no" in line(trials[1])
     assert "nothing hidden" in line(trials[-1])
+
+
+def test_a_size_is_what_a_model_leaves_that_may_bend() -> None:
+    """A shear thinning takes up more of a large friction than its slopes say."""
+    given = damper("shear_thinning", n=0.3)
+    clean = campaign(100.0, 6.0)
+    force = given.model.force(prepare(clean, NONE_VARY).block.signals, given.values)
+    problem = prepare(noisy(replace(clean, force=force), 5, 0.2), NONE_VARY)
+    best = fit_hypothesis(problem, given.model.effects, [given.values])
+    hiding = object.__new__(on_log.Hiding)
+    found = SimpleNamespace(problem=problem, selection=SimpleNamespace(best=best))
+    hiding.host, hiding.rest = SimpleNamespace(found=found), best.residual  # type: ignore[assignment]
+    rubs = 15.0 * problem.block.signals.sign
+    weight = problem.block.weight
+    first, again = (
+        float(np.sqrt(np.average(f(rubs) ** 2, weights=weight)))
+        for f in (Injection(problem, best).beyond, hiding._refitted)
+    )
+    assert again < 0.8 * first
