@@ -21,7 +21,7 @@ from erdctl.diagnose.carry_over import carries_over_as_well, to_other_motions, t
 from erdctl.diagnose.companion_effects import companion_sets, joint_task
 from erdctl.diagnose.comparison import compare_alike, critical_of, ranked
 from erdctl.diagnose.executor import Executor, Task
-from erdctl.diagnose.form_error import beyond_form_error
+from erdctl.diagnose.form_error import beyond_form_error, is_only_form
 from erdctl.diagnose.forward_step import Exploration, Explored, forward_step, key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.levels_of_records import not_of_records
@@ -95,7 +95,7 @@ def search(
     best = second_pass(x, best, most)
     best = as_good_as_explored(x, best)
     best = to_other_motions(x, best)
-    best = beyond_form_error(x, best)
+    best = beyond_form_error(x, best, candidates)
     alike: dict[str, tuple[tuple[str, Hypothesis], ...]] = {}
     for effect in x.added(best):
         found = look_alikes(x, best, effect, candidates, singles, untested)
@@ -106,7 +106,7 @@ def search(
             f for f in found
             if f[0] not in key_of(untested) and is_preferred(problem, f[1], best)
             and compare_alike(problem, rest, f[1]).significant
-            and carries_over_as_well(x, f[1], best)
+            and carries_over_as_well(x, f[1], best) and not is_only_form(x, best, f[1])
         ]  # fmt: skip
         if preferred:
             name, first = preferred[0]
@@ -211,11 +211,15 @@ def _base(problem: Problem, given: Parameters | None, executor: Executor) -> Hyp
     """The model before any effect is added, from fresh starts and from the given values."""
     name = "the paper's model" if given is None else "the given model"
     executor.progress("base", part_of(name, 1, 1))
-    fresh = [fresh_start(*thresholds.FRESH), fresh_start(*thresholds.FRESH_SECOND)]
     if given is None:
-        return fit_hypothesis(problem, (), fresh)
-    starts = [*({**given.values, **f} for f in fresh), given.values]
-    return fit_hypothesis(problem, given.model.effects, starts)
+        return fit_hypothesis(problem, (), base_starts({})[:-1])
+    return fit_hypothesis(problem, given.model.effects, base_starts(given.values))
+
+
+def base_starts(given: Mapping[str, float]) -> list[dict[str, float]]:
+    """Where the fits of a model with given values begin before any effect is added."""
+    fresh = fresh_start(*thresholds.FRESH), fresh_start(*thresholds.FRESH_SECOND)
+    return [*({**given, **f} for f in fresh), dict(given)]
 
 
 def _replaces(problem: Problem, best: Hypothesis, joint: Hypothesis) -> bool:

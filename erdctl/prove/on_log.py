@@ -34,6 +34,7 @@ from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.detectable import Injection
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
 from erdctl.diagnose.hypothesis import fit_hypothesis
+from erdctl.diagnose.search import base_starts
 from erdctl.effects import catalogue
 from erdctl.model.paper import QUANTITIES
 from erdctl.model.parameters import Parameters
@@ -238,11 +239,14 @@ class Hiding:
         return best
 
     def _refitted(self, added: Array) -> Array:
-        """(n,) what the log's own model does not absorb of a force (n,) when it is fitted again."""
+        """(n,) what the log's own model does not absorb of a force (n,) when it is fitted again.
+
+        From all starts of a diagnosis: one search may be stuck with more than a diagnosis leaves.
+        """
         problem, best = self.host.found.problem, self.host.found.selection.best
         block = problem.block._replace(force=problem.block.force + added)
         again = fit_hypothesis(
-            replace(problem, block=block), best.effects, [best.values],
+            replace(problem, block=block), best.effects, base_starts(best.values),
             record_effects=best.record_effects,
         )  # fmt: skip
         return again.residual - self.rest
