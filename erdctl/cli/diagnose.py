@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from erdctl.diagnose.diagnosis import Diagnosis
+    from erdctl.model.effect import Effect
     from erdctl.model.parameters import Parameters
 
 
@@ -229,7 +230,7 @@ def _show(found: Diagnosis) -> None:
     from erdctl.diagnose.learning.words import law_text
     from erdctl.diagnose.wording import finding_text, record_values, remaining_text, unseen_text
     from erdctl.model.corrected_equation import corrected_equation
-    from erdctl.report.readable import estimate, headline, largest, number, percent_of, with_unit
+    from erdctl.report.readable import headline, largest, number, percent_of, with_unit
     from erdctl.report.text import say, table
 
     def with_error(value: float, error: float | None) -> str:
@@ -272,22 +273,31 @@ def _show(found: Diagnosis) -> None:
         own = {q.symbol: known.estimates[effect.key(q.symbol)] for q in effect.quantities}
         said = headline(effect, {symbol: e.value for symbol, e in own.items()})
         say(f"{said}: {finding_text(finding)}", effect.name)
-        for q in effect.quantities:
-            e = own[q.symbol]
-            said = estimate(e.value, e.unit, e.stderr, at_bound=e.at_bound, within=e.within)
-            say(f"  {q.symbol} = {said}  ({q.title})", effect.name)
+        _say_parameters(effect, known, effect.name)
     if found.findings:
         for line in corrected_equation([f.effect for f in found.findings]):
             say(line, "corrected")
     for law in found.learned.laws if found.learned is not None else ():
         say(law_text(law), "learned")
         say(f"  {law.law.equation}", "learned")
-        for q in law.finding.effect.quantities:
-            e = known.estimates[law.finding.effect.key(q.symbol)]
-            said = estimate(e.value, e.unit, e.stderr, at_bound=e.at_bound, within=e.within)
-            say(f"  {q.symbol} = {said}  ({q.title})", "learned")
+        _say_parameters(law.finding.effect, known, "learned")
     for unseen in found.unseen:
         say(unseen_text(unseen), "unseen")
     for region in found.mismatch:
         say(region.text, "where")
     say(remaining_text(found), "remains")
+
+
+def _say_parameters(effect: Effect, known: Parameters, what: str) -> None:
+    """An effect's parameters, and why any of them has no value."""
+    from erdctl.report.readable import estimate
+    from erdctl.report.text import say
+
+    own = {q: known.estimates[effect.key(q.symbol)] for q in effect.quantities}
+    for q, e in own.items():
+        said = estimate(e.value, e.unit, e.stderr, at_bound=e.at_bound, within=e.within)
+        if e.value is None:
+            said += f", {estimate(e.assumed, e.unit)} in simulations"
+        say(f"  {q.symbol} = {said}  ({q.title})", what)
+    for reason in dict.fromkeys(e.reason for e in own.values() if e.reason):
+        say(f"  not identified: {reason}", what)

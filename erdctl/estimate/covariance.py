@@ -24,6 +24,7 @@ class Fit:
     flat : groups of free parameters along which the data do not change the cost at all
     intervals : 95 %, of parameters that the cost is no parabola of, or that lie at a bound
     level_errors : (k, r) of what each record has of its own, where a fit has that
+    jumps : why none of the free parameters is told, where the force jumps with them
     """
 
     model: Model
@@ -38,6 +39,7 @@ class Fit:
     flat: tuple[tuple[str, ...], ...] = ()
     intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     level_errors: Array | None = None
+    jumps: str | None = None
 
     @property
     def stderr(self) -> dict[str, float]:
@@ -81,7 +83,8 @@ def estimates(found: Fit, reasons: Mapping[str, str]) -> dict[str, Estimate]:
     reasons : why, by name
     """
     errors, out = found.stderr, {}
-    reasons = {**together(found), **reasons}
+    jump = {} if found.jumps is None else dict.fromkeys(found.free, found.jumps)
+    reasons = {**together(found), **jump, **reasons}
     for name, q in found.model.quantities.items():
         value, reason, error = found.values[name], reasons.get(name), errors.get(name)
         bound = q.bound_at(value, error) if name in errors or name in found.intervals else None

@@ -9,7 +9,7 @@ import numpy as np
 
 from erdctl.core.blocks import Block
 from erdctl.core.recording import Array
-from erdctl.estimate import own_levels
+from erdctl.estimate import jumps, own_levels
 from erdctl.estimate.autoregressive import ColouredNoise
 from erdctl.estimate.covariance import Fit
 from erdctl.estimate.finer import Finer
@@ -114,10 +114,11 @@ def assess(
         evaluations=evaluations,
         converged=converged,
         flat=_flat(normal, free),
+        jumps=jumps.REASON if jumps.slips(model, blocks, finer, values, free) else None,
     )
     return (
         with_intervals(found, blocks, finer, np.diag(inverse) * rough**2, ends, held)
-        if has_effects
+        if has_effects and found.jumps is None
         else found
     )
 

@@ -114,7 +114,8 @@ def _parameters(effect: Effect, corrected: Parameters) -> dict[str, Any]:
         e = corrected.estimates[effect.key(symbol)]
         bound = {"at_bound": True} if e.at_bound else {}
         ends = {"interval": list(e.within)} if e.within else {}
-        return {"value": e.value, "unit": e.unit, "stderr": e.stderr, **bound, **ends}
+        why = {} if e.reason is None else {"assumed": e.assumed, "reason": e.reason}
+        return {"value": e.value, "unit": e.unit, "stderr": e.stderr, **bound, **ends, **why}
 
     return {q.symbol: value(q.symbol) for q in effect.quantities}
 

@@ -273,6 +273,8 @@ class Prepared:
 
     def _laws(self, values: Values, grid: Array) -> tuple[Array, Array, Array]:
         """Viscous shape, sign law and friction on a grid of speeds, (2, m) each: up and down."""
+        from erdctl.model.series_compliance import level_beyond
+
         zero = np.zeros(2 * len(grid))
         speeds = np.concatenate([grid, -grid])
         s = Signals(zero, zero, speeds, zero, zero, np.array([0, len(speeds)]))
@@ -301,7 +303,7 @@ class Prepared:
                 factors = scale(s, e.local(values))
                 viscous = viscous * factors.get("viscous", one).reshape(2, -1)
                 sign = sign * factors.get("yield", one).reshape(2, -1)
-        return viscous, sign, friction.reshape(2, -1)
+        return viscous, level_beyond(sign), level_beyond(friction.reshape(2, -1))
 
 
 def multiplied(a: Factors, b: Factors) -> dict[str, Array]:

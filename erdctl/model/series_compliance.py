@@ -37,6 +37,21 @@ def speed_grid(fastest: float) -> Array:
     return np.geomspace(1e-7, 4.0 * max(fastest, 1e-3), NODES)
 
 
+def level_beyond(law: Array) -> Array:
+    """A law (2, m) on a grid that goes on as it is beyond it where it falls there.
+
+    Slower than a spring lets the piston slip, falling friction still falls; on its last line it
+    would turn round, and drive the damper ever faster.
+    Check:
+    >>> level_beyond(np.array([[3.0, 2.0], [-1.0, -2.0]])).tolist()
+    [[3.0, 3.0], [-1.0, -2.0]]
+    """
+    out = law.copy()
+    falls = np.abs(law[:, -1]) < np.abs(law[:, -2])
+    out[falls, -1] = law[falls, -2]
+    return out
+
+
 @njit(cache=True)
 def _held(e: float, half: float, s: float) -> float:
     """Force of the spring at a stretch e, with a free play of 2 half."""

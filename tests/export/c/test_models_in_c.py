@@ -83,6 +83,19 @@ def test_play_in_the_joint_of_a_stiff_mount_equals_python(s_m: float) -> None:
     assert off.max() <= 1e-9 * np.ptp(expected)
 
 
+@pytest.mark.parametrize("v_s", [0.02, 0.3])
+def test_a_piston_that_slips_equals_python(v_s: float) -> None:
+    """Its speed passes the end of the table, beyond which friction goes on as it is."""
+    found = Model((get("mount_compliance"), get("stribeck_friction")))
+    s = random_motion()
+    own = {"F_k": 5.0, "F_sk": 60.0, "v_s": v_s}
+    values = PAPER | {f"stribeck_friction.{symbol}": v for symbol, v in own.items()}
+    values |= {"mount_compliance.s_m": 1e-6, "compression.c_vis": 5.0, "release.c_vis": 5.0}
+    expected = found.past_alone().force(s, values)
+    off = np.abs(forces(block_of(found, values, s), s) - expected)
+    assert off.max() <= 1e-9 * np.ptp(expected)
+
+
 def packed() -> list[Model]:
     """All effects in as few models as hold those that go together: each costs a compiler's run."""
     groups: list[tuple[Effect, ...]] = []

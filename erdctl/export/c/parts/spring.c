@@ -16,6 +16,13 @@ typedef struct Joint {
     Groups gain;
 } Joint;
 
+/* A law that falls goes on as it is beyond its table: on its last line it would turn round. */
+static void level_beyond(real law[NODES])
+{
+    if (FABS(law[NODES - 1]) < FABS(law[NODES - 2]))
+        law[NODES - 1] = law[NODES - 2];
+}
+
 static void tabulate(State *st)
 {
     Sample s;
@@ -41,6 +48,8 @@ static void tabulate(State *st)
             st->sign_at[way][j] = sign_law(st, &s) * f.yield;
             st->friction_at[way][j] = friction(st, &s);
         }
+        level_beyond(st->sign_at[way]);
+        level_beyond(st->friction_at[way]);
     }
 }
 
