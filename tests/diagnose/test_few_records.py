@@ -107,3 +107,38 @@ def test_levels_that_only_a_slow_amplifier_makes_tell_the_exponent_of_the_field(
         interval = told[name].interval
         assert interval is not None
         assert interval[0] < truth[name] < interval[1]
+
+
+def rubbing(more_at_rest: float, ripple: float) -> Recording:
+    """30 N of friction, more of it at rest by a part, and a force over the stroke by no effect."""
+    t, records = np.arange(2400) / 200.0, []
+    for amplitude in (0.006, 0.012, 0.018):
+        tones = trajectories.sine(1.3, amplitude, 0.3)
+        duty = np.where(t % 2.0 < 1.0, 0.0, 0.5)
+        motion = tones.x(t), tones.velocity(t), duty
+        records.append(recording(t, *motion, f"{amplitude}", tones.velocity_at))
+    r = concatenate(records)
+    assert r.force is not None
+    rubs = 30.0 * np.sign(r.xdot) * (1.0 + more_at_rest * np.exp(-((r.xdot / 0.02) ** 2)))
+    return noisy(replace(r, force=r.force + rubs + ripple * np.sin(r.x / 0.0006)), 3, 0.3)
+
+
+@pytest.mark.parametrize(
+    ("more_at_rest", "ripple", "named"),
+    [
+        (0.05, 4.0, "coulomb_friction"),
+        (0.4, 4.0, "stribeck_friction"),
+        (0.05, 0.0, "stribeck_friction"),
+    ],
+)
+def test_a_richer_form_has_the_name_where_it_takes_more_than_a_form_may_be_off(
+    more_at_rest: float, ripple: float, named: str
+) -> None:
+    """Beside a misfit some richer form always takes a part; where noise is left it is the law."""
+    both = [get("coulomb_friction"), get("stribeck_friction")]
+    found = diagnose(rubbing(more_at_rest, ripple), both, limits=False, learning=False)
+    (finding,) = found.findings
+    assert finding.effect.name == named
+    assert (found.verdict is Verdict.EXPLAINED) is (ripple == 0.0)
+    if named == "coulomb_friction":
+        assert "stribeck_friction" in finding.equivalent
