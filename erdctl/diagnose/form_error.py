@@ -32,6 +32,13 @@ def beyond_form_error(
     """
     if len(x.problem.recording.names) >= thresholds.MANY_RECORDS:
         return best
+    last = None
+    while best is not last:  # a plainer form may leave another effect nothing to do
+        last, best = best, _plainest(x, _without_the_faint(x, best), candidates)
+    return best
+
+
+def _without_the_faint(x: Exploration, best: Hypothesis) -> Hypothesis:
     while len(x.added(best)) > 1:
         taken = [(compare_alike(x.problem, h, best), h) for h in without_each(x, best)]
         least = _form_error(x, best)
@@ -39,7 +46,7 @@ def beyond_form_error(
         if not faint or min(faint)[0] > least:
             break
         best = taken[min(faint)[1]][1]
-    return _plainest(x, best, candidates)
+    return best
 
 
 def is_only_form(x: Exploration, plain: Hypothesis, rich: Hypothesis) -> bool:

@@ -30,11 +30,14 @@ from erdctl.core.blocks import thinned
 from erdctl.core.errors import ErdctlError, UsageProblem
 from erdctl.core.progress import Progress
 from erdctl.core.recording import DIRECTIONS, Array, Recording
+from erdctl.diagnose import thresholds
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.detectable import Injection
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
-from erdctl.diagnose.hypothesis import fit_hypothesis
+from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
+from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.search import base_starts
+from erdctl.diagnose.thin import thinned as samples_of_search
 from erdctl.effects import catalogue
 from erdctl.model.paper import QUANTITIES
 from erdctl.model.parameters import Parameters
@@ -241,15 +244,19 @@ class Hiding:
     def _refitted(self, added: Array) -> Array:
         """(n,) what the log's own model does not absorb of a force (n,) when it is fitted again.
 
-        From all starts of a diagnosis: one search may be stuck with more than a diagnosis leaves.
+        As a diagnosis fits: to the samples of a search first. To all at once, a model whose piston
+        slips behind a spring was stuck with three times of what a diagnosis leaves.
         """
         problem, best = self.host.found.problem, self.host.found.selection.best
-        block = problem.block._replace(force=problem.block.force + added)
-        again = fit_hypothesis(
-            replace(problem, block=block), best.effects, base_starts(best.values),
-            record_effects=best.record_effects,
-        )  # fmt: skip
-        return again.residual - self.rest
+        whole = replace(problem, block=problem.block._replace(force=problem.block.force + added))
+        few = samples_of_search(whole, thresholds.SEARCH_SAMPLES)
+        found = self._fit(few, base_starts(best.values))
+        return self._fit(whole, [found.values, best.values]).residual - self.rest
+
+    def _fit(self, problem: Problem, starts: Sequence[Mapping[str, float]]) -> Hypothesis:
+        """The log's own model fitted to a problem."""
+        best = self.host.found.selection.best
+        return fit_hypothesis(problem, best.effects, starts, record_effects=best.record_effects)
 
     def _measured(
         self, twin: Twin, shape: Mapping[str, float], s: float, wanted: float,

@@ -140,3 +140,32 @@ def test_a_size_is_what_a_model_leaves_that_may_bend() -> None:
         for f in (Injection(problem, best).beyond, hiding._refitted)
     )
     assert again < 0.8 * first
+
+
+def test_a_refit_begins_on_the_samples_of_a_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    """To all samples at once one was stuck with 4,244 N where a diagnosis leaves 1,455 N."""
+    given = damper("coulomb_friction", F_c=5.0)
+    clean = campaign(100.0, 6.0)
+    force = given.model.force(prepare(clean, NONE_VARY).block.signals, given.values)
+    problem = prepare(noisy(replace(clean, force=force), 5, 0.2), NONE_VARY)
+    best = fit_hypothesis(problem, given.model.effects, [given.values])
+    hiding = object.__new__(on_log.Hiding)
+    found = SimpleNamespace(problem=problem, selection=SimpleNamespace(best=best))
+    hiding.host, hiding.rest = SimpleNamespace(found=found), best.residual  # type: ignore[assignment]
+    fits: list[tuple[int, list[float]]] = []
+
+    def watched(problem: Any, effects: Any, starts: Any, **more: Any) -> Any:
+        found = fit_hypothesis(problem, effects, starts, **more)
+        friction = [start["coulomb_friction.F_c"] for start in starts]
+        fits.append((len(problem.block.force), [*friction, found.values["coulomb_friction.F_c"]]))
+        return found
+
+    monkeypatch.setattr(on_log, "fit_hypothesis", watched)
+    monkeypatch.setattr(on_log.thresholds, "SEARCH_SAMPLES", 600)
+    # What is added is friction: all of it is absorbed.
+    beyond = hiding._refitted(3.0 * problem.block.signals.sign)
+    (few, searched), (whole, refitted) = fits
+    assert few < whole == len(problem.block.force)
+    assert searched[-1] == pytest.approx(8.0, abs=0.3)
+    assert refitted[0] == searched[-1]
+    assert float(np.std(beyond)) < 0.05
