@@ -39,6 +39,7 @@ def beyond_form_error(
 
 
 def _without_the_faint(x: Exploration, best: Hypothesis) -> Hypothesis:
+    """A hypothesis without the effects that take no more than the error of a form, but one."""
     while len(x.added(best)) > 1:
         taken = [(compare_alike(x.problem, h, best), h) for h in without_each(x, best)]
         least = _form_error(x, best)
