@@ -18,7 +18,7 @@ from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Recording
 from erdctl.diagnose import scores, thresholds
-from erdctl.diagnose.conditions import few_conditions, one_condition
+from erdctl.diagnose.conditions import cannot_tell, few_conditions
 from erdctl.diagnose.detectable import Detectable, detectable
 from erdctl.diagnose.executor import Executor, executor
 from erdctl.diagnose.findings import Finding, earned, findings, part_taken
@@ -190,7 +190,7 @@ def diagnose(
                 lack_of_fit = lack_of_fit_of(selection.best, seed)
                 fit, record_effects = fit_errors(problem, selection.best)
         left = _matters(problem, selection, lack_of_fit)
-        untold = "one duty and one speed" if selection.named and one_condition(recording) else ""
+        untold = cannot_tell(recording, selection.named)
         more: Learned | None = None
         if learning and left and not (rig.blocking or untold):
             start = searched.base, _on_thin(thin, searched.best, selection.best)

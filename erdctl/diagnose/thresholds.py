@@ -87,6 +87,13 @@ LEAST_RECORDS = 3
 # Origin: the step of a duty that `bench.identifiability` asks for; a speed that a bench holds.
 ONE_DUTY, ONE_SPEED = 0.02, 0.1
 
+# Samples to either side of a turn of the motion, and range of nine tenths of all other speeds over
+# the one in the middle, within which a log has one speed but for its turns.
+# Decides: whether a law of the speed is told.
+# Origin: half of the windows over which velocity is derived, 7 to 17 samples; that of a triangle,
+# with noise, where a sine has 0.8.
+TURNING, ONE_SPEED_BUT_TURNS = 4, 0.2
+
 # Levels of duty and kinds of motion up to which a log cannot tell several effects.
 # Decides: whether two names or more may be `explained`.
 # Origin: the parameters of a law of the duty (k, beta) and of one of the motion (amount, scale),

@@ -12,6 +12,7 @@ import trajectories
 from rig import campaign, noisy, recording
 
 from erdctl.core.recording import Recording, concatenate
+from erdctl.diagnose.conditions import one_speed_but_turns
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
 from erdctl.diagnose.problem import prepare
@@ -142,3 +143,28 @@ def test_a_richer_form_has_the_name_where_it_takes_more_than_a_form_may_be_off(
     assert (found.verdict is Verdict.EXPLAINED) is (ripple == 0.0)
     if named == "coulomb_friction":
         assert "stribeck_friction" in finding.equivalent
+
+
+def test_at_one_speed_but_for_turns_no_law_of_the_speed_is_told(tmp_path: Path) -> None:
+    """Nothing was hidden: what a filter made of the turns of a triangle was `explained`."""
+    found = said(1425050, tmp_path, "shear_thinning", "coulomb_friction")
+    assert found.verdict is not Verdict.EXPLAINED
+    assert found.cannot_tell == "one speed but for turns"
+    estimates = parameters(found).estimates
+    assert not [n for n, e in estimates.items() if e.identified]
+
+
+def test_which_motions_have_one_speed_but_for_turns() -> None:
+    def motion(*speeds: float, window: int = 9) -> Recording:
+        """Triangles, one record a speed, rounded by an average over some samples."""
+        r, parts = at(0.0), []
+        for speed in speeds:
+            v = speed * np.sign(np.sin(2 * np.pi * 1.8 * r.t))
+            v = np.convolve(np.pad(v, window // 2, "edge"), np.full(window, 1 / window), "valid")
+            parts.append(replace(r, x=np.cumsum(v) / 200.0, xdot=v))
+        return concatenate(parts)
+
+    assert one_speed_but_turns(motion(0.05))
+    assert not one_speed_but_turns(motion(0.05, 0.1))
+    assert not one_speed_but_turns(motion(0.05, window=61))
+    assert not one_speed_but_turns(at(0.3))
