@@ -3,7 +3,9 @@
 No damper follows the law of a catalogue to the last per cent. What a strong effect leaves because
 its form is another one by a little is no noise, and some other effect always takes a part of it,
 or a richer form in its own place does: friction that falls with speed that of constant friction.
-Many records that differ show that this does not carry over, see `carry_over`; a few do not.
+Many records that differ show that this does not carry over, see `carry_over`; a few do not. Nor
+does a piston that sticks and slips behind a spring, as friction that falls with speed makes it:
+such a model finds itself some place for its jumps in any log, and no parameter of it is told.
 """
 
 from __future__ import annotations
@@ -26,16 +28,19 @@ def beyond_form_error(
 ) -> Hypothesis:
     """A hypothesis without the effects that take next to nothing of what all take, and of noise.
 
-    In a log of few records only; the one that takes the least goes first, and then what only bends
-    the form of another one.
+    In a log of few records; the one that takes the least goes first, and then what only bends the
+    form of another one. In any log the latter, where the piston slips by it.
     candidates : effects that may stand in the place of a richer one, beside those that were fitted
     """
-    if len(x.problem.recording.names) >= thresholds.MANY_RECORDS:
-        return best
-    last = None
-    while best is not last:  # a plainer form may leave another effect nothing to do
-        last, best = best, _plainest(x, _without_the_faint(x, best), candidates)
+    few, last = _has_few_records(x), None
+    while best is not last and (few or best.slips):
+        # A plainer form may leave another effect nothing to do.
+        last, best = best, _plainest(x, _without_the_faint(x, best) if few else best, candidates)
     return best
+
+
+def _has_few_records(x: Exploration) -> bool:
+    return len(x.problem.recording.names) < thresholds.MANY_RECORDS
 
 
 def _without_the_faint(x: Exploration, best: Hypothesis) -> Hypothesis:
@@ -55,12 +60,12 @@ def is_only_form(x: Exploration, plain: Hypothesis, rich: Hypothesis) -> bool:
 
     Where noise is all that is left the richer form is the right one, however little it takes.
     """
-    if len(x.problem.recording.names) >= thresholds.MANY_RECORDS:
-        return False
     if len(plain.model.quantities) >= len(rich.model.quantities) or not misfit_is_left(rich):
         return False
     gain = compare_alike(x.problem, plain, rich)
-    return gain.before - gain.after <= _form_error(x, rich)
+    if gain.before - gain.after > _form_error(x, rich):
+        return False
+    return _has_few_records(x) or (rich.slips and not plain.slips)
 
 
 def _plainest(x: Exploration, best: Hypothesis, candidates: Sequence[Effect]) -> Hypothesis:

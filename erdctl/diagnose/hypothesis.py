@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -13,6 +14,8 @@ from erdctl.diagnose.as_taken import as_taken, told_by_control
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.record_effects import RecordEffects, estimate
 from erdctl.diagnose.told import as_begun, as_told
+from erdctl.estimate.finer import Finer
+from erdctl.estimate.jumps import slips
 from erdctl.estimate.least_squares import Fitted, at_bound, fit
 from erdctl.estimate.linearisation import jacobian
 from erdctl.model.composed import Model
@@ -76,6 +79,13 @@ class Hypothesis:
         """
         shortest = thresholds.INSTANT * self.problem.block.signals.finest_step
         return {n for n in LAGS if self.values[n] < shortest}
+
+    @cached_property
+    def slips(self) -> bool:
+        """Whether its piston sticks and slips behind a spring, see `erdctl.estimate.jumps`."""
+        block = self.problem.block
+        finer = Finer.of(block.signals)
+        return slips(self.model, [block], [finer], self.values, self.free)
 
     @property
     def score(self) -> float:
