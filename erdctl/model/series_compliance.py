@@ -42,7 +42,7 @@ def level_beyond(law: Array) -> Array:
 
     Slower than a spring lets the piston slip, falling friction still falls; on its last line it
     would turn round, and drive the damper ever faster.
-    Check:
+    Check: 3, 2 falls and becomes 3, 3; -1, -2 grows and stays.
     >>> level_beyond(np.array([[3.0, 2.0], [-1.0, -2.0]])).tolist()
     [[3.0, 3.0], [-1.0, -2.0]]
     """
