@@ -24,6 +24,7 @@ class Measured(TypedDict):
     """An estimate with its standard error, which is null where there is none, as at a bound.
 
     interval : 95 %, where it is not value +- 1.96 stderr: one-sided at a bound, or skew
+    reason, assumed : why there is no value, and what a simulation uses
     """
 
     value: float | None
@@ -31,6 +32,8 @@ class Measured(TypedDict):
     stderr: float | None
     at_bound: NotRequired[bool]
     interval: NotRequired[tuple[float, float]]
+    reason: NotRequired[str]
+    assumed: NotRequired[float | None]
 
 
 class IntervalDocument(TypedDict):
