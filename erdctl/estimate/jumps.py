@@ -43,7 +43,7 @@ def slips(
     These are the paper's and the sizes of effects; a play or a delay, with which contacts and steps
     pass from sample to sample on any log, have intervals by profile.
     """
-    if not any(True for _ in model.of(SeriesSlot)):
+    if not model.of(SeriesSlot):
         return False
     smooth = set(model.linear)
     return any(_jumps(model, blocks, finer, values, name) for name in free if name in smooth)

@@ -38,10 +38,10 @@ def speed_grid(fastest: float) -> Array:
 
 
 def level_beyond(law: Array) -> Array:
-    """A law (2, m) on a grid that goes on as it is beyond it where it falls there.
+    """A law (2, m) on a grid of speeds, so that beyond it what falls goes on as it is there.
 
-    Slower than a spring lets the piston slip, falling friction still falls; on its last line it
-    would turn round, and drive the damper ever faster.
+    A spring lets a piston slip faster than the grid goes. On its last line a friction that falls
+    would turn round there, and drive the piston ever faster.
     Check: 3, 2 falls and becomes 3, 3; -1, -2 grows and stays.
     >>> level_beyond(np.array([[3.0, 2.0], [-1.0, -2.0]])).tolist()
     [[3.0, 3.0], [-1.0, -2.0]]
