@@ -18,9 +18,10 @@ from typer.testing import CliRunner
 
 from erdctl.cli.app import build
 from erdctl.diagnose.detectable import Injection
-from erdctl.diagnose.hypothesis import fit_hypothesis
+from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import prepare
 from erdctl.diagnose.record_effects import NONE_VARY
+from erdctl.model.parameters import Parameters
 from erdctl.prove import on_log
 from erdctl.prove.on_log import Host, Trial, hideable
 from erdctl.prove.on_log_document import json_schema, line, tables
@@ -123,9 +124,8 @@ def test_found_from_the_size_from_which_all_larger_are() -> None:
     assert "nothing hidden" in line(trials[-1])
 
 
-def test_a_size_is_what_a_model_leaves_that_may_bend() -> None:
-    """A shear thinning takes up more of a large friction than its slopes say."""
-    given = damper("shear_thinning", n=0.3)
+def hiding_in(given: Parameters) -> tuple[on_log.Hiding, Hypothesis]:
+    """What hides effects in a log of a damper, and that damper's own fit."""
     clean = campaign(100.0, 6.0)
     force = given.model.force(prepare(clean, NONE_VARY).block.signals, given.values)
     problem = prepare(noisy(replace(clean, force=force), 5, 0.2), NONE_VARY)
@@ -133,6 +133,13 @@ def test_a_size_is_what_a_model_leaves_that_may_bend() -> None:
     hiding = object.__new__(on_log.Hiding)
     found = SimpleNamespace(problem=problem, selection=SimpleNamespace(best=best))
     hiding.host, hiding.rest = SimpleNamespace(found=found), best.residual  # type: ignore[assignment]
+    return hiding, best
+
+
+def test_a_size_is_what_a_model_leaves_that_may_bend() -> None:
+    """A shear thinning takes up more of a large friction than its slopes say."""
+    hiding, best = hiding_in(damper("shear_thinning", n=0.3))
+    problem = best.problem
     rubs = 15.0 * problem.block.signals.sign
     weight = problem.block.weight
     first, again = (
@@ -144,14 +151,8 @@ def test_a_size_is_what_a_model_leaves_that_may_bend() -> None:
 
 def test_a_refit_begins_on_the_samples_of_a_search(monkeypatch: pytest.MonkeyPatch) -> None:
     """To all samples at once one was stuck with 4,244 N where a diagnosis leaves 1,455 N."""
-    given = damper("coulomb_friction", F_c=5.0)
-    clean = campaign(100.0, 6.0)
-    force = given.model.force(prepare(clean, NONE_VARY).block.signals, given.values)
-    problem = prepare(noisy(replace(clean, force=force), 5, 0.2), NONE_VARY)
-    best = fit_hypothesis(problem, given.model.effects, [given.values])
-    hiding = object.__new__(on_log.Hiding)
-    found = SimpleNamespace(problem=problem, selection=SimpleNamespace(best=best))
-    hiding.host, hiding.rest = SimpleNamespace(found=found), best.residual  # type: ignore[assignment]
+    hiding, best = hiding_in(damper("coulomb_friction", F_c=5.0))
+    problem = best.problem
     fits: list[tuple[int, list[float]]] = []
 
     def watched(problem: Any, effects: Any, starts: Any, **more: Any) -> Any:
