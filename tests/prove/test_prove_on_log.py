@@ -6,7 +6,7 @@ import json
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import jsonschema
 import numpy as np
@@ -132,7 +132,7 @@ def hiding_in(given: Parameters) -> tuple[on_log.Hiding, Hypothesis]:
     best = fit_hypothesis(problem, given.model.effects, [given.values])
     hiding = object.__new__(on_log.Hiding)
     found = SimpleNamespace(problem=problem, selection=SimpleNamespace(best=best))
-    hiding.host, hiding.rest = SimpleNamespace(found=found), best.residual  # type: ignore[assignment]
+    hiding.host, hiding.rest = cast("Host", SimpleNamespace(found=found)), best.residual
     return hiding, best
 
 
