@@ -122,7 +122,7 @@ class Screen:
         names = [effect.key(q.symbol) for q in effect.amplitudes]
         values = {**self.parent.values, **effect.off, **dict.fromkeys(names, 0.0)}
         values |= {effect.key(s): v for s, v in guess.items()}
-        if model.separable or not effect.of_speed:  # what knows more than that acts beside a spring
+        if model.separable or not effect.carried:
             columns = model.prepare(signals, values).columns()
             return columns[[model.linear.index(name) for name in names]]
         bare = model.force(signals, values)

@@ -43,7 +43,7 @@ def preyield_elasticity(force: Array, s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="preyield_elasticity",
     stage=Stage.FLUID,
-    slot=YieldSlot(preyield_elasticity),
+    slot=YieldSlot(preyield_elasticity, travel="x_d"),
     title="the yield force rebuilds over a distance after every reversal (Bouc-Wen)",
     equation="x_d dF_y/d|x| + F_y = F_ER sign(xdot)",
     said="{x_d} of travel until the yield force is back",

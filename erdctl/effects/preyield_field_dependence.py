@@ -36,12 +36,16 @@ def preyield_field_dependence(s: Signals, p: Values) -> Array:
     """(n,) in place of sign(xdot) [1]."""
     if p["v_y"] == 0.0:
         return s.sign
+    smooth: Array = np.tanh(np.abs(s.xdot) / (p["v_y"] * slower(s, p))) * s.sign
+    return smooth
+
+
+def slower(s: Signals, p: Values) -> Array:
+    """(n,) v^q [1], by which the speed of yielding is that at full duty."""
     # The duty of a sample acts from then on: what is measured there is of the one before.
     duty = np.concatenate([s.duty[:1], s.duty[:-1]])
     duty[s.starts[:-1]] = s.duty[s.starts[:-1]]
-    yielding = p["v_y"] * np.maximum(duty, FAINT) ** p["q"]
-    smooth: Array = np.tanh(np.abs(s.xdot) / yielding) * s.sign
-    return smooth
+    return np.asarray(np.maximum(duty, FAINT) ** p["q"])
 
 
 def speeds(s: Signals, rest: Array) -> list[dict[str, float]]:
@@ -57,7 +61,7 @@ def speeds(s: Signals, rest: Array) -> list[dict[str, float]]:
 EFFECT = Effect(
     name="preyield_field_dependence",
     stage=Stage.FLUID,
-    slot=SignSlot(preyield_field_dependence),
+    slot=SignSlot(preyield_field_dependence, by=slower),
     title="bi-viscous flow with a pre-yield slope that depends on the field: tanh(xdot / v_y v^q)",
     equation="F_ER sign(xdot) -> F_ER tanh(xdot / (v_y v^q))",
     said="yielding at {v_y} at full duty, and as v^{q} below",
@@ -84,5 +88,6 @@ EFFECT = Effect(
             return s->sign;
         return TANH(FABS(s->xdot) / (p->v_y * POW(FMAX(s->duty0, K(0.01)), p->q))) * s->sign;
         """,
+        by="return POW(FMAX(s->duty0, K(0.01)), p->q);",
     ),
 )  # fmt: skip

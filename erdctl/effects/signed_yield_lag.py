@@ -41,7 +41,7 @@ def signed_yield_lag(force: Array, s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="signed_yield_lag",
     stage=Stage.FLUID,
-    slot=YieldSlot(signed_yield_lag),
+    slot=YieldSlot(signed_yield_lag, time="T_s"),
     title="the lag acts on the signed yield force, which rebuilds after every reversal",
     equation="T_s dF_y/dt + F_y = F_ER sign(xdot)",
     said="{T_s} of lag in the signed yield force",

@@ -41,7 +41,7 @@ def yield_hysteresis(s: Signals, p: Values) -> Array:
 EFFECT = Effect(
     name="yield_hysteresis",
     stage=Stage.FLUID,
-    slot=SignSlot(yield_hysteresis),
+    slot=SignSlot(yield_hysteresis, lead="kappa"),
     title="loop of the yield force: tanh(k_1 x + c_1 xdot), c_1 = 1 / v_y, k_1 = kappa / v_y",
     equation="F_ER sign(xdot) -> F_ER tanh((xdot + kappa x) / v_y)",
     said="yielding at {v_y}, with a loop {kappa} wide",

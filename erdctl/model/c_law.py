@@ -80,6 +80,7 @@ class CLaw:
     code : body of the function that its slot calls; empty where the slot has none (a term)
     force : body of the function that gives its added force [N]; empty if it adds none
     play : body of the function that gives a joint's free play [m]
+    by : body of the function that gives a `SignSlot` its `by` [1], behind a spring
     state : members of its state, reals: a name, or an array with its length, "past[64]"
     past : members of its long memory, arrays too large to be copied for each look ahead
     told : what a program may tell it
@@ -89,6 +90,7 @@ class CLaw:
     code: str = ""
     force: str = ""
     play: str = ""
+    by: str = ""
     state: tuple[str, ...] = ()
     past: tuple[str, ...] = ()
     told: tuple[Told, ...] = ()

@@ -5,7 +5,7 @@ Each raises EffectFailed with the function's file and line, what came back and w
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -70,3 +70,46 @@ def in_words(out: object) -> str:
     if isinstance(out, np.ndarray):
         return f"an array of shape {out.shape}"
     return f"{type(out).__name__} {out!r}"[:80]
+
+
+def added_forces(
+    function: Callable[..., Any], rows: int, s: Signals, p: Mapping[str, float]
+) -> Array:
+    """(k, n) forces at unit amplitudes, as many as the effect has linear parameters."""
+    out = called(function, s, p)
+    if not isinstance(out, np.ndarray) or out.shape != (rows, len(s)):
+        raise EffectFailed(
+            function,
+            f"returned {in_words(out)}, expected {rows} x {len(s)} forces: a row for each linear"
+            " parameter, a column for each sample",
+        )
+    return finite(function, out)
+
+
+def checked_starts(
+    function: Callable[..., Any], symbols: Sequence[str], s: Signals, rest: Array
+) -> list[dict[str, float]]:
+    """Starts of a search as plain numbers, one for each of some symbols."""
+    out = []
+    for start in called(function, s, rest):
+        if not isinstance(start, Mapping) or set(start) != set(symbols):
+            raise EffectFailed(
+                function,
+                f"gave the start {in_words(start)}, expected a number for each of {symbols}",
+            )
+        out.append({symbol: number(function, start[symbol]) for symbol in symbols})
+    if not out:
+        raise EffectFailed(function, "gave no start of a search")
+    return out
+
+
+def checked_most(
+    function: Callable[..., Any], symbols: Sequence[str], s: Signals, force: Array
+) -> dict[str, float]:
+    """Largest values as plain numbers, of some of some symbols."""
+    out = called(function, s, force)
+    if not isinstance(out, Mapping) or not set(out) <= set(symbols):
+        raise EffectFailed(
+            function, f"returned {in_words(out)}, expected numbers for some of {symbols}"
+        )
+    return {symbol: number(function, value) for symbol, value in out.items()}

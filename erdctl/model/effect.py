@@ -13,6 +13,7 @@ from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.c_law import CLaw
+from erdctl.model.checked import added_forces, checked_most, checked_starts
 from erdctl.model.slots import (
     MostFunction,
     Slot,
@@ -20,9 +21,6 @@ from erdctl.model.slots import (
     TermFunction,
     TermSlot,
     Values,
-    added_forces,
-    checked_most,
-    checked_starts,
 )
 
 S = TypeVar("S", bound=Slot)
@@ -174,6 +172,11 @@ class Effect:
             return {}
         found = checked_most(self.most, [q.symbol for q in self.quantities], s, force)
         return {self.key(symbol): value for symbol, value in found.items()}
+
+    @property
+    def carried(self) -> bool:
+        """Whether a spring in series with the whole damper carries its forces."""
+        return self.stage is not Stage.SENSOR
 
     @property
     def shape(self) -> tuple[Quantity, ...]:

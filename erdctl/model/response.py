@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -19,11 +20,8 @@ from erdctl.model.slots import (
     ChannelSlot,
     DrivenSlot,
     FeedbackSlot,
-    ScaleSlot,
     SeriesSlot,
-    SignSlot,
     Values,
-    ViscousSlot,
     YieldSlot,
 )
 
@@ -31,11 +29,13 @@ Factors = Mapping[str, Array]
 
 
 class _Behind(NamedTuple):
-    """What marches behind a spring: (n,) force, stretch and speed, laws on a grid, (n,) factors."""
+    """What marches behind a spring: (n,) force, stretch and speed, forces that the rod's motion
+    makes, laws on a grid, (n,) factors."""
 
     force: Array
     stretch: Array
     speed: Array
+    beside: Array
     grid: Array
     viscous: Array
     friction: Array
@@ -173,7 +173,7 @@ class Prepared:
         for fields in ((self.fields[COMPRESSION], zero), (zero, self.fields[RELEASE])):
             response = self._signed_yield(*fields)
             rows.append(response if factor is None else response * factor)
-        rows += [row for _, row in self.terms()]
+        rows += [row for _, row in self.terms]
         return np.array([self._recorded(row) for row in rows])
 
     def yield_state(self, compression: Array, release: Array) -> Array:
@@ -181,6 +181,7 @@ class Prepared:
         T_c, T_r = pair(self.values, "T_d")
         return paper.yield_force(self.signals, compression, release, T_c, T_r, lags=self.lags)
 
+    @cached_property
     def terms(self) -> Sequence[tuple[str, Array]]:
         """Name and (n,) unit response of every amplitude that an effect adds."""
         return [
@@ -211,25 +212,28 @@ class Prepared:
         return springs
 
     def _outside(self, *, inner: bool) -> Sequence[tuple[str, Array]]:
-        """Terms in parallel with the spring; behind one of all forces are those of speed alone."""
-        inside = {e.key(q.symbol) for e in self.effects if e.of_speed for q in e.amplitudes}
-        return [(name, row) for name, row in self.terms() if not (inner and name in inside)]
+        """Terms in parallel with the spring; one of all forces carries those of the damper."""
+        inside = {e.key(q.symbol) for e in self.effects if e.carried for q in e.amplitudes}
+        return [(name, row) for name, row in self.terms if not (inner and name in inside)]
 
     def _march(
         self, values: Values, factors: Factors, spring: SeriesSlot, compliance: float
     ) -> _Behind:
         """The spring and what moves behind it.
 
-        Forces that do not depend on speed alone act on the recorded motion, outside the spring. A
+        Forces of the damper that do not depend on speed alone are those of the recorded motion. A
         gas law in place of x is moved by the spring as x is: their slopes differ by little there.
         """
-        from erdctl.model.series_compliance import march, speed_grid
+        from erdctl.model.behind_spring import beside, laws, other, refuse, speed_grid
+        from erdctl.model.series_compliance import SpeedLaws, march
 
+        refuse(self.effects)
         s, inner = self.signals, spring.carries is None
         grid = speed_grid(float(np.abs(s.xdot).max()))
-        viscous, sign, friction = self._laws(values, grid)
+        viscous, sign, friction = laws(self.effects, values, grid)
+        held = beside(self.effects, self.terms, values, len(s))
         if not inner:
-            friction = np.zeros_like(friction)
+            friction, held = np.zeros_like(friction), np.zeros_like(held)
         ones = np.ones(len(s))
         gain = {g: factors.get(g, ones) for g in GROUPS}
         u_c, u_r = (f * s_ for f, s_ in zip(self.fields, pair(values, "sigma"), strict=True))
@@ -237,13 +241,14 @@ class Prepared:
         T = [max(T_d, 1e-9) for T_d in pair(values, "T_d")]
         rises, falls = (ones, ones) if self.lags is None else self.lags
         viscous = np.array(pair(values, "c_vis"))[:, None] * viscous
+        by, memory = other(self.effects, values, s)
         force, stretch, v = march(
-            self.gas, s.xdot, s.step, rises, falls, s.starts, s.compressing, s.rests,
-            u_c, u_r,
-            gain["gas"], gain["viscous"], gain["yield"], grid, viscous, sign, friction,
+            self.gas, s.x, s.xdot, s.step, rises, falls, s.starts, s.compressing, s.rests, held,
+            u_c, u_r, by, gain["gas"], gain["viscous"], gain["yield"],
+            SpeedLaws(grid, viscous, sign, friction), memory,
             k[0], k[1], T[0], T[1], compliance, self.gap,
         )  # fmt: skip
-        return _Behind(force, stretch, v, grid, viscous, friction, gain)
+        return _Behind(force, stretch, v, held, grid, viscous, friction, gain)
 
     def _behind_spring(
         self, values: Values, factors: Factors, spring: SeriesSlot, compliance: float
@@ -263,6 +268,7 @@ class Prepared:
             )
             out["gas"] = gas * b.gain["gas"]
             # The yield force is what the rest leaves: at rest, whatever holds the piston.
+            out["other"] = out["other"] + b.beside
             out["yield"] = b.force - out["gas"] - out["viscous"] - out["other"]
         else:
             out["gas"] = self.gas * s.per_direction(*pair(values, "k_nom")) * b.gain["gas"]
@@ -270,40 +276,6 @@ class Prepared:
         for name, row in self._outside(inner=inner):
             out["other"] = out["other"] + values[name] * row
         return out
-
-    def _laws(self, values: Values, grid: Array) -> tuple[Array, Array, Array]:
-        """Viscous shape, sign law and friction on a grid of speeds, (2, m) each: up and down."""
-        from erdctl.model.series_compliance import level_beyond
-
-        zero = np.zeros(2 * len(grid))
-        speeds = np.concatenate([grid, -grid])
-        s = Signals(zero, zero, speeds, zero, zero, np.array([0, len(speeds)]))
-
-        def law(kind: type[ViscousSlot] | type[SignSlot], plain: Array) -> Array:
-            for e in self.effects:
-                if isinstance(e.slot, kind):
-                    if not e.of_speed:
-                        raise IncompatibleEffects(
-                            f"{e.name} cannot act behind a spring: no law of speed alone"
-                        )
-                    plain = e.slot(s, e.local(values))
-            return plain.reshape(2, -1)
-
-        friction = np.zeros(len(speeds))
-        for e in self.effects:
-            if e.of_speed:
-                for q, row in zip(e.amplitudes, e.added(s, e.local(values)), strict=True):
-                    friction += values[e.key(q.symbol)] * row
-        if in_slot(self.effects, YieldSlot):
-            raise IncompatibleEffects("a yield force with memory cannot act behind a spring")
-        one = np.ones(len(speeds))
-        viscous, sign = law(ViscousSlot, speeds), law(SignSlot, np.sign(speeds))
-        for e, scale in in_slot(self.effects, ScaleSlot):
-            if e.of_speed:
-                factors = scale(s, e.local(values))
-                viscous = viscous * factors.get("viscous", one).reshape(2, -1)
-                sign = sign * factors.get("yield", one).reshape(2, -1)
-        return viscous, level_beyond(sign), level_beyond(friction.reshape(2, -1))
 
 
 def multiplied(a: Factors, b: Factors) -> dict[str, Array]:

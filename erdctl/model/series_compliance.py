@@ -1,7 +1,7 @@
 """A spring in series with the damper, or with its fluid: the force feeds back on the motion.
 
     de/dt = xdot - v,   s F = e beyond -g/2..g/2, 0 within,   x_p = x - e
-    F = gas(x_p) + viscous(v) + F_ER sign(v) + friction(v)
+    F = gas(x_p) + viscous(v) + F_ER sign(v) + friction(v) + what the motion of the rod makes
 
 e is the spring's stretch and g free play in its joint, which bears no force: after a reversal the
 spring unloads, the play is crossed, and it loads again.
@@ -19,7 +19,7 @@ Source: return mapping of elasto-viscoplasticity, Simo and Hughes, Computational
 
 from __future__ import annotations
 
-from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -27,78 +27,162 @@ from numba import njit
 
 from erdctl.core.recording import Array, Index
 
-NODES = 192  # of the speed grid: laws between nodes are straight lines
 SLOWEST = 0.25  # of the speed in a step that the end of it may have in the rule below
 
 
-@lru_cache(maxsize=64)
-def speed_grid(fastest: float) -> Array:
-    """(NODES,) speeds [m/s] on which laws are tabulated, well beyond the fastest recorded one."""
-    return np.geomspace(1e-7, 4.0 * max(fastest, 1e-3), NODES)
+class SpeedLaws(NamedTuple):
+    """Forces behind the spring.
 
-
-def level_beyond(law: Array) -> Array:
-    """A law (2, m) on a grid of speeds, so that beyond it what falls goes on as it is there.
-
-    A spring lets a piston slip faster than the grid goes. On its last line a friction that falls
-    would turn round there, and drive the piston ever faster.
-    Check: 3, 2 falls and becomes 3, 3; -1, -2 grows and stays.
-    >>> level_beyond(np.array([[3.0, 2.0], [-1.0, -2.0]])).tolist()
-    [[3.0, 3.0], [-1.0, -2.0]]
+    grid : (m,) speeds;  viscous, sign, friction : (2, m) laws on it, for compression and release
     """
-    out = law.copy()
-    falls = np.abs(law[:, -1]) < np.abs(law[:, -2])
-    out[falls, -1] = law[falls, -2]
-    return out
+
+    grid: Array
+    viscous: Array
+    sign: Array
+    friction: Array
+
+
+class Other(NamedTuple):
+    """Where the yield force is not F_ER sign(v) with that sign alone.
+
+    lead : kappa [1/s] of a sign law that is one of v + kappa x_p
+    T_s, x_d : time [s] and travel [m] over which the force follows it, 0 at once
+    """
+
+    lead: float
+    T_s: float
+    x_d: float
+
+
+class Leg(NamedTuple):
+    """A step, or a part of one, in one direction of the rod, and what is known as it ends.
+
+    dt : its length [s];  x : in place of the deflection in the gas force;  rod : that of the rod
+    beside : forces that the rod's motion makes [N]
+    Y : F_ER;  by : see `SignSlot`;  k_c, k_r : gas stiffness;  viscous, yields : factors
+    half : half of the free play;  s : compliance
+    was, Y_0, smooth : signed yield force before the leg, F_ER, and its sign law but for the jump
+    """
+
+    dt: float
+    x: float
+    rod: float
+    beside: float
+    Y: float
+    by: float
+    k_c: float
+    k_r: float
+    viscous: float
+    yields: float
+    half: float
+    s: float
+    was: float
+    Y_0: float
+    smooth: float
 
 
 @njit(cache=True)
+def _value(law: Array, grid: Array, v: float, way: float) -> float:
+    """A law (2, m) on a grid of speeds at a speed v, at 0 from the side `way`; level beyond."""
+    branch, speed = (0 if v > 0.0 or (v == 0.0 and way > 0.0) else 1), abs(v)
+    j = min(max(int(np.searchsorted(grid, speed)), 1), len(grid) - 1)
+    w = min(max((speed - grid[j - 1]) / (grid[j] - grid[j - 1]), 0.0), 1.0)
+    return float(law[branch, j - 1] * (1.0 - w) + law[branch, j] * w)
+
+
+@njit(cache=True)
+def _followed(
+    v: float, way: float, travel: float, e: float, i: Leg, d: SpeedLaws, o: Other
+) -> tuple[float, float]:
+    """Signed yield force at a speed v of the piston, and its sign law there but for the jump.
+
+    It follows a straight line from where F_ER sign(v) was. What jumps with the direction has that
+    of now from the start, so that it does not matter whether the piston rested or hardly moved.
+    """
+    sheared = (v + o.lead * (i.rod - e)) / i.by
+    law = _value(d.sign, d.grid, sheared, way)
+    jump = 0.5 * (d.sign[0, 0] - d.sign[1, 0])
+    jump *= 1.0 if sheared > 0.0 or (sheared == 0.0 and way > 0.0) else -1.0
+    target, smooth = i.Y * law, law - jump
+    if o.T_s == 0.0 and o.x_d == 0.0:
+        return target, smooth
+    z = (i.dt / o.T_s if o.T_s > 0.0 else 0.0) + (travel / o.x_d if o.x_d > 0.0 else 0.0)
+    if z == 0.0:
+        return i.was, smooth
+    gone = -np.expm1(-z)
+    new = 1.0 - gone / z
+    before = i.Y_0 * (i.smooth + jump)
+    return (1.0 - gone) * i.was + (gone - new) * before + new * target, smooth
+
+
+@njit(cache=True, inline="always")
 def _held(e: float, half: float, s: float) -> float:
     """Force of the spring at a stretch e, with a free play of 2 half."""
     return (max(e - half, 0.0) + min(e + half, 0.0)) / s
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always")
 def _excess(
-    at: float, x: float, k: float, half: float, s: float, viscous: float, plastic: float,
-    friction: float,
-) -> float:  # fmt: skip
-    """Force of the damper beyond that of the spring at a stretch."""
-    return k * (x - at) - _held(at, half, s) + viscous + plastic + friction
+    u: float,
+    j: int,
+    w: float,
+    branch: int,
+    span: float,
+    e: float,
+    i: Leg,
+    d: SpeedLaws,
+    o: Other | None,
+) -> float:
+    """Force of the damper beyond that of the spring, at a speed u, a part w of the way from node j
+    to the next; e is the stretch that the rod alone would leave."""
+    way, k = (1.0, i.k_c) if branch == 0 else (-1.0, i.k_r)
+    at = e - way * u * span
+    viscous, plastic, friction = d.viscous[branch, j], d.sign[branch, j], d.friction[branch, j]
+    if w > 0.0:
+        viscous += (d.viscous[branch, j + 1] - viscous) * w
+        friction += (d.friction[branch, j + 1] - friction) * w
+        plastic += (d.sign[branch, j + 1] - plastic) * w
+    plastic *= i.Y
+    if o is not None:
+        plastic = _followed(way * u, way, u * span, at, i, d, o)[0]
+    rest = k * (i.x - at) + i.beside - _held(at, i.half, i.s)
+    return float(rest + viscous * i.viscous + plastic * i.yields + friction)
+
+
+@njit(cache=True, inline="always")
+def _starting(branch: int, e: float, i: Leg, d: SpeedLaws, o: Other | None) -> float:
+    """`_excess` of a piston that is about to move."""
+    k, way = (i.k_c, 1.0) if branch == 0 else (i.k_r, -1.0)
+    rest = k * (i.x - e) + i.beside - _held(e, i.half, i.s)
+    plastic = i.Y * d.sign[branch, 0]
+    if o is not None:
+        plastic = _followed(0.0, way, 0.0, e, i, d, o)[0]
+    return float(rest + plastic * i.yields + d.friction[branch, 0])
 
 
 @njit(cache=True)
 def _moved(
-    e: float, mean: float, end: float, dt: float, s: float, x: float, Y: float, k_c: float,
-    k_r: float, g_visc: float, half: float, near: int, grid: Array, viscous: Array, sign: Array,
-    friction: Array,
-) -> tuple[float, float, int]:  # fmt: skip
-    """Stretch of the spring and speed behind it at the end of a leg in one direction of the rod.
+    e: float, mean: float, end: float, near: int, i: Leg, d: SpeedLaws, o: Other | None
+) -> tuple[float, float, int, float, float]:
+    """As a leg ends: stretch, speed behind the spring, node, signed yield force, smooth sign law.
 
+    mean, end : speed of the rod [m/s], over the leg and as it ends
     near : node of the grid below the last speed, where the search begins; the new one is returned
-
-    mean, end : speed of the rod [m/s], over the leg of dt [s] and as it ends;  x : deflection then
-    Y : magnitude of the yield force then;  k_c, k_r : gas stiffness
     """
-    m = len(grid)
-    e += mean * dt
+    m = len(d.grid)
+    e += mean * i.dt
     ahead = min(max(end / mean, SLOWEST), 2.0) if mean * end > 0.0 else 1.0
     for branch in range(2):
-        k = k_c if branch == 0 else k_r
         way = 1.0 if branch == 0 else -1.0
         # H(v) = gas + viscous + yield + friction - F at a stretch of e - v span; increasing in v.
-        span = dt / (ahead if mean * way > 0.0 else 1.0)
-        rest = k * (x - e) - _held(e, half, s)
-        if (rest + Y * sign[branch, 0] + friction[branch, 0]) * way >= 0.0:
+        span = i.dt / (ahead if mean * way > 0.0 else 1.0)
+        if _starting(branch, e, i, d, o) * way >= 0.0:
             continue
         low, high = 0, m - 1
         a = b = np.nan  # H at these two, where the search has come by
         mid, reach = min(max(near, 1), m - 2), 1
         while high - low > 1:
-            h = _excess(
-                e - way * grid[mid] * span, x, k, half, s, viscous[branch, mid] * g_visc,
-                Y * sign[branch, mid], friction[branch, mid],
-            )  # fmt: skip
+            h = _excess(d.grid[mid], mid, 0.0, branch, span, e, i, d, o)
             if h * way < 0.0:
                 low, a = mid, h
             else:
@@ -114,102 +198,113 @@ def _moved(
                 mid = max(high - reach, 1) if high - reach > low else (low + high) // 2
                 reach *= 4
         if low == 0:
-            a = _excess(
-                e - way * grid[low] * span, x, k, half, s, viscous[branch, low] * g_visc,
-                Y * sign[branch, low], friction[branch, low],
-            )  # fmt: skip
+            a = _excess(d.grid[low], low, 0.0, branch, span, e, i, d, o)
         if high == m - 1:
-            b = _excess(
-                e - way * grid[high] * span, x, k, half, s, viscous[branch, high] * g_visc,
-                Y * sign[branch, high], friction[branch, high],
-            )  # fmt: skip
-        slow, fast = grid[low], grid[high]
-        if half > 0.0 and span > 0.0:
+            b = _excess(d.grid[high], high, 0.0, branch, span, e, i, d, o)
+        slow, fast = d.grid[low], d.grid[high]
+        if i.half > 0.0 and span > 0.0:
             # The spring bends where it loses or takes up its play, and is far stiffer than the
             # damper beyond: H is straight on either side, not across.
             for side in range(2):
-                edge = half if side == 0 else -half
-                u = way * (e - edge) / span
+                u = way * (e - (i.half if side == 0 else -i.half)) / span
                 if slow < u < fast:
-                    w = (u - grid[low]) / (grid[high] - grid[low])
-                    h = _excess(
-                        edge, x, k, half, s,
-                        (viscous[branch, low] * (1.0 - w) + viscous[branch, high] * w) * g_visc,
-                        Y * (sign[branch, low] * (1.0 - w) + sign[branch, high] * w),
-                        friction[branch, low] * (1.0 - w) + friction[branch, high] * w,
-                    )  # fmt: skip
+                    w = (u - d.grid[low]) / (d.grid[high] - d.grid[low])
+                    h = _excess(u, low, w, branch, span, e, i, d, o)
                     if h * way < 0.0:
                         slow, a = u, h
                     else:
                         fast, b = u, h
         part = -a / (b - a) if b != a else 0.0
-        v = way * (slow + part * (fast - slow))
-        return e - v * span, v, low
-    return e, 0.0, 1
+        u = slow + part * (fast - slow)
+        at = e - way * u * span
+        if o is None:
+            return at, way * u, low, 0.0, 0.0
+        force, smooth = _followed(way * u, way, u * span, at, i, d, o)
+        return at, way * u, low, force, smooth
+    if o is None:
+        return e, 0.0, 1, 0.0, 0.0
+    # What sticks is held by as much of what it could take from either side as balances the rest.
+    up, smooth = _followed(0.0, 1.0, 0.0, e, i, d, o)
+    down, _ = _followed(0.0, -1.0, 0.0, e, i, d, o)
+    to_go = _starting(0, e, i, d, o)
+    apart = to_go - _starting(1, e, i, d, o)
+    part = to_go / apart if apart > 0.0 else 0.5
+    return e, 0.0, 1, up + (down - up) * part, smooth
 
 
 @njit(cache=True)
 def march(
-    x: Array, xdot: Array, step: Array, rises: Array, falls: Array, starts: Index,
-    compressing: npt.NDArray[np.bool_], rests: npt.NDArray[np.bool_],
-    u_c: Array, u_r: Array, g_gas: Array, g_visc: Array, g_yield: Array,
-    grid: Array, viscous: Array, sign: Array, friction: Array,
-    k_c: float, k_r: float, T_c: float, T_r: float, s: float, gap: float,
+    x: Array, rod: Array, xdot: Array, step: Array, rises: Array, falls: Array, starts: Index,
+    compressing: npt.NDArray[np.bool_], rests: npt.NDArray[np.bool_], beside: Array,
+    u_c: Array, u_r: Array, by: Array, g_gas: Array, g_visc: Array, g_yield: Array, d: SpeedLaws,
+    o: Other | None, k_c: float, k_r: float, T_c: float, T_r: float, s: float, gap: float,
 ) -> tuple[Array, Array, Array]:  # fmt: skip
     """Force of the spring (n,) [N], its stretch (n,) [m] and the speed behind it (n,) [m/s].
 
-    u_c, u_r : (n,) steady yield force in either direction;  g_ : (n,) factors of the groups
-    viscous, sign, friction : (2, m) laws on `grid`, for compression and release
-    k_c, k_r : gas stiffness behind the spring;  s : compliance [m/N] > 0;  gap : free play [m]
+    x : (n,) in place of the deflection in the gas force;  rod, xdot : (n,) motion of the rod
+    beside : (n,) forces of the damper that this makes [N]
+    u_c, u_r : (n,) steady yield force in either direction;  by : (n,) see `SignSlot`
+    g_ : (n,) factors of the groups;  k_c, k_r : gas stiffness behind the spring
+    s : compliance [m/N] > 0;  gap : free play [m]
     rests : (r,) records that begin at rest, in the middle of the play
 
     A step in which the rod turns is made of two legs, before and after: by the mean speed of the
     whole of it the piston would turn up to a step late, however stiff the spring.
     """
-    n, m, half = len(x), len(grid), 0.5 * gap
-    last, fade = -1.0, 1.0  # the exponential of the last step: most are alike
-    force, stretch, speed = np.empty(n), np.empty(n), np.empty(n)
+    last, fade, half = -1.0, 1.0, 0.5 * gap  # the exponential of the last step: most are alike
+    force, stretch, speed = np.empty(len(x)), np.empty(len(x)), np.empty(len(x))
     for r in range(len(starts) - 1):
         first = starts[r]
         up = compressing[first]
+        way = 1.0 if up else -1.0
         y = u_c[first] if up else u_r[first]
         # No step lies before it: the record begins with the spring's force steady.
-        way = 0 if up else 1
-        j = min(max(np.searchsorted(grid, abs(xdot[first])), 1), m - 1)
-        w = min(max((abs(xdot[first]) - grid[j - 1]) / (grid[j] - grid[j - 1]), 0.0), 1.0)
-        law = viscous[way] * g_visc[first] + y * g_yield[first] * sign[way] + friction[way]
-        still = xdot[first] == 0.0 or (rests[r] and gap > 0.0)
-        moving = 0.0 if still else law[j - 1] * (1.0 - w) + law[j] * w
+        v = xdot[first]
+        still = v == 0.0 or (rests[r] and gap > 0.0)
         k = (k_c if up else k_r) * g_gas[first]
-        F = (k * x[first] + moving) / (1.0 + k * s)
-        near = j - 1
+        other = beside[first]
+        sheared = v if o is None else (v + o.lead * rod[first]) / by[first]
+        law = _value(d.sign, d.grid, sheared, way)
+        smooth = law - (1.0 if sheared > 0.0 else -1.0) * 0.5 * (d.sign[0, 0] - d.sign[1, 0])
+        was = y * law
+        if still:  # what rubs holds what it can of them
+            most = u_c[first] * g_yield[first] * d.sign[0, 0] + d.friction[0, 0]
+            least = u_r[first] * g_yield[first] * d.sign[1, 0] + d.friction[1, 0]
+            other -= min(max(other, least), most)
+        else:
+            other += _value(d.viscous, d.grid, v, way) * g_visc[first]
+            other += was * g_yield[first] + _value(d.friction, d.grid, v, way)
+        was, smooth = (0.0, 0.0) if still else (was, smooth)
+        F = (k * x[first] + other) / (1.0 + k * s)
+        near = np.searchsorted(d.grid, abs(v)) - 1
         e = s * F + (0.0 if still else half if F > 0.0 else -half)
-        force[first], stretch[first], speed[first] = F, e, xdot[first]
+        force[first], stretch[first], speed[first] = F, e, v
         for i in range(first + 1, starts[r + 1]):
-            a, b, dt = xdot[i - 1], xdot[i], step[i - 1]
-            turning = a * b < 0.0
-            v = 0.0
+            v0, v1, dt = xdot[i - 1], xdot[i], step[i - 1]
+            turning = v0 * v1 < 0.0
+            before = v0 / (v0 - v1) if turning else 0.0
             for leg in range(2 if turning else 1):
-                mean, end, span, x_end = 0.5 * (a + b), b, dt, x[i]
+                mean, end, span = 0.5 * (v0 + v1), v1, dt
+                other, x_end, rod_end = beside[i], x[i], rod[i]
                 if turning:
-                    before = a / (a - b) * dt
                     if leg == 0:
-                        mean, end, span = 0.5 * a, 0.0, before
-                        x_end = x[i - 1] + mean * span
+                        mean, end, span = 0.5 * v0, 0.0, before * dt
+                        x_end, rod_end = x[i - 1] + mean * span, rod[i - 1] + mean * span
+                        other = beside[i - 1] + (other - beside[i - 1]) * before
                     else:
-                        mean, span = 0.5 * b, dt - before
+                        mean, span = 0.5 * v1, dt - before * dt
                 u = u_c[i - 1] if up else u_r[i - 1]
                 T = (T_c if up else T_r) * (falls if abs(u) < abs(y) else rises)[i - 1]
                 decay = span / T
                 if decay != last:
                     last, fade = decay, np.exp(-decay)
-                y = u + (y - u) * fade
-                e, v, near = _moved(
-                    e, mean, end, span, s, x_end, y * g_yield[i], k_c * g_gas[i], k_r * g_gas[i],
-                    g_visc[i], half, near, grid, viscous, sign, friction,
+                y_0, y = y, u + (y - u) * fade
+                now = Leg(
+                    span, x_end, rod_end, other, y, by[i], k_c * g_gas[i], k_r * g_gas[i],
+                    g_visc[i], g_yield[i], half, s, was, y_0, smooth,
                 )  # fmt: skip
-                if v != 0.0:
-                    up = v > 0.0
+                e, v, near, was, smooth = _moved(e, mean, end, near, now, d, o)
+                up = v > 0.0 if v != 0.0 else up
             force[i], stretch[i], speed[i] = _held(e, half, s), e, v
     return force, stretch, speed
 
@@ -219,10 +314,6 @@ def along(v: Array, grid: Array, law: Array) -> Array:
     """(n,) value of a law (2, m) on a grid of speeds at the speeds v (n,); 0 at rest."""
     out = np.zeros(len(v))
     for i in range(len(v)):
-        if v[i] == 0.0:
-            continue
-        branch, speed = (0 if v[i] > 0.0 else 1), abs(v[i])
-        j = min(max(np.searchsorted(grid, speed), 1), len(grid) - 1)
-        w = min(max((speed - grid[j - 1]) / (grid[j] - grid[j - 1]), 0.0), 1.0)
-        out[i] = law[branch, j - 1] * (1.0 - w) + law[branch, j] * w
+        if v[i] != 0.0:
+            out[i] = _value(law, grid, v[i], 0.0)
     return out

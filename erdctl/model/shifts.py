@@ -104,7 +104,9 @@ class Shifts:
 
     def _behind_spring(self, reached: set[str], owner: Effect | None) -> bool:
         """Whether what a parameter changes moves with the spring, or is scaled as it does."""
-        inside = not reached <= self.bare.keys() or (owner is not None and owner.of_speed)
+        whole = "gas" not in self.bare  # the spring carries the damper, not its fluid alone
+        carried = whole and owner is not None and owner.carried
+        inside = carried or not reached <= self.bare.keys()
         scaled = bool(self.prepared.scale or in_slot(self.model.effects, FeedbackSlot))
         return inside or (scaled and reached != {"other"})
 

@@ -22,12 +22,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Generic, Protocol, TypeVar
 
-import numpy as np
-
 from erdctl.core.errors import EffectFailed
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.checked import Groups, called, finite, groups, in_words, number, samples
+from erdctl.model.checked import Groups, called, groups, in_words, number, samples
 
 Values = Mapping[str, float]
 
@@ -175,7 +173,28 @@ class LagSlot(SampledSlot):
 
 
 class SignSlot(SampledSlot):
-    """(n,) in -1..1, in place of sign(xdot), at the samples."""
+    """(n,) in -1..1, in place of sign(xdot), at the samples.
+
+    Behind a spring the speed is the piston's, and the law one of speed alone: that of an effect
+    `of_speed`, or the one at x = 0 and full duty, at the speed (xdot + lead x) / by.
+
+    lead : symbol of a parameter [1/s];  by : (s, p) -> (n,) [1]
+    """
+
+    def __init__(
+        self,
+        function: SamplesFunction,
+        *,
+        lead: str | None = None,
+        by: SamplesFunction | None = None,
+    ) -> None:
+        super().__init__(function)
+        self.lead, self.by = lead, by
+
+    @property
+    def of_another(self) -> bool:
+        """Whether it is the law of another speed."""
+        return self.lead is not None or self.by is not None
 
 
 class ViscousSlot(SampledSlot):
@@ -204,7 +223,17 @@ class ColumnSlot(FunctionSlot[ColumnFunction]):
 
 
 class YieldSlot(ColumnSlot):
-    """(n,) what becomes of the signed yield force [N], at the samples; may remember."""
+    """(n,) what becomes of the signed yield force [N], at the samples; may remember.
+
+    time, travel : symbols of the time [s] and the travel [m] over which it follows, exponentially:
+        what a spring in series needs to know of it
+    """
+
+    def __init__(
+        self, function: ColumnFunction, *, time: str | None = None, travel: str | None = None
+    ) -> None:
+        super().__init__(function)
+        self.time, self.travel = time, travel
 
 
 class ChannelSlot(ColumnSlot):
@@ -263,47 +292,6 @@ Slot = (
     MotionSlot | ControlSlot | FieldSlot | LagSlot | SignSlot | YieldSlot | ViscousSlot | GasSlot
     | ScaleSlot | TermSlot | FeedbackSlot | DrivenSlot | SeriesSlot | ChannelSlot
 )  # fmt: skip
-
-
-def added_forces(function: TermFunction, rows: int, s: Signals, p: Values) -> Array:
-    """(k, n) forces at unit amplitudes, as many as the effect has linear parameters."""
-    out = called(function, s, p)
-    if not isinstance(out, np.ndarray) or out.shape != (rows, len(s)):
-        raise EffectFailed(
-            function,
-            f"returned {in_words(out)}, expected {rows} x {len(s)} forces: a row for each linear"
-            " parameter, a column for each sample",
-        )
-    return finite(function, out)
-
-
-def checked_starts(
-    function: StartsFunction, symbols: Sequence[str], s: Signals, rest: Array
-) -> list[dict[str, float]]:
-    """Starts of a search as plain numbers, one for each of some symbols."""
-    out = []
-    for start in called(function, s, rest):
-        if not isinstance(start, Mapping) or set(start) != set(symbols):
-            raise EffectFailed(
-                function,
-                f"gave the start {in_words(start)}, expected a number for each of {symbols}",
-            )
-        out.append({symbol: number(function, start[symbol]) for symbol in symbols})
-    if not out:
-        raise EffectFailed(function, "gave no start of a search")
-    return out
-
-
-def checked_most(
-    function: MostFunction, symbols: Sequence[str], s: Signals, force: Array
-) -> dict[str, float]:
-    """Largest values as plain numbers, of some of some symbols."""
-    out = called(function, s, force)
-    if not isinstance(out, Mapping) or not set(out) <= set(symbols):
-        raise EffectFailed(
-            function, f"returned {in_words(out)}, expected numbers for some of {symbols}"
-        )
-    return {symbol: number(function, value) for symbol, value in out.items()}
 
 
 def free_play_of(slot: MotionSlot, p: Values) -> float:

@@ -61,10 +61,11 @@ def law_of(effect: Effect) -> CLaw:
     return effect.c
 
 
-def functions(effects: Iterable[Effect], *, plays: bool) -> str:
+def functions(effects: Iterable[Effect], *, springs: bool, plays: bool) -> str:
     """What each effect does, in functions of its own.
 
-    plays : with free plays, which a spring in series takes over
+    springs : with what a spring in series asks of them
+    plays : with free plays, which one of the whole damper takes over
     """
     out: list[str] = []
     for effect in effects:
@@ -73,6 +74,8 @@ def functions(effects: Iterable[Effect], *, plays: bool) -> str:
             out.append(_function("law", effect, HEADS[type(effect.slot)], c.code))
         if c.force:
             out.append(_function("force", effect, TERM, c.force))
+        if c.by and springs:
+            out.append(_function("by", effect, TERM, c.by))
         if c.play and plays:
             out.append(_function("play", effect, PLAY, c.play))
     return "\n\n".join(out)

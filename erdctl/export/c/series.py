@@ -6,12 +6,13 @@ from collections.abc import Sequence
 
 from erdctl.core.errors import IncompatibleEffects
 from erdctl.export.c.functions import call, function, law_of
-from erdctl.export.c.hooks import total
+from erdctl.export.c.hooks import AT, total
 from erdctl.export.c.layout import CMember
 from erdctl.export.c.names import identifier, part
+from erdctl.model.behind_spring import refuse
 from erdctl.model.effect import Effect, in_slot
 from erdctl.model.parameters import Parameters
-from erdctl.model.slots import FeedbackSlot, SeriesSlot, SignSlot, ViscousSlot, YieldSlot
+from erdctl.model.slots import FeedbackSlot, SeriesSlot, SignSlot, YieldSlot
 
 FASTEST = 1.0  # m/s, where the logs do not say
 
@@ -26,13 +27,7 @@ def spring_of(effects: Sequence[Effect]) -> Effect | None:
         return None
     if len(springs) > 1:
         raise IncompatibleEffects("only one compliance can be in series")
-    if in_slot(effects, YieldSlot):
-        raise IncompatibleEffects("a yield force with memory cannot act behind a spring")
-    for effect in effects:
-        if isinstance(effect.slot, SignSlot | ViscousSlot) and not effect.of_speed:
-            raise IncompatibleEffects(
-                f"{effect.name} cannot act behind a spring: no law of speed alone"
-            )
+    refuse(effects)
     return springs[0]
 
 
@@ -62,23 +57,50 @@ def march(spring: Effect, effects: Sequence[Effect]) -> str:
     lines = []
     for number, effect in enumerate(feedback):
         lines += [
-            "    to = joint_of(st, &gain);",
+            "    to = joint_of(st, s, &gain, besides);",
             f"    force = march(st, &st->spring[{number}], &to, s, x, u);",
             f"    parts = behind(st, &st->spring[{number}], &to, s, x, force);",
             f"    {call('law', effect, '&parts', '&gain')};",
         ]
     inside = [e for e in effects if e.of_speed and law_of(e).force]
-    outside = [e for e in effects if law_of(e).force and not (whole(spring) and e in inside)]
+    carried = [e for e in effects if law_of(e).force and e.carried and whole(spring)]
+    outside = [e for e in effects if law_of(e).force and e not in carried]
     text = "\n\n".join(
         [
             f"enum {{ WHOLE = {int(whole(spring))} }};  /* in series with all, or the fluid */",
             total("friction", [call("force", e) for e in inside if whole(spring)]),
+            total("beside", [call("force", e) for e in carried if e not in inside]),
+            *_of_the_sign(effects),
             total("outside", [call("force", e) for e in outside]),
             part("spring.c").strip(),
         ]
     )
     text = text.replace("@FEEDBACK@", "".join(f"{line}\n" for line in lines))
     return text.replace("@LAST@", str(len(feedback)))
+
+
+def _of_the_sign(effects: Sequence[Effect]) -> list[str]:
+    """What else the yield force is made from than F_ER sign(v), as `behind_spring.other` has it."""
+    signs, yields = in_slot(effects, SignSlot), in_slot(effects, YieldSlot)
+    asked = {
+        "sign_lead": [_parameter(e, slot.lead) for e, slot in signs if slot.lead],
+        "yield_time": [_parameter(e, slot.time) for e, slot in yields if slot.time],
+        "yield_travel": [_parameter(e, slot.travel) for e, slot in yields if slot.travel],
+    }
+    by = [call("by", e) for e, slot in signs if slot.by]
+    other = bool(by or any(asked.values()))
+    return [
+        f"enum {{ OTHER = {int(other)} }};  /* the yield force is not F_ER sign(v) alone */",
+        *(
+            function(f"real {name}", ["const State *st"], f"return {(found or ['K(0.0)'])[0]};")
+            for name, found in asked.items()
+        ),
+        function("real sign_by", [*AT], f"return {(by or ['K(1.0)'])[0]};"),
+    ]
+
+
+def _parameter(effect: Effect, symbol: str) -> str:
+    return f"st->p.{identifier(effect.name)}.{symbol}"
 
 
 def joint(spring: Effect, effects: Sequence[Effect]) -> str:

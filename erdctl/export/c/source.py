@@ -78,7 +78,7 @@ def write_c(parameters: Parameters, *, prefix: str) -> CBlock:
         + past_structs(effects),
     )
     body = [
-        part("base.c"), functions(effects, plays=plays),
+        part("base.c"), functions(effects, springs=spring is not None, plays=plays),
         "" if spring is None else series.joint(spring, effects),
         hooks(effects, plays=plays), part("sample.c"), part("forces.c"),
         part("plain.c") if spring is None else series.march(spring, effects),

@@ -233,6 +233,11 @@ TOGETHER = {
     " preyield_viscosity shear_thinning power_law_yield gas_polytropic cavitation input_delay",
     "fluid": "fluid_compressibility backlash thermal_fade gas_thermal_drift coulomb_friction"
     " preyield_viscosity rise_decay_asymmetry supply_slew field_saturation presliding_friction",
+    "loop behind a mount": "mount_compliance yield_hysteresis signed_yield_lag presliding_friction"
+    " coulomb_friction gas_preload end_stop backlash thermal_fade",
+    "stretch behind a mount": "mount_compliance preyield_field_dependence preyield_elasticity"
+    " coulomb_friction gas_polytropic quadratic_damping field_saturation",
+    "loop of the fluid": "fluid_compressibility yield_hysteresis signed_yield_lag gas_polytropic",
     "no spring": "backlash thermal_fade gas_thermal_drift yield_hysteresis signed_yield_lag"
     " preyield_elasticity shear_thinning field_viscosity field_threshold supply_slew input_delay"
     " rise_decay_asymmetry end_stop quadratic_damping oil_leakage electrical_fault",

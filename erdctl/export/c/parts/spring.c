@@ -10,11 +10,19 @@ typedef struct PREFIX_spring Spring;
 static const real SLOWEST = K(0.25);  /* of the speed in a step that the end of it may have */
 
 /* What a step behind the spring is given besides: compliance, half of the free play, stiffness of
- * the gas behind it, factors of the groups. */
+ * the gas behind it, factors of the groups, forces that the rod's motion makes, divisor of the speed
+ * in the sign law. */
 typedef struct Joint {
     real s, half, k[2];
     Groups gain;
+    real beside, by;
 } Joint;
+
+/* A step, or a part of it, in one direction of the rod, as it ends: its length, x of the gas force,
+ * deflection of the rod, forces beside, F_ER, and as it began. */
+typedef struct Leg {
+    real dt, x, rod, beside, Y, Y0;
+} Leg;
 
 /* A law that falls goes on as it is beyond its table: on its last line it would turn round. */
 static void level_beyond(real law[NODES])
@@ -38,7 +46,7 @@ static void tabulate(State *st)
             s.first = 1;
             s.up = s.up0 = way == 0;
             s.share = way == 0 ? K(1.0) : K(0.0);
-            s.engaged = K(1.0);
+            s.engaged = s.duty = s.duty0 = K(1.0);
             s.sign = way == 0 ? K(1.0) : K(-1.0);
             s.xdot = s.xdot0 = s.sign * st->grid[j];
             f.gas = f.viscous = f.yield = K(1.0);
@@ -85,19 +93,96 @@ static real held(real e, const Joint *to)
     return (FMAX(e - to->half, K(0.0)) + FMIN(e + to->half, K(0.0))) / to->s;
 }
 
-/* Force of the damper beyond that of the spring, at node j. */
-static real excess(const State *st, const Joint *to, real e, real x, real Y, int way, int j)
+/* The sign law at a speed v, at 0 from the side `way` (0 compression, 1 release). */
+static real sign_along(const State *st, real v, int way)
 {
-    return to->k[way] * (x - e) - held(e, to) + st->viscous_at[way][j] * to->gain.viscous
-           + Y * st->sign_at[way][j] + st->friction_at[way][j];
+    real speed = FABS(v);
+    int j = above(st, speed);
+
+    way = v > K(0.0) ? 0 : v < K(0.0) ? 1 : way;
+    return between(st->sign_at[way], j, part_of(st, j, speed));
 }
 
-/* One leg in one direction of the rod: its mean speed and the last, x as it ends, Y then. */
-static void advance(const State *st, Spring *b, const Joint *to, real mean, real end, real dt,
-                    real x, real Y)
+/* What jumps in the sign law with the direction of a speed, at 0 with the side `way`. */
+static real jump_of(const State *st, real v, int way)
 {
-    real e = b->stretch + mean * dt, ahead = K(1.0), way, span, rest, at_low, at_high, h, share;
-    real slow, fast;
+    real jump = K(0.5) * (st->sign_at[0][0] - st->sign_at[1][0]);
+
+    return v < K(0.0) || (!(v > K(0.0)) && way == 1) ? -jump : jump;
+}
+
+/* Signed yield force at a speed v of the piston, and its sign law there but for the jump. It follows
+ * a straight line, in which what jumps has the direction of now from the start. */
+static real followed(const State *st, const Spring *b, const Joint *to, const Leg *leg, real v,
+                     int way, real travel, real e, real *smooth)
+{
+    real T = yield_time(st), d = yield_travel(st), z = K(0.0), gone, fresh;
+    real sheared = (v + sign_lead(st) * (leg->rod - e)) / to->by;
+    real law = sign_along(st, sheared, way), jump = jump_of(st, sheared, way);
+
+    *smooth = law - jump;
+    if (!(T > K(0.0)) && !(d > K(0.0)))
+        return leg->Y * law;
+    z += T > K(0.0) ? leg->dt / T : K(0.0);
+    z += d > K(0.0) ? travel / d : K(0.0);
+    if (!(z > K(0.0)))
+        return b->was;
+    gone = -EXPM1(-z);
+    fresh = K(1.0) - gone / z;
+    return (K(1.0) - gone) * b->was + (gone - fresh) * leg->Y0 * (b->smooth + jump)
+           + fresh * leg->Y * law;
+}
+
+/* Force of the damper beyond that of the spring, at a speed u a part w of the way from node j to
+ * the next; e is the stretch that the rod alone would leave. */
+static real excess(const State *st, const Spring *b, const Joint *to, const Leg *leg, real u, int j,
+                   real w, int way, real span, real e)
+{
+    real direction = way == 0 ? K(1.0) : K(-1.0), at = e - direction * u * span, yields, smooth;
+
+    if (OTHER)
+        yields = followed(st, b, to, leg, direction * u, way, u * span, at, &smooth);
+    else
+        yields = leg->Y * between(st->sign_at[way], j + 1, w);
+    return to->k[way] * (leg->x - at) + leg->beside - held(at, to)
+           + between(st->viscous_at[way], j + 1, w) * to->gain.viscous + yields * to->gain.yield
+           + between(st->friction_at[way], j + 1, w);
+}
+
+/* The same of a piston that is about to move. */
+static real starting(const State *st, const Spring *b, const Joint *to, const Leg *leg, int way,
+                     real e)
+{
+    real yields = leg->Y * st->sign_at[way][0], smooth;
+
+    if (OTHER)
+        yields = followed(st, b, to, leg, K(0.0), way, K(0.0), e, &smooth);
+    return to->k[way] * (leg->x - e) + leg->beside - held(e, to) + yields * to->gain.yield
+           + st->friction_at[way][0];
+}
+
+/* What sticks is held by as much of what it could take from either side as balances the rest. */
+static void stick(const State *st, Spring *b, const Joint *to, const Leg *leg, real e)
+{
+    real smooth, up, down, go, apart;
+
+    b->near = 1;
+    if (OTHER) {
+        down = followed(st, b, to, leg, K(0.0), 1, K(0.0), e, &smooth);
+        up = followed(st, b, to, leg, K(0.0), 0, K(0.0), e, &smooth);
+        go = starting(st, b, to, leg, 0, e);
+        apart = go - starting(st, b, to, leg, 1, e);
+        b->was = up + (down - up) * (apart > K(0.0) ? go / apart : K(0.5));
+        b->smooth = smooth;
+    }
+}
+
+/* One leg: the rod's mean speed and the last. */
+static void advance(const State *st, Spring *b, const Joint *to, const Leg *leg, real mean,
+                    real end)
+{
+    real dt = leg->dt, e = b->stretch + mean * dt, ahead = K(1.0), way, span, at_low, at_high, h;
+    real slow, fast, share, u, smooth;
     int branch, low, high, mid, reach, side;
 
     if (mean * end > K(0.0))
@@ -107,9 +192,7 @@ static void advance(const State *st, Spring *b, const Joint *to, real mean, real
     for (branch = 0; branch < 2; branch++) {
         way = branch == 0 ? K(1.0) : K(-1.0);
         span = mean * way > K(0.0) ? dt / ahead : dt;
-        rest = to->k[branch] * (x - e) - held(e, to);
-        rest += Y * st->sign_at[branch][0] + st->friction_at[branch][0];
-        if (rest * way >= K(0.0))
+        if (starting(st, b, to, leg, branch, e) * way >= K(0.0))
             continue;
         low = 0;
         high = NODES - 1;
@@ -117,7 +200,7 @@ static void advance(const State *st, Spring *b, const Joint *to, real mean, real
         mid = b->near < 1 ? 1 : b->near > NODES - 2 ? NODES - 2 : b->near;
         reach = 1;
         while (high - low > 1) {
-            h = excess(st, to, e - way * st->grid[mid] * span, x, Y, branch, mid);
+            h = excess(st, b, to, leg, st->grid[mid], mid, K(0.0), branch, span, e);
             if (h * way < K(0.0))
                 low = mid;
             else
@@ -134,21 +217,17 @@ static void advance(const State *st, Spring *b, const Joint *to, real mean, real
                 reach *= 4;
             }
         }
-        at_low = excess(st, to, e - way * st->grid[low] * span, x, Y, branch, low);
-        at_high = excess(st, to, e - way * st->grid[high] * span, x, Y, branch, high);
+        at_low = excess(st, b, to, leg, st->grid[low], low, K(0.0), branch, span, e);
+        at_high = excess(st, b, to, leg, st->grid[high], low, K(1.0), branch, span, e);
         slow = st->grid[low];
         fast = st->grid[high];
         /* The spring bends where it loses or takes up its play: straight on either side. */
         for (side = 0; to->half > K(0.0) && span > K(0.0) && side < 2; side++) {
-            real edge = side == 0 ? to->half : -to->half, u = way * (e - edge) / span, w;
-
+            u = way * (e - (side == 0 ? to->half : -to->half)) / span;
             if (!(u > slow && u < fast))
                 continue;
-            w = (u - st->grid[low]) / (st->grid[high] - st->grid[low]);
-            h = to->k[branch] * (x - edge) - held(edge, to)
-                + between(st->viscous_at[branch], high, w) * to->gain.viscous
-                + Y * between(st->sign_at[branch], high, w)
-                + between(st->friction_at[branch], high, w);
+            h = excess(st, b, to, leg, u, low,
+                       (u - st->grid[low]) / (st->grid[high] - st->grid[low]), branch, span, e);
             if (h * way < K(0.0)) {
                 slow = u;
                 at_low = h;
@@ -158,12 +237,17 @@ static void advance(const State *st, Spring *b, const Joint *to, real mean, real
             }
         }
         share = FABS(at_high - at_low) > K(0.0) ? -at_low / (at_high - at_low) : K(0.0);
-        b->speed = way * (slow + share * (fast - slow));
+        u = slow + share * (fast - slow);
+        b->speed = way * u;
         b->stretch = e - b->speed * span;
         b->near = low;
+        if (OTHER) {
+            b->was = followed(st, b, to, leg, b->speed, branch, u * span, b->stretch, &smooth);
+            b->smooth = smooth;
+        }
         return;
     }
-    b->near = 1;
+    stick(st, b, to, leg, e);
 }
 
 /* No step lies before the first sample: it begins with the spring's force steady. */
@@ -172,57 +256,74 @@ static void set_out(const State *st, Spring *b, const Joint *to, const Sample *s
 {
     int way = s->up ? 0 : 1, j = above(st, FABS(s->xdot));
     int still = (s->rests && to->half > K(0.0)) || !(FABS(s->xdot) > K(0.0));
-    real w = part_of(st, j, FABS(s->xdot)), moving = K(0.0), F;
+    real w = part_of(st, j, FABS(s->xdot)), rest = to->beside, F;
 
     b->up = s->up;
     b->yielding = u[way];
-    if (!still)
-        moving = between(st->viscous_at[way], j, w) * to->gain.viscous
-                 + between(st->sign_at[way], j, w) * b->yielding * to->gain.yield
-                 + between(st->friction_at[way], j, w);
-    F = (to->k[way] * x + moving) / (K(1.0) + to->k[way] * to->s);
+    b->was = b->smooth = K(0.0);
+    if (still) { /* what rubs holds what it can of them */
+        rest -= clipped(rest, u[1] * st->sign_at[1][0] * to->gain.yield + st->friction_at[1][0],
+                        u[0] * st->sign_at[0][0] * to->gain.yield + st->friction_at[0][0]);
+    } else {
+        real sheared = (s->xdot + sign_lead(st) * s->x) / to->by, law = sign_along(st, sheared, way);
+
+        b->was = b->yielding * law;
+        b->smooth = law - jump_of(st, sheared, 1);
+        rest += between(st->viscous_at[way], j, w) * to->gain.viscous + b->was * to->gain.yield
+                + between(st->friction_at[way], j, w);
+    }
+    F = (to->k[way] * x + rest) / (K(1.0) + to->k[way] * to->s);
     b->near = j - 1;
     b->stretch = to->s * F + (still ? K(0.0) : F > K(0.0) ? to->half : -to->half);
     b->speed = s->xdot;
     b->faces = s->up;
+    b->beside = to->beside;
 }
 
 /* One sample; returns the force of the spring. A step in which the rod turns has two legs. */
 static real march(const State *st, Spring *b, const Joint *to, const Sample *s, real x,
                   const real u[2])
 {
-    real v0 = s->xdot0, v1 = s->xdot, mean, end, span, x_end, before, lag;
+    real v0 = s->xdot0, v1 = s->xdot, mean, end, part, lag;
     int leg, way, turning = v0 * v1 < K(0.0);
+    Leg now;
 
     if (s->first) {
         set_out(st, b, to, s, x, u);
         return held(b->stretch, to);
     }
-    before = turning ? v0 / (v0 - v1) * s->h : s->h;
+    part = turning ? v0 / (v0 - v1) : K(1.0);
     for (leg = 0; leg < (turning ? 2 : 1); leg++) {
         mean = K(0.5) * (v0 + v1);
         end = v1;
-        span = s->h;
-        x_end = x;
+        now.dt = s->h;
+        now.x = x;
+        now.rod = s->x;
+        now.beside = to->beside;
         if (turning && leg == 0) {
             mean = K(0.5) * v0;
             end = K(0.0);
-            span = before;
-            x_end = st->gas_past + mean * span;
+            now.dt = part * s->h;
+            now.x = st->gas_past + mean * now.dt;
+            now.rod = s->x0 + mean * now.dt;
+            now.beside = b->beside + (to->beside - b->beside) * part;
         } else if (turning) {
             mean = K(0.5) * v1;
-            span = s->h - before;
+            now.dt = s->h - part * s->h;
         }
         way = b->up ? 0 : 1;
         lag = FMAX(way == 0 ? st->p.compression_T_d : st->p.release_T_d, K(1e-9));
         lag *= FABS(u[way]) < FABS(b->yielding) ? st->falls : st->rises;
-        b->yielding += (u[way] - b->yielding) * -EXPM1(-span / lag);
-        advance(st, b, to, mean, end, span, x_end, b->yielding * to->gain.yield);
+        now.Y0 = b->yielding;
+        b->yielding += (u[way] - b->yielding) * -EXPM1(-now.dt / lag);
+        now.Y = b->yielding;
+        advance(st, b, to, &now, mean, end);
         if (b->speed > K(0.0) || b->speed < K(0.0))
             b->up = b->speed > K(0.0);
     }
     if (b->speed > K(0.0) || b->speed < K(0.0))
         b->faces = b->speed > K(0.0);
+    b->beside = to->beside;
     return held(b->stretch, to);
 }
 
@@ -242,7 +343,7 @@ static Groups behind(const State *st, const Spring *b, const Joint *to, const Sa
     }
     if (WHOLE) {
         out.gas = (x - b->stretch) * to->k[b->faces ? 0 : 1];
-        out.yield = force - out.gas - out.viscous - friction_now;
+        out.yield = force - out.gas - out.viscous - friction_now - to->beside;
     } else {
         out.gas = x * along(s, st->p.compression_k_nom, st->p.release_k_nom) * to->gain.gas;
         out.yield = force - out.viscous;
@@ -250,7 +351,7 @@ static Groups behind(const State *st, const Spring *b, const Joint *to, const Sa
     return out;
 }
 
-static Joint joint_of(const State *st, const Groups *gain)
+static Joint joint_of(State *st, const Sample *s, const Groups *gain, real besides)
 {
     Joint to;
 
@@ -259,6 +360,8 @@ static Joint joint_of(const State *st, const Groups *gain)
     to.k[0] = WHOLE ? st->p.compression_k_nom * gain->gas : K(0.0);
     to.k[1] = WHOLE ? st->p.release_k_nom * gain->gas : K(0.0);
     to.gain = *gain;
+    to.beside = besides;
+    to.by = sign_by(st, s);
     return to;
 }
 
@@ -266,14 +369,14 @@ static real in_series(State *st, const Sample *s)
 {
     Groups gain, parts;
     Joint to;
-    real x = gas_law(st, s), u[2], force;
+    real x = gas_law(st, s), besides = beside(st, s), u[2], force;
 
     u[0] = steady(st, s, 0);
     u[1] = steady(st, s, 1);
     gain.gas = gain.viscous = gain.yield = K(1.0);
     scale(st, s, &gain);
     fail(st, &gain);
-@FEEDBACK@    to = joint_of(st, &gain);
+@FEEDBACK@    to = joint_of(st, s, &gain, besides);
     force = march(st, &st->spring[@LAST@], &to, s, x, u);
     parts = behind(st, &st->spring[@LAST@], &to, s, x, force);
     st->gas_past = x;

@@ -5,4 +5,6 @@
         PREFIX_real stretch, speed, yielding; /* [m], [m/s] behind it, [N] F_ER of Eq. 12 */
         int up, faces; /* direction of the last motion, and of that at the samples */
         int near; /* node below the last speed */
+        PREFIX_real beside; /* [N] forces that the rod's motion made */
+        PREFIX_real was, smooth; /* [N] signed yield force; its sign law but for the jump */
     } spring[@MARCHES@];

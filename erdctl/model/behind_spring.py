@@ -1,0 +1,105 @@
+"""What effects are behind a spring, where the piston has a speed of its own: laws of that speed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import lru_cache
+
+import numpy as np
+
+from erdctl.core.errors import IncompatibleEffects
+from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
+from erdctl.model.effect import Effect, in_slot
+from erdctl.model.series_compliance import Other
+from erdctl.model.slots import ScaleSlot, SignSlot, Values, ViscousSlot, YieldSlot
+
+NODES = 192  # of the speed grid: laws between nodes are straight lines
+
+
+@lru_cache(maxsize=64)
+def speed_grid(fastest: float) -> Array:
+    """(NODES,) speeds [m/s] on which laws are tabulated, well beyond the fastest recorded one."""
+    return np.geomspace(1e-7, 4.0 * max(fastest, 1e-3), NODES)
+
+
+def level_beyond(law: Array) -> Array:
+    """A law (2, m) on a grid of speeds, so that beyond it what falls goes on as it is there.
+
+    A spring lets a piston slip faster than the grid goes. On its last line a friction that falls
+    would turn round there, and drive the piston ever faster.
+    Check: 3, 2 falls and becomes 3, 3; -1, -2 grows and stays.
+    >>> level_beyond(np.array([[3.0, 2.0], [-1.0, -2.0]])).tolist()
+    [[3.0, 3.0], [-1.0, -2.0]]
+    """
+    out = law.copy()
+    falls = np.abs(law[:, -1]) < np.abs(law[:, -2])
+    out[falls, -1] = law[falls, -2]
+    return out
+
+
+def refuse(effects: Sequence[Effect]) -> None:
+    """Raise IncompatibleEffects for what cannot act there: a sign or a viscous force that is no law
+    of speed, a yield force that remembers twice, or nobody knows how."""
+    for e in effects:
+        another = isinstance(e.slot, SignSlot) and e.slot.of_another
+        if isinstance(e.slot, SignSlot | ViscousSlot) and not (e.of_speed or another):
+            raise IncompatibleEffects(f"{e.name} cannot act behind a spring: no law of speed alone")
+    remember = in_slot(effects, YieldSlot)
+    for number, (e, law) in enumerate(remember):
+        if number or not (law.time or law.travel):
+            raise IncompatibleEffects(f"{e.name} cannot act behind a spring: a second memory")
+
+
+def laws(effects: Sequence[Effect], values: Values, grid: Array) -> tuple[Array, Array, Array]:
+    """Viscous shape, sign law and friction on a grid of speeds, (2, m) each: up and down."""
+    zero = np.zeros(2 * len(grid))
+    speeds = np.concatenate([grid, -grid])
+    # At mid-stroke and full duty, where `SignSlot` has the law that it is one of another speed.
+    s = Signals(zero, zero, speeds, zero + 1.0, zero, np.array([0, len(speeds)]))
+    viscous, sign, friction, one = speeds, np.sign(speeds), zero.copy(), np.ones(len(speeds))
+    for e in effects:
+        p = e.local(values)
+        if isinstance(e.slot, SignSlot):
+            sign = e.slot(s, p)
+        if isinstance(e.slot, ViscousSlot):
+            viscous = e.slot(s, p)
+        if e.of_speed:
+            for q, row in zip(e.amplitudes, e.added(s, p), strict=True):
+                friction += values[e.key(q.symbol)] * row
+    for e, scale in in_slot(effects, ScaleSlot):
+        if e.of_speed:
+            factors = scale(s, e.local(values))
+            viscous = viscous * factors.get("viscous", one)
+            sign = sign * factors.get("yield", one)
+    pairs = [law.reshape(2, -1) for law in (viscous, sign, friction)]
+    return pairs[0], level_beyond(pairs[1]), level_beyond(pairs[2])
+
+
+def beside(
+    effects: Iterable[Effect], terms: Iterable[tuple[str, Array]], values: Values, count: int
+) -> Array:
+    """(count,) forces of the damper that do not depend on speed alone: those of the rod's motion.
+
+    A spring in series carries them, as it does all that the damper bears.
+    terms : name and (count,) unit response of every amplitude
+    """
+    here = [e for e in effects if e.carried and not e.of_speed]
+    names = {e.key(q.symbol) for e in here for q in e.amplitudes}
+    return sum((values[name] * row for name, row in terms if name in names), np.zeros(count))
+
+
+def other(effects: Sequence[Effect], values: Values, s: Signals) -> tuple[Array, Other | None]:
+    """(n,) divisor of the speed in the sign law, and what else the yield force is made from."""
+    by, lead, over = np.ones(len(s)), 0.0, (0.0, 0.0)
+    plain = True
+    for e, sign in in_slot(effects, SignSlot):
+        p = e.local(values)
+        if sign.by is not None:
+            by, plain = sign.by(s, p), False
+        lead = 0.0 if sign.lead is None else p[sign.lead]
+    for e, law in in_slot(effects, YieldSlot):
+        p = e.local(values)
+        over = p[law.time] if law.time else 0.0, p[law.travel] if law.travel else 0.0
+    plain = plain and lead == 0.0 and not any(over)
+    return by, None if plain else Other(lead, *over)
