@@ -98,7 +98,7 @@ def _again(s: Signals) -> tuple[Index, Index, Array, Array]:
 EFFECT = Effect(
     name="presliding_friction",
     stage=Stage.FRICTION,
-    slot=TermSlot(),
+    slot=TermSlot(travel="x_d"),
     title="elastic pre-sliding loop at reversal (Dahl, LuGre)",
     equation="F = F_c z, dz/dx = (1 - z sign(xdot)) / x_d",
     said="{F_c} of friction that builds up over {x_d}",

@@ -10,9 +10,9 @@ import numpy as np
 from erdctl.core.errors import IncompatibleEffects
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.at_speed import Other
 from erdctl.model.effect import Effect, in_slot
-from erdctl.model.series_compliance import Other
-from erdctl.model.slots import ScaleSlot, SignSlot, Values, ViscousSlot, YieldSlot
+from erdctl.model.slots import ScaleSlot, SignSlot, TermSlot, Values, ViscousSlot, YieldSlot
 
 NODES = 192  # of the speed grid: laws between nodes are straight lines
 
@@ -79,27 +79,47 @@ def laws(effects: Sequence[Effect], values: Values, grid: Array) -> tuple[Array,
 def beside(
     effects: Iterable[Effect], terms: Iterable[tuple[str, Array]], values: Values, count: int
 ) -> Array:
-    """(count,) forces of the damper that do not depend on speed alone: those of the rod's motion.
+    """(count,) forces of the damper that are made from the rod's motion, as no law has them behind.
 
     A spring in series carries them, as it does all that the damper bears.
     terms : name and (count,) unit response of every amplitude
     """
+    slides = sliding(effects)
     here = [e for e in effects if e.carried and not e.of_speed]
+    here = [e for e in here if slides is None or e is not slides[0]]
     names = {e.key(q.symbol) for e in here for q in e.amplitudes}
     return sum((values[name] * row for name, row in terms if name in names), np.zeros(count))
 
 
-def other(effects: Sequence[Effect], values: Values, s: Signals) -> tuple[Array, Other | None]:
-    """(n,) divisor of the speed in the sign law, and what else the yield force is made from."""
-    by, lead, over = np.ones(len(s)), 0.0, (0.0, 0.0)
-    plain = True
+def sliding(effects: Iterable[Effect]) -> tuple[Effect, str, str] | None:
+    """The friction that follows the direction over a travel, which behind a spring is the piston's,
+    with the symbols of its force and of that travel; of several the first."""
+    for e, term in in_slot(effects, TermSlot):
+        if term.travel:
+            return e, e.amplitudes[0].symbol, term.travel
+    return None
+
+
+def other(
+    effects: Sequence[Effect], values: Values, s: Signals, *, inner: bool
+) -> tuple[Array, Other | None]:
+    """(n,) divisor of the speed in the sign law, and what no law of the speed alone is.
+
+    inner : whether all of the damper is behind the spring, or its fluid alone
+    """
+    by, lead, time, travel, rubs, over = np.ones(len(s)), 0.0, 0.0, 0.0, 0.0, 0.0
+    divided = False
     for e, sign in in_slot(effects, SignSlot):
-        p = e.local(values)
         if sign.by is not None:
-            by, plain = sign.by(s, p), False
-        lead = 0.0 if sign.lead is None else p[sign.lead]
+            by, divided = sign.by(s, e.local(values)), True
+        lead = values[e.key(sign.lead)] if sign.lead else 0.0
     for e, law in in_slot(effects, YieldSlot):
-        p = e.local(values)
-        over = p[law.time] if law.time else 0.0, p[law.travel] if law.travel else 0.0
-    plain = plain and lead == 0.0 and not any(over)
-    return by, None if plain else Other(lead, *over)
+        time = values[e.key(law.time)] if law.time else 0.0
+        travel = values[e.key(law.travel)] if law.travel else 0.0
+    slides = sliding(effects) if inner else None
+    if slides is not None:
+        effect, force, way = slides
+        rubs, over = values[effect.key(force)], values[effect.key(way)]
+    yields = divided or lead != 0.0 or time > 0.0 or travel > 0.0
+    plain = not yields and rubs == 0.0
+    return by, None if plain else Other(yields, lead, time, travel, rubs, over)

@@ -29,8 +29,8 @@ Factors = Mapping[str, Array]
 
 
 class _Behind(NamedTuple):
-    """What marches behind a spring: (n,) force, stretch and speed, forces that the rod's motion
-    makes, laws on a grid, (n,) factors."""
+    """What marches behind a spring: (n,) force, stretch and speed, forces that are no laws of it,
+    laws on a grid, (n,) factors."""
 
     force: Array
     stretch: Array
@@ -224,8 +224,9 @@ class Prepared:
         Forces of the damper that do not depend on speed alone are those of the recorded motion. A
         gas law in place of x is moved by the spring as x is: their slopes differ by little there.
         """
-        from erdctl.model.behind_spring import beside, laws, other, refuse, speed_grid
-        from erdctl.model.series_compliance import SpeedLaws, march
+        from erdctl.model.at_speed import SpeedLaws
+        from erdctl.model.behind_spring import beside, laws, other, refuse, sliding, speed_grid
+        from erdctl.model.series_compliance import march
 
         refuse(self.effects)
         s, inner = self.signals, spring.carries is None
@@ -241,20 +242,23 @@ class Prepared:
         T = [max(T_d, 1e-9) for T_d in pair(values, "T_d")]
         rises, falls = (ones, ones) if self.lags is None else self.lags
         viscous = np.array(pair(values, "c_vis"))[:, None] * viscous
-        by, memory = other(self.effects, values, s)
-        force, stretch, v = march(
-            self.gas, s.x, s.xdot, s.step, rises, falls, s.starts, s.compressing, s.rests, held,
-            u_c, u_r, by, gain["gas"], gain["viscous"], gain["yield"],
+        by, memory = other(self.effects, values, s, inner=inner)
+        slides = sliding(self.effects)
+        slide = dict(self.terms)[slides[0].key(slides[1])] if slides else ones
+        force, stretch, v, z = march(
+            self.gas, s.x, s.xdot, s.step, rises, falls, s.starts, s.compressing, s.rests,
+            held, slide, u_c, u_r, by, gain["gas"], gain["viscous"], gain["yield"],
             SpeedLaws(grid, viscous, sign, friction), memory,
             k[0], k[1], T[0], T[1], compliance, self.gap,
         )  # fmt: skip
+        held = held if memory is None else held + memory.F_c * z
         return _Behind(force, stretch, v, held, grid, viscous, friction, gain)
 
     def _behind_spring(
         self, values: Values, factors: Factors, spring: SeriesSlot, compliance: float
     ) -> dict[str, Array]:
         """Forces by group with a compliance [m/N] in series with the groups that it carries."""
-        from erdctl.model.series_compliance import along
+        from erdctl.model.at_speed import along
 
         s, inner = self.signals, spring.carries is None
         b = self._march(values, factors, spring, compliance)

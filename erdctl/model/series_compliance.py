@@ -19,100 +19,14 @@ Source: return mapping of elasto-viscoplasticity, Simo and Hughes, Computational
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 import numpy.typing as npt
 from numba import njit
 
 from erdctl.core.recording import Array, Index
+from erdctl.model.at_speed import Leg, Other, SpeedLaws, followed, slid, value
 
 SLOWEST = 0.25  # of the speed in a step that the end of it may have in the rule below
-
-
-class SpeedLaws(NamedTuple):
-    """Forces behind the spring.
-
-    grid : (m,) speeds;  viscous, sign, friction : (2, m) laws on it, for compression and release
-    """
-
-    grid: Array
-    viscous: Array
-    sign: Array
-    friction: Array
-
-
-class Other(NamedTuple):
-    """Where the yield force is not F_ER sign(v) with that sign alone.
-
-    lead : kappa [1/s] of a sign law that is one of v + kappa x_p
-    T_s, x_d : time [s] and travel [m] over which the force follows it, 0 at once
-    """
-
-    lead: float
-    T_s: float
-    x_d: float
-
-
-class Leg(NamedTuple):
-    """A step, or a part of one, in one direction of the rod, and what is known as it ends.
-
-    dt : its length [s];  x : in place of the deflection in the gas force;  rod : that of the rod
-    beside : forces that the rod's motion makes [N]
-    Y : F_ER;  by : see `SignSlot`;  k_c, k_r : gas stiffness;  viscous, yields : factors
-    half : half of the free play;  s : compliance
-    was, Y_0, smooth : signed yield force before the leg, F_ER, and its sign law but for the jump
-    """
-
-    dt: float
-    x: float
-    rod: float
-    beside: float
-    Y: float
-    by: float
-    k_c: float
-    k_r: float
-    viscous: float
-    yields: float
-    half: float
-    s: float
-    was: float
-    Y_0: float
-    smooth: float
-
-
-@njit(cache=True)
-def _value(law: Array, grid: Array, v: float, way: float) -> float:
-    """A law (2, m) on a grid of speeds at a speed v, at 0 from the side `way`; level beyond."""
-    branch, speed = (0 if v > 0.0 or (v == 0.0 and way > 0.0) else 1), abs(v)
-    j = min(max(int(np.searchsorted(grid, speed)), 1), len(grid) - 1)
-    w = min(max((speed - grid[j - 1]) / (grid[j] - grid[j - 1]), 0.0), 1.0)
-    return float(law[branch, j - 1] * (1.0 - w) + law[branch, j] * w)
-
-
-@njit(cache=True)
-def _followed(
-    v: float, way: float, travel: float, e: float, i: Leg, d: SpeedLaws, o: Other
-) -> tuple[float, float]:
-    """Signed yield force at a speed v of the piston, and its sign law there but for the jump.
-
-    It follows a straight line from where F_ER sign(v) was. What jumps with the direction has that
-    of now from the start, so that it does not matter whether the piston rested or hardly moved.
-    """
-    sheared = (v + o.lead * (i.rod - e)) / i.by
-    law = _value(d.sign, d.grid, sheared, way)
-    jump = 0.5 * (d.sign[0, 0] - d.sign[1, 0])
-    jump *= 1.0 if sheared > 0.0 or (sheared == 0.0 and way > 0.0) else -1.0
-    target, smooth = i.Y * law, law - jump
-    if o.T_s == 0.0 and o.x_d == 0.0:
-        return target, smooth
-    z = (i.dt / o.T_s if o.T_s > 0.0 else 0.0) + (travel / o.x_d if o.x_d > 0.0 else 0.0)
-    if z == 0.0:
-        return i.was, smooth
-    gone = -np.expm1(-z)
-    new = 1.0 - gone / z
-    before = i.Y_0 * (i.smooth + jump)
-    return (1.0 - gone) * i.was + (gone - new) * before + new * target, smooth
 
 
 @njit(cache=True, inline="always")
@@ -144,7 +58,9 @@ def _excess(
         plastic += (d.sign[branch, j + 1] - plastic) * w
     plastic *= i.Y
     if o is not None:
-        plastic = _followed(way * u, way, u * span, at, i, d, o)[0]
+        friction += o.F_c * slid(way, u * span, i, o)
+        if o.yields:
+            plastic = followed(way * u, way, u * span, at, i, d, o)[0]
     rest = k * (i.x - at) + i.beside - _held(at, i.half, i.s)
     return float(rest + viscous * i.viscous + plastic * i.yields + friction)
 
@@ -156,15 +72,18 @@ def _starting(branch: int, e: float, i: Leg, d: SpeedLaws, o: Other | None) -> f
     rest = k * (i.x - e) + i.beside - _held(e, i.half, i.s)
     plastic = i.Y * d.sign[branch, 0]
     if o is not None:
-        plastic = _followed(0.0, way, 0.0, e, i, d, o)[0]
+        rest += o.F_c * i.z
+        if o.yields:
+            plastic = followed(0.0, way, 0.0, e, i, d, o)[0]
     return float(rest + plastic * i.yields + d.friction[branch, 0])
 
 
 @njit(cache=True)
 def _moved(
     e: float, mean: float, end: float, near: int, i: Leg, d: SpeedLaws, o: Other | None
-) -> tuple[float, float, int, float, float]:
-    """As a leg ends: stretch, speed behind the spring, node, signed yield force, smooth sign law.
+) -> tuple[float, float, int, float, float, float]:
+    """As a leg ends: stretch, speed behind the spring, node, signed yield force, smooth part of its
+    sign law, part of the friction that follows.
 
     mean, end : speed of the rod [m/s], over the leg and as it ends
     near : node of the grid below the last speed, where the search begins; the new one is returned
@@ -218,31 +137,33 @@ def _moved(
         u = slow + part * (fast - slow)
         at = e - way * u * span
         if o is None:
-            return at, way * u, low, 0.0, 0.0
-        force, smooth = _followed(way * u, way, u * span, at, i, d, o)
-        return at, way * u, low, force, smooth
+            return at, way * u, low, 0.0, 0.0, 0.0
+        force, smooth = followed(way * u, way, u * span, at, i, d, o)
+        return at, way * u, low, force, smooth, slid(way, u * span, i, o)
     if o is None:
-        return e, 0.0, 1, 0.0, 0.0
+        return e, 0.0, 1, 0.0, 0.0, 0.0
     # What sticks is held by as much of what it could take from either side as balances the rest.
-    up, smooth = _followed(0.0, 1.0, 0.0, e, i, d, o)
-    down, _ = _followed(0.0, -1.0, 0.0, e, i, d, o)
+    up, smooth = followed(0.0, 1.0, 0.0, e, i, d, o)
+    down, _ = followed(0.0, -1.0, 0.0, e, i, d, o)
     to_go = _starting(0, e, i, d, o)
     apart = to_go - _starting(1, e, i, d, o)
     part = to_go / apart if apart > 0.0 else 0.5
-    return e, 0.0, 1, up + (down - up) * part, smooth
+    return e, 0.0, 1, up + (down - up) * part, smooth, i.z
 
 
 @njit(cache=True)
 def march(
     x: Array, rod: Array, xdot: Array, step: Array, rises: Array, falls: Array, starts: Index,
-    compressing: npt.NDArray[np.bool_], rests: npt.NDArray[np.bool_], beside: Array,
+    compressing: npt.NDArray[np.bool_], rests: npt.NDArray[np.bool_], beside: Array, slide: Array,
     u_c: Array, u_r: Array, by: Array, g_gas: Array, g_visc: Array, g_yield: Array, d: SpeedLaws,
     o: Other | None, k_c: float, k_r: float, T_c: float, T_r: float, s: float, gap: float,
-) -> tuple[Array, Array, Array]:  # fmt: skip
-    """Force of the spring (n,) [N], its stretch (n,) [m] and the speed behind it (n,) [m/s].
+) -> tuple[Array, Array, Array, Array]:  # fmt: skip
+    """Force of the spring (n,) [N], its stretch (n,) [m], the speed behind it (n,) [m/s], and (n,)
+    the part of the friction that follows the direction.
 
     x : (n,) in place of the deflection in the gas force;  rod, xdot : (n,) motion of the rod
-    beside : (n,) forces of the damper that this makes [N]
+    beside : (n,) forces of the damper that this makes [N];  slide : (n,) part of the friction that
+        would follow its direction, of which a record begins with the first
     u_c, u_r : (n,) steady yield force in either direction;  by : (n,) see `SignSlot`
     g_ : (n,) factors of the groups;  k_c, k_r : gas stiffness behind the spring
     s : compliance [m/N] > 0;  gap : free play [m]
@@ -252,7 +173,7 @@ def march(
     whole of it the piston would turn up to a step late, however stiff the spring.
     """
     last, fade, half = -1.0, 1.0, 0.5 * gap  # the exponential of the last step: most are alike
-    force, stretch, speed = np.empty(len(x)), np.empty(len(x)), np.empty(len(x))
+    force, stretch, speed, part = np.empty((4, len(x)))
     for r in range(len(starts) - 1):
         first = starts[r]
         up = compressing[first]
@@ -262,9 +183,10 @@ def march(
         v = xdot[first]
         still = v == 0.0 or (rests[r] and gap > 0.0)
         k = (k_c if up else k_r) * g_gas[first]
-        other = beside[first]
+        z = slide[first]
+        other = beside[first] + (0.0 if o is None else o.F_c * z)
         sheared = v if o is None else (v + o.lead * rod[first]) / by[first]
-        law = _value(d.sign, d.grid, sheared, way)
+        law = value(d.sign, d.grid, sheared, way)
         smooth = law - (1.0 if sheared > 0.0 else -1.0) * 0.5 * (d.sign[0, 0] - d.sign[1, 0])
         was = y * law
         if still:  # what rubs holds what it can of them
@@ -272,13 +194,13 @@ def march(
             least = u_r[first] * g_yield[first] * d.sign[1, 0] + d.friction[1, 0]
             other -= min(max(other, least), most)
         else:
-            other += _value(d.viscous, d.grid, v, way) * g_visc[first]
-            other += was * g_yield[first] + _value(d.friction, d.grid, v, way)
+            other += value(d.viscous, d.grid, v, way) * g_visc[first]
+            other += was * g_yield[first] + value(d.friction, d.grid, v, way)
         was, smooth = (0.0, 0.0) if still else (was, smooth)
         F = (k * x[first] + other) / (1.0 + k * s)
         near = np.searchsorted(d.grid, abs(v)) - 1
         e = s * F + (0.0 if still else half if F > 0.0 else -half)
-        force[first], stretch[first], speed[first] = F, e, v
+        force[first], stretch[first], speed[first], part[first] = F, e, v, z
         for i in range(first + 1, starts[r + 1]):
             v0, v1, dt = xdot[i - 1], xdot[i], step[i - 1]
             turning = v0 * v1 < 0.0
@@ -301,19 +223,9 @@ def march(
                 y_0, y = y, u + (y - u) * fade
                 now = Leg(
                     span, x_end, rod_end, other, y, by[i], k_c * g_gas[i], k_r * g_gas[i],
-                    g_visc[i], g_yield[i], half, s, was, y_0, smooth,
+                    g_visc[i], g_yield[i], half, s, was, y_0, smooth, z,
                 )  # fmt: skip
-                e, v, near, was, smooth = _moved(e, mean, end, near, now, d, o)
+                e, v, near, was, smooth, z = _moved(e, mean, end, near, now, d, o)
                 up = v > 0.0 if v != 0.0 else up
-            force[i], stretch[i], speed[i] = _held(e, half, s), e, v
-    return force, stretch, speed
-
-
-@njit(cache=True)
-def along(v: Array, grid: Array, law: Array) -> Array:
-    """(n,) value of a law (2, m) on a grid of speeds at the speeds v (n,); 0 at rest."""
-    out = np.zeros(len(v))
-    for i in range(len(v)):
-        if v[i] != 0.0:
-            out[i] = _value(law, grid, v[i], 0.0)
-    return out
+            force[i], stretch[i], speed[i], part[i] = _held(e, half, s), e, v, z
+    return force, stretch, speed, part

@@ -279,13 +279,20 @@ class SeriesSlot(FunctionSlot[NumberFunction]):
 
 
 class TermSlot:
-    """Nothing but added forces: `Effect.columns`."""
+    """Nothing but added forces: `Effect.columns`.
+
+    travel : symbol of the travel [m] over which the one column follows sign(xdot), exponentially;
+        behind a spring in series it follows the piston's direction over its travel
+    """
+
+    def __init__(self, *, travel: str | None = None) -> None:
+        self.travel = travel
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, TermSlot)
+        return isinstance(other, TermSlot) and self.travel == other.travel
 
     def __hash__(self) -> int:
-        return hash(TermSlot)
+        return hash((TermSlot, self.travel))
 
 
 Slot = (

@@ -115,6 +115,37 @@ def test_a_preload_takes_up_the_play_of_a_joint(preload: float) -> None:
     assert np.sqrt(np.mean(error**2)) < 0.01 * np.ptp(expected)
 
 
+@pytest.mark.parametrize("gap", [0.0, GAP])
+@pytest.mark.parametrize("x_d", [1e-4, 2e-3])
+def test_a_seal_that_bends_goes_with_the_piston(x_d: float, gap: float) -> None:
+    """dz/dt = (v - z |v|) / x_d: while the play is crossed it stays as it was."""
+    s, s_m, F_c = sine(1.5, STROKE, 2.0, 1000.0), 2e-5, 8.0
+
+    def force_at(e: float) -> float:
+        return (max(e - gap / 2, 0.0) + min(e + gap / 2, 0.0)) / s_m
+
+    def moved(t: float, y: Array) -> list[float]:
+        e, z = y
+        v = (force_at(e) - K * (STROKE * np.sin(W * t) - e) - F_c * z) / C
+        return [STROKE * W * np.cos(W * t) - v, (v - z * abs(v)) / x_d]
+
+    start = s_m * (C * STROKE * W + F_c) + gap / 2
+    solution = solve_ivp(
+        moved, (0.0, s.t[-1]), [start, 1.0], method="Radau", t_eval=s.t, rtol=1e-8, atol=1e-11,
+        max_step=2e-3,
+    )  # fmt: skip
+    expected = np.array([force_at(e) for e in solution.y[0]])
+    model = Model((get("backlash"), get("mount_compliance"), get("presliding_friction")))
+    values = {"backlash.g": gap or 1e-12, "mount_compliance.s_m": s_m}
+    values |= {"presliding_friction.F_c": F_c, "presliding_friction.x_d": x_d}
+    found = model.force(s, PLAIN | values)
+    settled = s.t > 0.7
+    assert np.sqrt(np.mean((found - expected)[settled] ** 2)) < 0.01 * np.ptp(expected)
+    parts = model.parts(s, PLAIN | values)
+    assert sum(parts.values()) == pytest.approx(found)
+    assert np.abs(parts["yield"][1:]).max() < 1e-4  # no field: what the tables of laws leave
+
+
 def test_an_error_of_the_channel_stretches_no_mount() -> None:
     s = sine(1.5, STROKE, 2.0, 1000.0, duty=DUTY)
     base = PLAIN | {"backlash.g": GAP, "mount_compliance.s_m": 2e-5}

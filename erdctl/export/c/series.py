@@ -9,7 +9,7 @@ from erdctl.export.c.functions import call, function, law_of
 from erdctl.export.c.hooks import AT, total
 from erdctl.export.c.layout import CMember
 from erdctl.export.c.names import identifier, part
-from erdctl.model.behind_spring import refuse
+from erdctl.model.behind_spring import refuse, sliding
 from erdctl.model.effect import Effect, in_slot
 from erdctl.model.parameters import Parameters
 from erdctl.model.slots import FeedbackSlot, SeriesSlot, SignSlot, YieldSlot
@@ -63,13 +63,16 @@ def march(spring: Effect, effects: Sequence[Effect]) -> str:
             f"    {call('law', effect, '&parts', '&gain')};",
         ]
     inside = [e for e in effects if e.of_speed and law_of(e).force]
+    slides = sliding(effects) if whole(spring) else None
     carried = [e for e in effects if law_of(e).force and e.carried and whole(spring)]
+    known = [e for e in carried if e not in inside and (not slides or e is not slides[0])]
     outside = [e for e in effects if law_of(e).force and e not in carried]
     text = "\n\n".join(
         [
             f"enum {{ WHOLE = {int(whole(spring))} }};  /* in series with all, or the fluid */",
             total("friction", [call("force", e) for e in inside if whole(spring)]),
-            total("beside", [call("force", e) for e in carried if e not in inside]),
+            total("beside", [call("force", e) for e in known]),
+            *_sliding(slides),
             *_of_the_sign(effects),
             total("outside", [call("force", e) for e in outside]),
             part("spring.c").strip(),
@@ -96,6 +99,19 @@ def _of_the_sign(effects: Sequence[Effect]) -> list[str]:
             for name, found in asked.items()
         ),
         function("real sign_by", [*AT], f"return {(by or ['K(1.0)'])[0]};"),
+    ]
+
+
+def _sliding(found: tuple[Effect, str, str] | None) -> list[str]:
+    """The friction that follows the piston's direction over its travel, if any does."""
+    force, travel = "K(0.0)", "K(1.0)"
+    if found is not None:
+        effect, *symbols = found
+        force, travel = (_parameter(effect, symbol) for symbol in symbols)
+    return [
+        f"enum {{ SLIDES = {int(found is not None)} }};  /* a friction builds up over a travel */",
+        function("real slide_force", ["const State *st"], f"return {force};"),
+        function("real slide_travel", ["const State *st"], f"return {travel};"),
     ]
 
 

@@ -133,6 +133,14 @@ static real followed(const State *st, const Spring *b, const Joint *to, const Le
            + fresh * leg->Y * law;
 }
 
+/* Part of the friction that follows the direction, after a travel of the piston. */
+static real slid(const State *st, const Spring *b, int way, real travel)
+{
+    real there = way == 0 ? K(1.0) : K(-1.0);
+
+    return there + (b->z - there) * EXP(-travel / slide_travel(st));
+}
+
 /* Force of the damper beyond that of the spring, at a speed u a part w of the way from node j to
  * the next; e is the stretch that the rod alone would leave. */
 static real excess(const State *st, const Spring *b, const Joint *to, const Leg *leg, real u, int j,
@@ -146,7 +154,8 @@ static real excess(const State *st, const Spring *b, const Joint *to, const Leg 
         yields = leg->Y * between(st->sign_at[way], j + 1, w);
     return to->k[way] * (leg->x - at) + leg->beside - held(at, to)
            + between(st->viscous_at[way], j + 1, w) * to->gain.viscous + yields * to->gain.yield
-           + between(st->friction_at[way], j + 1, w);
+           + between(st->friction_at[way], j + 1, w)
+           + (SLIDES ? slide_force(st) * slid(st, b, way, u * span) : K(0.0));
 }
 
 /* The same of a piston that is about to move. */
@@ -158,7 +167,7 @@ static real starting(const State *st, const Spring *b, const Joint *to, const Le
     if (OTHER)
         yields = followed(st, b, to, leg, K(0.0), way, K(0.0), e, &smooth);
     return to->k[way] * (leg->x - e) + leg->beside - held(e, to) + yields * to->gain.yield
-           + st->friction_at[way][0];
+           + st->friction_at[way][0] + (SLIDES ? slide_force(st) * b->z : K(0.0));
 }
 
 /* What sticks is held by as much of what it could take from either side as balances the rest. */
@@ -245,6 +254,7 @@ static void advance(const State *st, Spring *b, const Joint *to, const Leg *leg,
             b->was = followed(st, b, to, leg, b->speed, branch, u * span, b->stretch, &smooth);
             b->smooth = smooth;
         }
+        b->z = SLIDES ? slid(st, b, branch, u * span) : K(0.0);
         return;
     }
     stick(st, b, to, leg, e);
@@ -257,6 +267,9 @@ static void set_out(const State *st, Spring *b, const Joint *to, const Sample *s
     int way = s->up ? 0 : 1, j = above(st, FABS(s->xdot));
     int still = (s->rests && to->half > K(0.0)) || !(FABS(s->xdot) > K(0.0));
     real w = part_of(st, j, FABS(s->xdot)), rest = to->beside, F;
+
+    b->z = s->xdot > K(0.0) ? K(1.0) : s->xdot < K(0.0) ? K(-1.0) : K(0.0);
+    rest += SLIDES ? slide_force(st) * b->z : K(0.0);
 
     b->up = s->up;
     b->yielding = u[way];
@@ -343,7 +356,8 @@ static Groups behind(const State *st, const Spring *b, const Joint *to, const Sa
     }
     if (WHOLE) {
         out.gas = (x - b->stretch) * to->k[b->faces ? 0 : 1];
-        out.yield = force - out.gas - out.viscous - friction_now - to->beside;
+        out.yield = force - out.gas - out.viscous - friction_now - to->beside
+                    - (SLIDES ? slide_force(st) * b->z : K(0.0));
     } else {
         out.gas = x * along(s, st->p.compression_k_nom, st->p.release_k_nom) * to->gain.gas;
         out.yield = force - out.viscous;

@@ -7,4 +7,5 @@
         int near; /* node below the last speed */
         PREFIX_real beside; /* [N] forces that the rod's motion made */
         PREFIX_real was, smooth; /* [N] signed yield force; its sign law but for the jump */
+        PREFIX_real z; /* part of the friction that follows the direction */
     } spring[@MARCHES@];
