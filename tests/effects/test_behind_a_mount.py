@@ -143,7 +143,7 @@ def test_a_seal_that_bends_goes_with_the_piston(x_d: float, gap: float) -> None:
     assert np.sqrt(np.mean((found - expected)[settled] ** 2)) < 0.01 * np.ptp(expected)
     parts = model.parts(s, PLAIN | values)
     assert sum(parts.values()) == pytest.approx(found)
-    assert np.abs(parts["yield"][1:]).max() < 1e-4  # no field: what the tables of laws leave
+    assert np.abs(parts["yield"][1:]).max() < 1e-3  # no field: what the tables of laws leave
 
 
 def test_an_error_of_the_channel_stretches_no_mount() -> None:
