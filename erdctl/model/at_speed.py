@@ -72,7 +72,7 @@ class Leg(NamedTuple):
     z: float
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always")
 def value(law: Array, grid: Array, v: float, way: float) -> float:
     """A law (2, m) on a grid of speeds at a speed v, at 0 from the side `way`; level beyond."""
     branch, speed = (0 if v > 0.0 or (v == 0.0 and way > 0.0) else 1), abs(v)
@@ -81,7 +81,7 @@ def value(law: Array, grid: Array, v: float, way: float) -> float:
     return float(law[branch, j - 1] * (1.0 - w) + law[branch, j] * w)
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always")
 def followed(
     v: float, way: float, travel: float, e: float, i: Leg, d: SpeedLaws, o: Other
 ) -> tuple[float, float]:
@@ -106,7 +106,7 @@ def followed(
     return (1.0 - gone) * i.was + (gone - new) * before + new * target, smooth
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always")
 def slid(way: float, travel: float, i: Leg, o: Other) -> float:
     """Part of the friction that follows the direction, after a travel of the piston."""
     return float(way + (i.z - way) * np.exp(-travel / o.x_c)) if o.F_c > 0.0 else 0.0
