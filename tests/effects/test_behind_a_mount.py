@@ -10,8 +10,9 @@ from made import PLAIN, signals, sine
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+from erdctl.core.errors import IncompatibleEffects
 from erdctl.core.recording import Array
-from erdctl.effects import get
+from erdctl.effects import catalogue, get
 from erdctl.model.composed import Model
 
 K, C, DUTY = 200.0, 70.0, 0.3
@@ -162,3 +163,28 @@ def test_a_rod_that_rests_is_held_by_what_rubs(preload: float) -> None:
     model = Model((get("mount_compliance"), get("gas_preload")))
     found = model.force(s, PLAIN | {"mount_compliance.s_m": s_m, "gas_preload.F_0": preload})
     assert found == pytest.approx(max(preload - Y, 0.0) / (1 + K * s_m))
+
+
+RIGID = [e for e in catalogue() if e.name not in {"backlash", *get("mount_compliance").equivalents}]
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_whatever_acts_a_stiff_mount_is_none_and_a_soft_one_drives_nothing(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    mount, s = get("mount_compliance"), sine(1.5, STROKE, 2.0, 1000.0, duty=DUTY)
+    others = [e for e in RIGID if e is not mount]
+    chosen = tuple(others[i] for i in rng.choice(len(others), size=3, replace=False))
+    values = dict(PLAIN)
+    for e in chosen:
+        for q in e.quantities:
+            values[e.key(q.symbol)] = float(np.clip(q.start * rng.uniform(0.3, 3.0), q.low, q.high))
+    try:
+        rigid = Model(chosen).force(s, values)
+        found = [
+            Model((*chosen, mount)).force(s, values | {"mount_compliance.s_m": s_m})
+            for s_m in (1e-11, 10 ** rng.uniform(-6.0, -3.5))
+        ]
+    except IncompatibleEffects:
+        pytest.skip("no model has these together")
+    assert np.sqrt(np.mean((found[0] - rigid) ** 2)) < 0.01 * np.ptp(rigid)
+    assert np.abs(found[1]).max() < 3.0 * np.abs(rigid).max()
