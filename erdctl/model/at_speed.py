@@ -18,12 +18,14 @@ class SpeedLaws(NamedTuple):
     """Forces behind the spring.
 
     grid : (m,) speeds;  viscous, sign, friction : (2, m) laws on it, for compression and release
+    factor : (2, m) of the yield force where that is not F_ER sign(v) alone
     """
 
     grid: Array
     viscous: Array
     sign: Array
     friction: Array
+    factor: Array
 
 
 class Other(NamedTuple):

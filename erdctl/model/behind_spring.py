@@ -51,13 +51,20 @@ def refuse(effects: Sequence[Effect]) -> None:
             raise IncompatibleEffects(f"{e.name} cannot act behind a spring: a second memory")
 
 
-def laws(effects: Sequence[Effect], values: Values, grid: Array) -> tuple[Array, Array, Array]:
-    """Viscous shape, sign law and friction on a grid of speeds, (2, m) each: up and down."""
+def laws(
+    effects: Sequence[Effect], values: Values, grid: Array, *, apart: bool
+) -> tuple[Array, Array, Array, Array]:
+    """Viscous shape, sign law, friction and factor of the yield force on a grid of speeds, (2, m)
+    each: up and down.
+
+    apart : whether that factor is apart from the sign law, which may be one of another speed
+    """
     zero = np.zeros(2 * len(grid))
     speeds = np.concatenate([grid, -grid])
     # At mid-stroke and full duty, where `SignSlot` has the law that it is one of another speed.
     s = Signals(zero, zero, speeds, zero + 1.0, zero, np.array([0, len(speeds)]))
-    viscous, sign, friction, one = speeds, np.sign(speeds), zero.copy(), np.ones(len(speeds))
+    viscous, sign, friction = speeds, np.sign(speeds), zero.copy()
+    factor = one = np.ones(len(speeds))
     for e in effects:
         p = e.local(values)
         if isinstance(e.slot, SignSlot):
@@ -71,9 +78,11 @@ def laws(effects: Sequence[Effect], values: Values, grid: Array) -> tuple[Array,
         if e.of_speed:
             factors = scale(s, e.local(values))
             viscous = viscous * factors.get("viscous", one)
-            sign = sign * factors.get("yield", one)
-    pairs = [law.reshape(2, -1) for law in (viscous, sign, friction)]
-    return pairs[0], level_beyond(pairs[1]), level_beyond(pairs[2])
+            factor = factor * factors.get("yield", one)
+    if not apart:
+        sign, factor = sign * factor, one
+    sign, friction, factor = (level_beyond(law.reshape(2, -1)) for law in (sign, friction, factor))
+    return viscous.reshape(2, -1), sign, friction, factor
 
 
 def beside(

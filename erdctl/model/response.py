@@ -231,7 +231,9 @@ class Prepared:
         refuse(self.effects)
         s, inner = self.signals, spring.carries is None
         grid = speed_grid(float(np.abs(s.xdot).max()))
-        viscous, sign, friction = laws(self.effects, values, grid)
+        by, memory = other(self.effects, values, s, inner=inner)
+        apart = memory is not None and memory.yields
+        viscous, sign, friction, factor = laws(self.effects, values, grid, apart=apart)
         held = beside(self.effects, self.terms, values, len(s))
         if not inner:
             friction, held = np.zeros_like(friction), np.zeros_like(held)
@@ -242,13 +244,12 @@ class Prepared:
         T = [max(T_d, 1e-9) for T_d in pair(values, "T_d")]
         rises, falls = (ones, ones) if self.lags is None else self.lags
         viscous = np.array(pair(values, "c_vis"))[:, None] * viscous
-        by, memory = other(self.effects, values, s, inner=inner)
         slides = sliding(self.effects)
         slide = dict(self.terms)[slides[0].key(slides[1])] if slides else ones
         force, stretch, v, z = march(
             self.gas, s.x, s.xdot, s.step, rises, falls, s.starts, s.compressing, s.rests,
             held, slide, u_c, u_r, by, gain["gas"], gain["viscous"], gain["yield"],
-            SpeedLaws(grid, viscous, sign, friction), memory,
+            SpeedLaws(grid, viscous, sign, friction, factor), memory,
             k[0], k[1], T[0], T[1], compliance, self.gap,
         )  # fmt: skip
         held = held if memory is None else held + memory.F_c * z

@@ -61,6 +61,8 @@ def _excess(
         friction += o.F_c * slid(way, u * span, i, o)
         if o.yields:
             plastic = followed(way * u, way, u * span, at, i, d, o)[0]
+            here, there = d.factor[branch, j], d.factor[branch, min(j + 1, len(d.grid) - 1)]
+            plastic *= here + (there - here) * w
     rest = k * (i.x - at) + i.beside - _held(at, i.half, i.s)
     return float(rest + viscous * i.viscous + plastic * i.yields + friction)
 
@@ -74,7 +76,7 @@ def _starting(branch: int, e: float, i: Leg, d: SpeedLaws, o: Other | None) -> f
     if o is not None:
         rest += o.F_c * i.z
         if o.yields:
-            plastic = followed(0.0, way, 0.0, e, i, d, o)[0]
+            plastic = followed(0.0, way, 0.0, e, i, d, o)[0] * d.factor[branch, 0]
     return float(rest + plastic * i.yields + d.friction[branch, 0])
 
 
@@ -190,12 +192,14 @@ def march(
         smooth = law - (1.0 if sheared > 0.0 else -1.0) * 0.5 * (d.sign[0, 0] - d.sign[1, 0])
         was = y * law
         if still:  # what rubs holds what it can of them
-            most = u_c[first] * g_yield[first] * d.sign[0, 0] + d.friction[0, 0]
-            least = u_r[first] * g_yield[first] * d.sign[1, 0] + d.friction[1, 0]
+            held = g_yield[first] * d.factor[:, 0] * d.sign[:, 0]
+            most, least = u_c[first] * held[0], u_r[first] * held[1]
+            most, least = most + d.friction[0, 0], least + d.friction[1, 0]
             other -= min(max(other, least), most)
         else:
             other += value(d.viscous, d.grid, v, way) * g_visc[first]
-            other += was * g_yield[first] + value(d.friction, d.grid, v, way)
+            other += was * g_yield[first] * value(d.factor, d.grid, v, way)
+            other += value(d.friction, d.grid, v, way)
         was, smooth = (0.0, 0.0) if still else (was, smooth)
         F = (k * x[first] + other) / (1.0 + k * s)
         near = np.searchsorted(d.grid, abs(v)) - 1

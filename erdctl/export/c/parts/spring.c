@@ -53,10 +53,12 @@ static void tabulate(State *st)
             of_speed(st, &s, &f);
             st->viscous_at[way][j] = viscous_law(st, &s) * f.viscous
                                      * (way == 0 ? st->p.compression_c_vis : st->p.release_c_vis);
-            st->sign_at[way][j] = sign_law(st, &s) * f.yield;
+            st->sign_at[way][j] = sign_law(st, &s) * (OTHER ? K(1.0) : f.yield);
+            st->factor_at[way][j] = OTHER ? f.yield : K(1.0);
             st->friction_at[way][j] = friction(st, &s);
         }
         level_beyond(st->sign_at[way]);
+        level_beyond(st->factor_at[way]);
         level_beyond(st->friction_at[way]);
     }
 }
@@ -149,7 +151,8 @@ static real excess(const State *st, const Spring *b, const Joint *to, const Leg 
     real direction = way == 0 ? K(1.0) : K(-1.0), at = e - direction * u * span, yields, smooth;
 
     if (OTHER)
-        yields = followed(st, b, to, leg, direction * u, way, u * span, at, &smooth);
+        yields = followed(st, b, to, leg, direction * u, way, u * span, at, &smooth)
+                 * between(st->factor_at[way], j + 1, w);
     else
         yields = leg->Y * between(st->sign_at[way], j + 1, w);
     return to->k[way] * (leg->x - at) + leg->beside - held(at, to)
@@ -165,7 +168,8 @@ static real starting(const State *st, const Spring *b, const Joint *to, const Le
     real yields = leg->Y * st->sign_at[way][0], smooth;
 
     if (OTHER)
-        yields = followed(st, b, to, leg, K(0.0), way, K(0.0), e, &smooth);
+        yields = followed(st, b, to, leg, K(0.0), way, K(0.0), e, &smooth)
+                 * st->factor_at[way][0];
     return to->k[way] * (leg->x - e) + leg->beside - held(e, to) + yields * to->gain.yield
            + st->friction_at[way][0] + (SLIDES ? slide_force(st) * b->z : K(0.0));
 }
@@ -264,7 +268,7 @@ static void advance(const State *st, Spring *b, const Joint *to, const Leg *leg,
 static void set_out(const State *st, Spring *b, const Joint *to, const Sample *s, real x,
                     const real u[2])
 {
-    int way = s->up ? 0 : 1, j = above(st, FABS(s->xdot));
+    int way = s->up ? 0 : 1, j = above(st, FABS(s->xdot)), i;
     int still = (s->rests && to->half > K(0.0)) || !(FABS(s->xdot) > K(0.0));
     real w = part_of(st, j, FABS(s->xdot)), rest = to->beside, F;
 
@@ -275,14 +279,19 @@ static void set_out(const State *st, Spring *b, const Joint *to, const Sample *s
     b->yielding = u[way];
     b->was = b->smooth = K(0.0);
     if (still) { /* what rubs holds what it can of them */
-        rest -= clipped(rest, u[1] * st->sign_at[1][0] * to->gain.yield + st->friction_at[1][0],
-                        u[0] * st->sign_at[0][0] * to->gain.yield + st->friction_at[0][0]);
+        real held_by[2];
+
+        for (i = 0; i < 2; i++)
+            held_by[i] = u[i] * st->sign_at[i][0] * st->factor_at[i][0] * to->gain.yield
+                         + st->friction_at[i][0];
+        rest -= clipped(rest, held_by[1], held_by[0]);
     } else {
         real sheared = (s->xdot + sign_lead(st) * s->x) / to->by, law = sign_along(st, sheared, way);
 
         b->was = b->yielding * law;
         b->smooth = law - jump_of(st, sheared, 1);
-        rest += between(st->viscous_at[way], j, w) * to->gain.viscous + b->was * to->gain.yield
+        rest += between(st->viscous_at[way], j, w) * to->gain.viscous
+                + b->was * to->gain.yield * between(st->factor_at[way], j, w)
                 + between(st->friction_at[way], j, w);
     }
     F = (to->k[way] * x + rest) / (K(1.0) + to->k[way] * to->s);
