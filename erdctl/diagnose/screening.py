@@ -23,7 +23,15 @@ from erdctl.estimate.linearisation import jacobian
 from erdctl.estimate.onsets import profile
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
-from erdctl.model.slots import ChannelSlot, MotionSlot, SeriesSlot, TermSlot, Values
+from erdctl.model.slots import (
+    ChannelSlot,
+    MotionSlot,
+    SeriesSlot,
+    SignSlot,
+    TermSlot,
+    Values,
+    YieldSlot,
+)
 
 CARRYING = (MotionSlot, SeriesSlot, ChannelSlot)  # what an added force acts behind, or through
 
@@ -62,6 +70,22 @@ class Screen:
 
     def candidate(self, effect: Effect) -> Candidate | None:
         """What one effect promises; None where the parent's or the log do not admit it."""
+        found = self._promise(effect)
+        if found is not None and found.gain < thresholds.BEHIND_SPRING and self._behind(effect):
+            return None
+        return found
+
+    def _behind(self, effect: Effect) -> bool:
+        """Whether it brings together a spring and a yield force that is no law of speed alone.
+
+        The two bend each other's loops: they fit much that is neither, and only at these motions.
+        """
+        spring = any(isinstance(e.slot, SeriesSlot) for e in self.parent.effects)
+        other = any(_is_other(e) for e in self.parent.effects)
+        joins = isinstance(effect.slot, SeriesSlot) and other
+        return not (spring and other) and (joins or (spring and _is_other(effect)))
+
+    def _promise(self, effect: Effect) -> Candidate | None:
         if effect.sets_in:
             return self._onset(effect)
         if effect.smooth:
@@ -200,6 +224,12 @@ def _orthonormal(rows: Array) -> Array:
     q, r, _ = qr(scaled.T, mode="economic", pivoting=True)
     size = np.abs(np.diag(r))
     return np.ascontiguousarray(q[:, size > thresholds.BASIS * size[:1]].T)
+
+
+def _is_other(effect: Effect) -> bool:
+    """Whether it makes the yield force one of more than the piston's speed."""
+    slot = effect.slot
+    return isinstance(slot, YieldSlot) or (isinstance(slot, SignSlot) and slot.of_another)
 
 
 def starts(effect: Effect, problem: Problem, residual: Array) -> list[dict[str, float]]:

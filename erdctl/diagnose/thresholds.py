@@ -228,6 +228,12 @@ MOST_EFFECTS = 12
 # Origin: budget; the screen is a linear estimate, right within about a factor of two.
 SCREENED_GAIN, SCREENED_LEAST = 0.4, 4
 
+# Part of what is left that a yield force of more than the speed has to promise beside a spring.
+# Decides: whether such a law is fitted there.
+# Origin: a law that is there promises 0.44 to 0.78 of it (12 pairs of the plant); on the way of the
+# search on an MR damper of which no effect is all, 0.03 to 0.26, and it failed at other motions.
+BEHIND_SPRING = 0.4
+
 # Single effects, the best first, that are tried in the place of a chosen one; how many are listed.
 # Decides: which look-alikes are looked for.
 # Origin: budget.
