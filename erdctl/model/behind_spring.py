@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from erdctl.core.errors import IncompatibleEffects
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
-from erdctl.model.at_speed import Other
 from erdctl.model.effect import Effect, in_slot
 from erdctl.model.slots import ScaleSlot, SignSlot, TermSlot, Values, ViscousSlot, YieldSlot
+
+if TYPE_CHECKING:  # it is compiled, and to load a compiler costs an export 0.3 s
+    from erdctl.model.at_speed import Other
 
 NODES = 192  # of the speed grid: laws between nodes are straight lines
 
@@ -116,6 +119,8 @@ def other(
 
     inner : whether all of the damper is behind the spring, or its fluid alone
     """
+    from erdctl.model.at_speed import Other
+
     by, lead, time, travel, rubs, over = np.ones(len(s)), 0.0, 0.0, 0.0, 0.0, 0.0
     divided = False
     for e, sign in in_slot(effects, SignSlot):
