@@ -79,11 +79,11 @@ def test_simulate_validate_and_mimic(
 
 
 def test_effects_that_exclude_each_other_are_refused(log: Path, tmp_path: Path) -> None:
-    chosen = (get("signed_yield_lag"), get("mount_compliance"))
+    chosen = (get("fluid_compressibility"), get("mount_compliance"))
     params = corrected(tmp_path / "corrected.json", *chosen)
     for command in (["simulate"], ["validate"], ["mimic", "--fault", "oil=0.5"]):
         line = [sys.executable, "-m", "erdctl", *command, str(params), str(log)]
         run = subprocess.run(line, capture_output=True, text=True)
         assert run.returncode == 3
-        assert "signed_yield_lag, mount_compliance together" in run.stderr
+        assert "fluid_compressibility, mount_compliance together" in run.stderr
         assert "Traceback" not in run.stderr

@@ -75,7 +75,15 @@ def _nearest(
     if shape:
         ends = [q.low for q in shape], [q.high for q in shape]
         scale = [abs(v) + 1e-3 * (q.high - q.low) for q, v in zip(shape, best, strict=True)]
-        best = tuple(least_squares(lambda p: solved(p)[0], best, bounds=ends, x_scale=scale).x)
+        as_set = np.geterr()
+
+        def missed(point: Sequence[float]) -> Array:
+            with np.errstate(**as_set):
+                return solved(point)[0]
+
+        # Where no step gets any nearer, the search divides 0 by 0, and ends there.
+        with np.errstate(invalid="ignore"):
+            best = tuple(least_squares(missed, best, bounds=ends, x_scale=scale).x)
     left, sizes = solved(best)
     size = float(sizes[0])
     if constant:
