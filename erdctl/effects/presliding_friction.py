@@ -122,7 +122,8 @@ EFFECT = Effect(
         state=("z",),
         force="""
         /* At the first sample it has slid for long, or, at rest, not at all: where the motion comes
-         * by its first place again lies ahead. Who knows better sets z after the first step. */
+         * by its first place again lies ahead. Who knows better sets z after the first step; behind
+         * a mount that of each `spring` of the state, where the piston's travel counts. */
         real way = s->up ? K(1.0) : K(-1.0), past = s->up0 ? K(1.0) : K(-1.0);
 
         if (s->first)
