@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import compare, ranked
 from erdctl.diagnose.executor import Task
@@ -11,7 +13,7 @@ from erdctl.diagnose.forward_step import Exploration, key_of, with_effect
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.predictability import misfit_is_left
-from erdctl.diagnose.screening import Screen
+from erdctl.diagnose.screening import Candidate, Screen
 from erdctl.model.effect import Effect
 
 
@@ -42,27 +44,37 @@ def look_alikes(
         duty can be told. None takes a name, but what does as well is told
     """
     others = tuple(e for e in best.effects if e is not effect)
-    likely = [h.effects[-1] for h in singles[: thresholds.LOOK_ALIKES]]
-    likely += [c for c in candidates if c.name in effect.equivalents]
-    likely += untested
     names, rest = key_of(best.effects), key_of(others)
-    likely += [c for c in candidates if rest | {c.name} in x.explored]
-    keys = {e.name: rest | {e.name} for e in likely if e.name not in names}
     if rest not in x.explored:
         task = Task("second pass", others, (best.values,), record_effects=best.record_effects)
         x.explored.keep(*x.executor.fit_compatible(x.problem, [task]))
+    parent = x.explored[rest]
+    promises = dict[str, Candidate]()
+    alone = rest == key_of(x.base.effects)
+    if alone:
+        likely = [h.effects[-1] for h in singles[: thresholds.LOOK_ALIKES]]
+    else:  # what promised little alone may be what the others lack
+        promises = _promises(x, parent, [c for c in candidates if c.name not in names])
+        bar = thresholds.SCREENED_GAIN * _taken(parent, best)
+        first = sorted(promises.values(), key=lambda c: -c.gain)[: thresholds.LOOK_ALIKES]
+        likely = [c.effect for c in first if c.gain > bar]
+    again = [] if alone else list(likely)
+    # In the place of an effect those may differ that nothing tells apart where they are alone.
+    alike = {name for e in (effect, *likely) for name in e.equivalents}
+    likely += [c for c in candidates if c.name in alike]
+    likely += untested
+    likely += [c for c in candidates if rest | {c.name} in x.explored]
+    keys = {e.name: rest | {e.name} for e in likely if e.name not in names}
     new = [e for e in dict.fromkeys(likely) if e.name in keys and keys[e.name] not in x.explored]
     if new:
-        parent = x.explored[rest]
-        screen = Screen(x.problem, parent, x.executor.most)
-        promises = [screen.candidate(e) for e in new]
-        worth = [
-            c for c in promises if c is not None and (c.gain > 0.0 or c.effect not in untested)
-        ]
-        tasks = [with_effect("look-alikes", parent, c) for c in worth]
-        for hypothesis in x.executor.fit(x.problem, tasks):
-            if hypothesis is not None:
-                x.explored.keep(hypothesis)
+        promises |= _promises(x, parent, [e for e in new if e.name not in promises])
+        worth = [promises[e.name] for e in new if e.name in promises]
+        tasks = [
+            with_effect("look-alikes", parent, c)
+            for c in worth if c.gain > 0.0 or c.effect not in untested
+        ]  # fmt: skip
+        _keep(x, tasks)
+    _keep(x, [_instead(parent, promises[e.name], best) for e in again])
     room = _misfit_leaves(x, rest, best)
     found = {}
     for name, key in keys.items():
@@ -74,6 +86,42 @@ def look_alikes(
         if gain.tied or near or is_preferred(x.problem, other, best):
             found[key] = name
     return [(found[key_of(h.effects)], h) for h in ranked(x.explored[key] for key in found)]
+
+
+def _taken(rest: Hypothesis, best: Hypothesis) -> float:
+    """Part of the mean square of what a smaller hypothesis leaves that the best one takes."""
+    left = [np.average(h.residual**2, weights=h.problem.block.weight) for h in (best, rest)]
+    return float(1.0 - left[0] / max(left[1], 1e-300))
+
+
+def _instead(parent: Hypothesis, candidate: Candidate, best: Hypothesis) -> Task:
+    """The fit of one effect beside those of a parent, in place of one of the best hypothesis.
+
+    From where the others are in that: without what is replaced they may be far from it, and a fit
+    from there stuck.
+    """
+    beside = {name: best.values[name] for name in parent.values}
+    return Task(
+        "look-alikes", (*parent.effects, candidate.effect), ({**beside, **candidate.starts[0]},),
+        record_effects=best.record_effects,
+    )  # fmt: skip
+
+
+def _keep(x: Exploration, tasks: Sequence[Task]) -> None:
+    for hypothesis in x.executor.fit(x.problem, tasks):
+        if hypothesis is not None:
+            x.explored.keep(hypothesis)
+
+
+def _promises(
+    x: Exploration, parent: Hypothesis, effects: Sequence[Effect]
+) -> dict[str, Candidate]:
+    """What effects promise beside those of a hypothesis, by name; of those that can be there."""
+    if not effects:
+        return {}
+    screen = Screen(x.problem, parent, x.executor.most)
+    promises = (screen.candidate(e) for e in effects)
+    return {c.effect.name: c for c in promises if c is not None}
 
 
 def _misfit_leaves(x: Exploration, rest: frozenset[str], best: Hypothesis) -> float:

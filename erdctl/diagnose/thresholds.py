@@ -223,8 +223,9 @@ BEAM, BEAM_DEPTH = 3, 3
 # search and the names do not depend on a limit.
 MOST_EFFECTS = 12
 
-# Part of the most promising effect's screened gain, and the number of effects in any case.
-# Decides: which effects are fitted together with a parent's.
+# Part of the most promising effect's screened gain, and the number of effects in any case; part of
+# what a chosen effect takes.
+# Decides: which effects are fitted together with a parent's; which in the place of a chosen one.
 # Origin: budget; the screen is a linear estimate, right within about a factor of two.
 SCREENED_GAIN, SCREENED_LEAST = 0.4, 4
 

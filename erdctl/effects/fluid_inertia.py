@@ -13,6 +13,7 @@ q^4) / T, as s = (q + q^2 ...) / T, without what would follow the last sample at
 gives 0.2 % too much at 7 Hz, 0.8 at 10 and 9 at 20; noise of xdot of 2 mm/s at 1 kHz becomes 0.9
 m/s^2, a third of what the slope of a step has. With steps above 5 ms it becomes that slope, half a
 step late.
+Behind an elastic mount it is the piston that has a mass (`erdctl.model.series_compliance`).
 Valid below about 20 Hz. At one frequency m cannot be distinguished from k_nom, as then
 d2x/dt2 = -omega^2 x.
 Check: m = 2 kg, xdot = 0.5 t m/s gives 1 N.
@@ -80,7 +81,7 @@ def _of_change(e: Array, k: int) -> Array:
 EFFECT = Effect(
     name="fluid_inertia",
     stage=Stage.FLUID,
-    slot=TermSlot(),
+    slot=TermSlot(mass="m"),
     title="inertia of the fluid column and of the moving parts",
     equation="F = m d2x/dt2",
     said="{m} of moving mass",

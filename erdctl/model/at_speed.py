@@ -54,6 +54,7 @@ class Leg(NamedTuple):
     half : half of the free play;  s : compliance
     was, Y_0, smooth : signed yield force before the leg, F_ER, and its sign law but for the jump
     z : part of the friction that followed the direction, by then
+    pull, level : a mass over dt [kg/s]; speed of the piston at which it has the rod's acceleration
     """
 
     dt: float
@@ -72,6 +73,8 @@ class Leg(NamedTuple):
     Y_0: float
     smooth: float
     z: float
+    pull: float
+    level: float
 
 
 @njit(cache=True, inline="always")

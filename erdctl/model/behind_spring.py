@@ -112,6 +112,12 @@ def sliding(effects: Iterable[Effect]) -> tuple[Effect, str, str] | None:
     return None
 
 
+def masses(effects: Iterable[Effect]) -> list[tuple[Effect, str]]:
+    """What goes with the piston, which behind a spring is not accelerated as the rod is: effects,
+    and of each the symbol of its mass [kg]."""
+    return [(e, term.mass) for e, term in in_slot(effects, TermSlot) if term.mass]
+
+
 def other(
     effects: Sequence[Effect], values: Values, s: Signals, *, inner: bool
 ) -> tuple[Array, Other | None]:

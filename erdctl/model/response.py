@@ -225,7 +225,15 @@ class Prepared:
         gas law in place of x is moved by the spring as x is: their slopes differ by little there.
         """
         from erdctl.model.at_speed import SpeedLaws
-        from erdctl.model.behind_spring import beside, laws, other, refuse, sliding, speed_grid
+        from erdctl.model.behind_spring import (
+            beside,
+            laws,
+            masses,
+            other,
+            refuse,
+            sliding,
+            speed_grid,
+        )
         from erdctl.model.series_compliance import march
 
         refuse(self.effects)
@@ -246,14 +254,14 @@ class Prepared:
         viscous = np.array(pair(values, "c_vis"))[:, None] * viscous
         slides = sliding(self.effects)
         slide = dict(self.terms)[slides[0].key(slides[1])] if slides else ones
-        force, stretch, v, z = march(
+        force, stretch, v, own = march(
             self.gas, s.x, s.xdot, s.step, rises, falls, s.starts, s.compressing, s.rests,
             held, slide, u_c, u_r, by, gain["gas"], gain["viscous"], gain["yield"],
             SpeedLaws(grid, viscous, sign, friction, factor), memory,
             k[0], k[1], T[0], T[1], compliance, self.gap,
+            sum(values[e.key(m)] for e, m in masses(self.effects)) if inner else 0.0,
         )  # fmt: skip
-        held = held if memory is None else held + memory.F_c * z
-        return _Behind(force, stretch, v, held, grid, viscous, friction, gain)
+        return _Behind(force, stretch, v, held + own, grid, viscous, friction, gain)
 
     def _behind_spring(
         self, values: Values, factors: Factors, spring: SeriesSlot, compliance: float

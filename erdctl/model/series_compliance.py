@@ -1,7 +1,7 @@
 """A spring in series with the damper, or with its fluid: the force feeds back on the motion.
 
     de/dt = xdot - v,   s F = e beyond -g/2..g/2, 0 within,   x_p = x - e
-    F = gas(x_p) + viscous(v) + F_ER sign(v) + friction(v) + what the motion of the rod makes
+    F = gas(x_p) + viscous(v) + F_ER sign(v) + friction(v) + m dv/dt + what the rod's motion makes
 
 e is the spring's stretch and g free play in its joint, which bears no force: after a reversal the
 spring unloads, the play is crossed, and it loads again.
@@ -11,6 +11,8 @@ the spring alone moves) where the yield force holds. The rod's travel in a step 
 speeds; where the piston moves with it, its own is to its last speed v as the rod's is to xdot. So
 an error of second order in the step remains both in stick and when the spring is stiff. It is
 stable for every compliance s > 0 and goes over into the model without a spring as s goes to 0.
+A mass m takes its acceleration of the rod from the log, and that of the spring's stretch from the
+step: what the two ring at must be slow to the samples, as the step damps what is not.
 It is simulated free-running: correcting with the measured force would feed its noise back.
 
 Source: return mapping of elasto-viscoplasticity, Simo and Hughes, Computational Inelasticity
@@ -64,6 +66,7 @@ def _excess(
             here, there = d.factor[branch, j], d.factor[branch, min(j + 1, len(d.grid) - 1)]
             plastic *= here + (there - here) * w
     rest = k * (i.x - at) + i.beside - _held(at, i.half, i.s)
+    rest += i.pull * (way * u - i.level)
     return float(rest + viscous * i.viscous + plastic * i.yields + friction)
 
 
@@ -71,7 +74,7 @@ def _excess(
 def _starting(branch: int, e: float, i: Leg, d: SpeedLaws, o: Other | None) -> float:
     """`_excess` of a piston that is about to move."""
     k, way = (i.k_c, 1.0) if branch == 0 else (i.k_r, -1.0)
-    rest = k * (i.x - e) + i.beside - _held(e, i.half, i.s)
+    rest = k * (i.x - e) + i.beside - _held(e, i.half, i.s) - i.pull * i.level
     plastic = i.Y * d.sign[branch, 0]
     if o is not None:
         rest += o.F_c * i.z
@@ -159,9 +162,10 @@ def march(
     compressing: npt.NDArray[np.bool_], rests: npt.NDArray[np.bool_], beside: Array, slide: Array,
     u_c: Array, u_r: Array, by: Array, g_gas: Array, g_visc: Array, g_yield: Array, d: SpeedLaws,
     o: Other | None, k_c: float, k_r: float, T_c: float, T_r: float, s: float, gap: float,
+    mass: float,
 ) -> tuple[Array, Array, Array, Array]:  # fmt: skip
     """Force of the spring (n,) [N], its stretch (n,) [m], the speed behind it (n,) [m/s], and (n,)
-    the part of the friction that follows the direction.
+    what the piston's own motion adds to `beside` [N].
 
     x : (n,) in place of the deflection in the gas force;  rod, xdot : (n,) motion of the rod
     beside : (n,) forces of the damper that this makes [N];  slide : (n,) part of the friction that
@@ -169,13 +173,16 @@ def march(
     u_c, u_r : (n,) steady yield force in either direction;  by : (n,) see `SignSlot`
     g_ : (n,) factors of the groups;  k_c, k_r : gas stiffness behind the spring
     s : compliance [m/N] > 0;  gap : free play [m]
+    mass : that goes with the piston [kg]; `beside` has it by the acceleration of the rod, and the
+        difference of the two is that of their speeds, which noise of the rod's speed leaves alone
     rests : (r,) records that begin at rest, in the middle of the play
 
     A step in which the rod turns is made of two legs, before and after: by the mean speed of the
     whole of it the piston would turn up to a step late, however stiff the spring.
     """
     last, fade, half = -1.0, 1.0, 0.5 * gap  # the exponential of the last step: most are alike
-    force, stretch, speed, part = np.empty((4, len(x)))
+    force, stretch, speed, own = np.empty((4, len(x)))
+    rubs = 0.0 if o is None else o.F_c
     for r in range(len(starts) - 1):
         first = starts[r]
         up = compressing[first]
@@ -186,7 +193,7 @@ def march(
         still = v == 0.0 or (rests[r] and gap > 0.0)
         k = (k_c if up else k_r) * g_gas[first]
         z = slide[first]
-        other = beside[first] + (0.0 if o is None else o.F_c * z)
+        other = beside[first] + rubs * z
         sheared = v if o is None else (v + o.lead * rod[first]) / by[first]
         law = value(d.sign, d.grid, sheared, way)
         smooth = law - (1.0 if sheared > 0.0 else -1.0) * 0.5 * (d.sign[0, 0] - d.sign[1, 0])
@@ -204,32 +211,34 @@ def march(
         F = (k * x[first] + other) / (1.0 + k * s)
         near = np.searchsorted(d.grid, abs(v)) - 1
         e = s * F + (0.0 if still else half if F > 0.0 else -half)
-        force[first], stretch[first], speed[first], part[first] = F, e, v, z
+        force[first], stretch[first], speed[first], own[first] = F, e, v, rubs * z
         for i in range(first + 1, starts[r + 1]):
             v0, v1, dt = xdot[i - 1], xdot[i], step[i - 1]
             turning = v0 * v1 < 0.0
             before = v0 / (v0 - v1) if turning else 0.0
             for leg in range(2 if turning else 1):
                 mean, end, span = 0.5 * (v0 + v1), v1, dt
-                other, x_end, rod_end = beside[i], x[i], rod[i]
+                other, x_end, rod_end, begun = beside[i], x[i], rod[i], v0
                 if turning:
                     if leg == 0:
                         mean, end, span = 0.5 * v0, 0.0, before * dt
                         x_end, rod_end = x[i - 1] + mean * span, rod[i - 1] + mean * span
                         other = beside[i - 1] + (other - beside[i - 1]) * before
                     else:
-                        mean, span = 0.5 * v1, dt - before * dt
+                        mean, span, begun = 0.5 * v1, dt - before * dt, 0.0
                 u = u_c[i - 1] if up else u_r[i - 1]
                 T = (T_c if up else T_r) * (falls if abs(u) < abs(y) else rises)[i - 1]
                 decay = span / T
                 if decay != last:
                     last, fade = decay, np.exp(-decay)
                 y_0, y = y, u + (y - u) * fade
+                pull, level = mass / max(span, 1e-9), end + v - begun
                 now = Leg(
                     span, x_end, rod_end, other, y, by[i], k_c * g_gas[i], k_r * g_gas[i],
-                    g_visc[i], g_yield[i], half, s, was, y_0, smooth, z,
+                    g_visc[i], g_yield[i], half, s, was, y_0, smooth, z, pull, level,
                 )  # fmt: skip
                 e, v, near, was, smooth, z = _moved(e, mean, end, near, now, d, o)
                 up = v > 0.0 if v != 0.0 else up
-            force[i], stretch[i], speed[i], part[i] = _held(e, half, s), e, v, z
-    return force, stretch, speed, part
+                added = rubs * z + pull * (v - level)
+            force[i], stretch[i], speed[i], own[i] = _held(e, half, s), e, v, added
+    return force, stretch, speed, own

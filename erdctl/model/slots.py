@@ -283,16 +283,21 @@ class TermSlot:
 
     travel : symbol of the travel [m] over which the one column follows sign(xdot), exponentially;
         behind a spring in series it follows the piston's direction over its travel
+    mass : symbol of the mass [kg] whose one column is the acceleration of the rod; behind a spring
+        in series it goes with the piston
     """
 
-    def __init__(self, *, travel: str | None = None) -> None:
-        self.travel = travel
+    def __init__(self, *, travel: str | None = None, mass: str | None = None) -> None:
+        self.travel, self.mass = travel, mass
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, TermSlot) and self.travel == other.travel
+        return isinstance(other, TermSlot) and self._symbols() == other._symbols()
 
     def __hash__(self) -> int:
-        return hash((TermSlot, self.travel))
+        return hash((TermSlot, *self._symbols()))
+
+    def _symbols(self) -> tuple[str | None, str | None]:
+        return self.travel, self.mass
 
 
 Slot = (

@@ -147,6 +147,35 @@ def test_a_seal_that_bends_goes_with_the_piston(x_d: float, gap: float) -> None:
     assert np.abs(parts["yield"][1:]).max() < 1e-3  # no field: what the tables of laws leave
 
 
+@pytest.mark.parametrize("gap", [0.0, GAP])
+@pytest.mark.parametrize(("s_m", "m"), [(2e-5, 0.3), (2e-4, 1.0), (2e-4, 4.0)])
+def test_a_mass_goes_with_the_piston(s_m: float, m: float, gap: float) -> None:
+    """m dv/dt = F - k x_p - c v - F_ER sign(v): behind a mount the piston is not accelerated as the
+    rod is, least of all where it turns, sticks or crosses a play."""
+    s, soft = sine(1.5, STROKE, 2.0, 1000.0, duty=DUTY), 2e-4
+
+    def force_at(e: float) -> float:
+        return (max(e - gap / 2, 0.0) + min(e + gap / 2, 0.0)) / s_m
+
+    def moved(t: float, y: Array) -> list[float]:
+        e, v = y
+        borne = K * (STROKE * np.sin(W * t) - e) + C * v + Y * np.tanh(v / soft)
+        return [STROKE * W * np.cos(W * t) - v, (force_at(e) - borne) / m]
+
+    start = s_m * (C * STROKE * W + Y) / (1 + K * s_m) + gap / 2
+    solution = solve_ivp(
+        moved, (0.0, s.t[-1]), [start, STROKE * W], method="Radau", t_eval=s.t, rtol=1e-7,
+        atol=1e-10, max_step=2e-3,
+    )  # fmt: skip
+    expected = np.array([force_at(e) for e in solution.y[0]])
+    model = Model((get("backlash"), get("mount_compliance"), get("fluid_inertia")))
+    values = {"backlash.g": gap or 1e-12, "mount_compliance.s_m": s_m, "fluid_inertia.m": m}
+    found = model.force(s, PLAIN | values)
+    settled = (s.t > 0.1) & (s.t < s.t[-1] - 0.05)
+    assert np.sqrt(np.mean((found - expected)[settled] ** 2)) < 0.01 * np.ptp(expected)
+    assert sum(model.parts(s, PLAIN | values).values()) == pytest.approx(found)
+
+
 def test_an_error_of_the_channel_stretches_no_mount() -> None:
     s = sine(1.5, STROKE, 2.0, 1000.0, duty=DUTY)
     base = PLAIN | {"backlash.g": GAP, "mount_compliance.s_m": 2e-5}

@@ -9,7 +9,7 @@ from erdctl.export.c.functions import call, function, law_of
 from erdctl.export.c.hooks import AT, total
 from erdctl.export.c.layout import CMember
 from erdctl.export.c.names import identifier, part
-from erdctl.model.behind_spring import refuse, sliding
+from erdctl.model.behind_spring import masses, refuse, sliding
 from erdctl.model.effect import Effect, in_slot
 from erdctl.model.parameters import Parameters
 from erdctl.model.slots import FeedbackSlot, SeriesSlot, SignSlot, YieldSlot
@@ -73,6 +73,7 @@ def march(spring: Effect, effects: Sequence[Effect]) -> str:
             total("friction", [call("force", e) for e in inside if whole(spring)]),
             total("beside", [call("force", e) for e in known]),
             *_sliding(slides),
+            _mass(effects if whole(spring) else ()),
             *_of_the_sign(effects),
             total("outside", [call("force", e) for e in outside]),
             part("spring.c").strip(),
@@ -113,6 +114,12 @@ def _sliding(found: tuple[Effect, str, str] | None) -> list[str]:
         function("real slide_force", ["const State *st"], f"return {force};"),
         function("real slide_travel", ["const State *st"], f"return {travel};"),
     ]
+
+
+def _mass(effects: Sequence[Effect]) -> str:
+    """What goes with the piston."""
+    sum_ = " + ".join(_parameter(e, symbol) for e, symbol in masses(effects)) or "K(0.0)"
+    return function("real piston_mass", ["const State *st"], f"return {sum_};")
 
 
 def _parameter(effect: Effect, symbol: str) -> str:

@@ -234,7 +234,7 @@ TOGETHER = {
     "fluid": "fluid_compressibility backlash thermal_fade gas_thermal_drift coulomb_friction"
     " preyield_viscosity rise_decay_asymmetry supply_slew field_saturation presliding_friction",
     "loop behind a mount": "mount_compliance yield_hysteresis signed_yield_lag presliding_friction"
-    " coulomb_friction gas_preload end_stop backlash thermal_fade",
+    " coulomb_friction gas_preload end_stop backlash thermal_fade fluid_inertia",
     "stretch behind a mount": "mount_compliance preyield_field_dependence preyield_elasticity"
     " coulomb_friction gas_polytropic quadratic_damping field_saturation",
     "loop of the fluid": "fluid_compressibility yield_hysteresis signed_yield_lag gas_polytropic",

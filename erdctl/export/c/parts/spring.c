@@ -19,9 +19,10 @@ typedef struct Joint {
 } Joint;
 
 /* A step, or a part of it, in one direction of the rod, as it ends: its length, x of the gas force,
- * deflection of the rod, forces beside, F_ER, and as it began. */
+ * deflection of the rod, forces beside, F_ER, and as it began; the mass over that length, and the
+ * speed at which the piston has the rod's acceleration. */
 typedef struct Leg {
-    real dt, x, rod, beside, Y, Y0;
+    real dt, x, rod, beside, Y, Y0, pull, level;
 } Leg;
 
 /* A law that falls goes on as it is beyond its table: on its last line it would turn round. */
@@ -156,6 +157,7 @@ static real excess(const State *st, const Spring *b, const Joint *to, const Leg 
     else
         yields = leg->Y * between(st->sign_at[way], j + 1, w);
     return to->k[way] * (leg->x - at) + leg->beside - held(at, to)
+           + leg->pull * (direction * u - leg->level)
            + between(st->viscous_at[way], j + 1, w) * to->gain.viscous + yields * to->gain.yield
            + between(st->friction_at[way], j + 1, w)
            + (SLIDES ? slide_force(st) * slid(st, b, way, u * span) : K(0.0));
@@ -170,8 +172,9 @@ static real starting(const State *st, const Spring *b, const Joint *to, const Le
     if (OTHER)
         yields = followed(st, b, to, leg, K(0.0), way, K(0.0), e, &smooth)
                  * st->factor_at[way][0];
-    return to->k[way] * (leg->x - e) + leg->beside - held(e, to) + yields * to->gain.yield
-           + st->friction_at[way][0] + (SLIDES ? slide_force(st) * b->z : K(0.0));
+    return to->k[way] * (leg->x - e) + leg->beside - held(e, to) - leg->pull * leg->level
+           + yields * to->gain.yield + st->friction_at[way][0]
+           + (SLIDES ? slide_force(st) * b->z : K(0.0));
 }
 
 /* What sticks is held by as much of what it could take from either side as balances the rest. */
@@ -298,6 +301,7 @@ static void set_out(const State *st, Spring *b, const Joint *to, const Sample *s
     b->near = j - 1;
     b->stretch = to->s * F + (still ? K(0.0) : F > K(0.0) ? to->half : -to->half);
     b->speed = s->xdot;
+    b->pulled = K(0.0);
     b->faces = s->up;
     b->beside = to->beside;
 }
@@ -306,7 +310,7 @@ static void set_out(const State *st, Spring *b, const Joint *to, const Sample *s
 static real march(const State *st, Spring *b, const Joint *to, const Sample *s, real x,
                   const real u[2])
 {
-    real v0 = s->xdot0, v1 = s->xdot, mean, end, part, lag;
+    real v0 = s->xdot0, v1 = s->xdot, mean, end, begun, part, lag;
     int leg, way, turning = v0 * v1 < K(0.0);
     Leg now;
 
@@ -318,6 +322,7 @@ static real march(const State *st, Spring *b, const Joint *to, const Sample *s, 
     for (leg = 0; leg < (turning ? 2 : 1); leg++) {
         mean = K(0.5) * (v0 + v1);
         end = v1;
+        begun = v0;
         now.dt = s->h;
         now.x = x;
         now.rod = s->x;
@@ -331,6 +336,7 @@ static real march(const State *st, Spring *b, const Joint *to, const Sample *s, 
             now.beside = b->beside + (to->beside - b->beside) * part;
         } else if (turning) {
             mean = K(0.5) * v1;
+            begun = K(0.0);
             now.dt = s->h - part * s->h;
         }
         way = b->up ? 0 : 1;
@@ -339,7 +345,10 @@ static real march(const State *st, Spring *b, const Joint *to, const Sample *s, 
         now.Y0 = b->yielding;
         b->yielding += (u[way] - b->yielding) * -EXPM1(-now.dt / lag);
         now.Y = b->yielding;
+        now.pull = piston_mass(st) / FMAX(now.dt, K(1e-9));
+        now.level = end + b->speed - begun;
         advance(st, b, to, &now, mean, end);
+        b->pulled = now.pull * (b->speed - now.level);
         if (b->speed > K(0.0) || b->speed < K(0.0))
             b->up = b->speed > K(0.0);
     }
@@ -366,7 +375,7 @@ static Groups behind(const State *st, const Spring *b, const Joint *to, const Sa
     if (WHOLE) {
         out.gas = (x - b->stretch) * to->k[b->faces ? 0 : 1];
         out.yield = force - out.gas - out.viscous - friction_now - to->beside
-                    - (SLIDES ? slide_force(st) * b->z : K(0.0));
+                    - b->pulled - (SLIDES ? slide_force(st) * b->z : K(0.0));
     } else {
         out.gas = x * along(s, st->p.compression_k_nom, st->p.release_k_nom) * to->gain.gas;
         out.yield = force - out.viscous;
