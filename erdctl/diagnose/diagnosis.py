@@ -32,7 +32,7 @@ from erdctl.diagnose.residual.localisation import Region, record_region
 from erdctl.diagnose.residual.places import places
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_of
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
-from erdctl.diagnose.search import Selection, on_all, refit, search
+from erdctl.diagnose.search import Selection, named_again, on_all, refit, search
 from erdctl.diagnose.slight_lag import (
     earned_by_lags,
     freed,
@@ -61,9 +61,9 @@ class Diagnosis:
     """What was found; see the contract for the meaning of the verdicts.
 
     cannot_tell : under which conditions something is left out that several effects, and other
-        values of the paper's parameters, would explain alike: one duty and one speed, or several
-        effects at two duties and two kinds of motion at most; or that the model holds within the
-        limits of a channel, beyond which nothing is known; "" where the log can tell
+        paper's parameters, would explain alike: one duty and one speed, or several effects at two
+        duties and two kinds of motion at most; or within which limits of a channel alone the model
+        is known to hold; "" where the log can tell
     baseline : scores of the given parameters as they are, or else of the paper's model refitted
     refitted : scores of that model fitted to this recording
     corrected, carried : scores of the best model without and with the record effects, which
@@ -164,7 +164,10 @@ def diagnose(
             if earned_by_lags(thin, searched, with_lags):
                 searched, workers = with_lags, others
                 thin, seen, problem = lagging
-        chosen: Selection | None = refit(seen, searched, workers)
+        chosen: Selection | None = (settled := refit(seen, searched, workers))
+        if 0 < len(settled.named) < len(searched.named):
+            searched = named_again(thin, searched, settled.named, testable, workers, untested)
+            chosen = refit(seen, searched, workers)
         while chosen is not None:
             selection = chosen
             unseen = on_unseen(problem.of(aside) if aside else None, chosen.base, chosen.best)

@@ -32,6 +32,7 @@ from erdctl.diagnose.resolved import resolved
 from erdctl.estimate.starts import fresh_start
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
+from erdctl.model.slots import SeriesSlot
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,6 +97,45 @@ def search(
     best = as_good_as_explored(x, best)
     best = to_other_motions(x, best)
     best = beyond_form_error(x, best, candidates)
+    return _named(x, best, candidates, singles, untested)
+
+
+def named_again(
+    problem: Problem,
+    found: Selection,
+    kept: Iterable[Effect],
+    candidates: Sequence[Effect],
+    executor: Executor,
+    untested: Sequence[Effect] = (),
+) -> Selection:
+    """The search's names once more, where some of its effects alone are kept.
+
+    What was dropped kept others out of the place of those that stay: a lag, which is none, any
+    compliance.
+    """
+    known = (found.base, *found.singles, *found.without.values(), found.best)
+    x = Exploration(problem, found.base, Explored([]), executor)
+    for h in known:
+        x.explored.keep(h)
+    dropped = key_of(found.named) - key_of(kept)
+    effects = tuple(e for e in found.best.effects if e.name not in dropped)
+    if key_of(effects) not in x.explored:
+        again = Task(
+            "second pass", effects, (found.best.values,), record_effects=found.best.record_effects
+        )
+        x.explored.keep(*executor.fit_compatible(problem, [again]))
+    return _named(x, x.explored[key_of(effects)], candidates, found.singles, untested)
+
+
+def _named(
+    x: Exploration,
+    best: Hypothesis,
+    candidates: Sequence[Effect],
+    singles: Sequence[Hypothesis],
+    untested: Sequence[Effect],
+) -> Selection:
+    """The best hypothesis, in which an effect that does better has the place of a chosen one."""
+    problem = x.problem
     alike: dict[str, tuple[tuple[str, Hypothesis], ...]] = {}
     for effect in x.added(best):
         found = look_alikes(x, best, effect, candidates, singles, untested)
@@ -115,7 +155,7 @@ def search(
         alike[name] = tuple(found[: thresholds.LOOK_ALIKES_LISTED])
     without = dict(zip((e.name for e in x.added(best)), without_each(x, best), strict=True))
     return Selection(
-        x.explored[key_of(base.effects)], best, tuple(singles), without, alike
+        x.explored[key_of(x.base.effects)], best, tuple(singles), without, alike
     )  # fmt: skip
 
 
@@ -204,6 +244,11 @@ def _forward_selection(
         # Also hypotheses that gain nothing alone: together with another one may.
         beam = thresholds.BEAM if depth + 1 < thresholds.BEAM_DEPTH else 1
         parents = (better or more)[:beam]
+        if not depth:
+            # A soft mount or fluid looks like a lag, a play or a stretch before yield, until what
+            # else is there is beside it.
+            springs = [h for h in more if any(isinstance(e.slot, SeriesSlot) for e in h.effects)]
+            parents += [h for h in springs[:1] if h not in parents]
     return best, singles
 
 
