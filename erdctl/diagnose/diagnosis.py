@@ -122,8 +122,7 @@ def diagnose(
 ) -> Diagnosis:
     """Diagnose a recording with a measured force against a catalogue of effects.
 
-    given : parameters of the model to answer for, in place of the paper's; what they already
-        contain is not found again
+    given : of the model to answer for, in place of the paper's; what it has is not found again
     free : record effects, which are estimated and not named
     accepted : rig checks that the user says are right as they are
     limits : say from which size what was not named would have shown; nothing else rests on that
