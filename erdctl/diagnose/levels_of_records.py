@@ -42,6 +42,14 @@ def beyond_levels(
     return _chance(before, after, least, extra, records) < thresholds.CHANCE_OF_LEVELS
 
 
+def taken_by_levels(best: Hypothesis) -> float:
+    """Part of the mean square that a model leaves which a gain and a zero of each record take."""
+    weight = best.problem.block.weight
+    own = with_columns(best, _level_rows(best))
+    before, after = (float(np.dot(weight, h.residual**2)) for h in (best, own))
+    return 1.0 - after / before if before > 0.0 else 0.0
+
+
 def not_of_records(x: Exploration, best: Hypothesis) -> Hypothesis:
     """Remove effects that only say which record is which, the one that takes the least first."""
     if len(x.problem.recording.names) < thresholds.LEVELS_FROM:

@@ -17,6 +17,7 @@ from erdctl.diagnose.detectable import Detectable
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.findings import Finding
 from erdctl.diagnose.learning.words import law_words
+from erdctl.diagnose.levels_of_records import taken_by_levels
 from erdctl.diagnose.residual.predictability import LackOfFit
 from erdctl.diagnose.unseen import Left, Unseen
 
@@ -78,7 +79,7 @@ def _left(found: Diagnosis) -> str:
     if cut or found.verdict is not Verdict.UNEXPLAINED:
         rms = f"{found.carried.overall.rms:.3g} N rms"
         rest = f"what remains, {rms}, is noise as far as these data tell{_hum(left)}"
-        rest += _begins(found) + _withdrawn(found)
+        rest += _of_records(found) + _begins(found) + _withdrawn(found)
         if cut:
             limits = "; ".join(f.text for f in found.rig.cut)
             rest += f"; of what lay beyond a limit the log tells nothing: {limits}"
@@ -116,8 +117,21 @@ def _left(found: Diagnosis) -> str:
     resembles = found.resemblance
     if resembles is not None:
         words += f"; it is most like {resembles.form} (correlation {resembles.correlation:+.2f})"
-    words += _hum(left) + _withdrawn(found)
+    words += _of_records(found) + _hum(left) + _withdrawn(found)
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
+
+
+def _of_records(found: Diagnosis) -> str:
+    """That most of what is left tells records apart, and nothing of their motion."""
+    share = taken_by_levels(found.selection.best)
+    if len(found.problem.recording.names) < 2 or share < thresholds.LEVELS_SAID:
+        return ""
+    return (
+        f"; {100 * share:.0f} % of its square is a gain and a zero of each record's own: of a rig"
+        " whose records scatter, or of what changes from record to record in the damper, as its"
+        " warmth or the strokes that it has made; no motion within them tells which"
+        " (--record-gains --record-offsets carry it)"
+    )
 
 
 def _begins(found: Diagnosis) -> str:

@@ -12,11 +12,12 @@ from rig import noisy, recording
 from erdctl.core.recording import Array, Recording, concatenate
 from erdctl.diagnose.carry_over import left_out_exactly
 from erdctl.diagnose.comparison import compare_alike
-from erdctl.diagnose.diagnosis import diagnose
+from erdctl.diagnose.diagnosis import Verdict, diagnose
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.levels_of_records import beyond_levels
 from erdctl.diagnose.problem import Problem, prepare
 from erdctl.diagnose.told import as_told
+from erdctl.diagnose.wording import remaining_text
 from erdctl.effects import get
 from erdctl.estimate.starts import fresh_start
 from erdctl.model.composed import Model
@@ -54,6 +55,19 @@ def test_records_whose_gains_differ_have_no_fade() -> None:
     assert r.force is not None
     gains = 1.0 + 0.06 * np.random.default_rng(1).standard_normal(6)
     assert names(r, r.force * np.repeat(gains, np.diff(r.starts)), "thermal_fade") == []
+
+
+@pytest.mark.parametrize("scatter", [0.0, 0.06])
+def test_what_only_tells_records_apart_is_not_said_to_be_noise_alone(scatter: float) -> None:
+    """A yield force that the largest stroke so far had weakened left five times the noise, and the
+    verdict was `adequate`, with not a word of that."""
+    r = swept(STROKES)
+    assert r.force is not None
+    gains = 1.0 + scatter * np.random.default_rng(1).standard_normal(6)
+    log = noisy(replace(r, force=r.force * np.repeat(gains, np.diff(r.starts))), seed=21)
+    found = diagnose(log, [], limits=False, learning=False)
+    assert (found.verdict is Verdict.ADEQUATE) == (scatter == 0.0)
+    assert ("of its square is a gain and a zero" in remaining_text(found)) == (scatter > 0.0)
 
 
 @pytest.mark.parametrize("records", [2, 6])
