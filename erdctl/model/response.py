@@ -259,7 +259,7 @@ class Prepared:
             held, slide, u_c, u_r, by, gain["gas"], gain["viscous"], gain["yield"],
             SpeedLaws(grid, viscous, sign, friction, factor), memory,
             k[0], k[1], T[0], T[1], compliance, self.gap,
-            sum(values[e.key(m)] for e, m in masses(self.effects)) if inner else 0.0,
+            float(sum(values[e.key(m)] for e, m in masses(self.effects) if inner)),
         )  # fmt: skip
         return _Behind(force, stretch, v, held + own, grid, viscous, friction, gain)
 
