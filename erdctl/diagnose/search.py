@@ -32,7 +32,6 @@ from erdctl.diagnose.resolved import resolved
 from erdctl.estimate.starts import fresh_start
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
-from erdctl.model.slots import SeriesSlot
 
 
 @dataclass(frozen=True, eq=False)
@@ -244,11 +243,6 @@ def _forward_selection(
         # Also hypotheses that gain nothing alone: together with another one may.
         beam = thresholds.BEAM if depth + 1 < thresholds.BEAM_DEPTH else 1
         parents = (better or more)[:beam]
-        if not depth:
-            # A soft mount or fluid looks like a lag, a play or a stretch before yield, until what
-            # else is there is beside it.
-            springs = [h for h in more if any(isinstance(e.slot, SeriesSlot) for e in h.effects)]
-            parents += [h for h in springs[:1] if h not in parents]
     return best, singles
 
 
