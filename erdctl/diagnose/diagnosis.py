@@ -61,9 +61,9 @@ class Diagnosis:
     """What was found; see the contract for the meaning of the verdicts.
 
     cannot_tell : under which conditions something is left out that several effects, and other
-        paper's parameters, would explain alike: one duty and one speed, or several effects at two
-        duties and two kinds of motion at most; or within which limits of a channel alone the model
-        is known to hold; "" where the log can tell
+        values of the paper's parameters, would explain alike: one duty and one speed, or several
+        effects at two duties and two kinds of motion at most; or that the model holds within the
+        limits of a channel, beyond which nothing is known; "" where the log can tell
     baseline : scores of the given parameters as they are, or else of the paper's model refitted
     refitted : scores of that model fitted to this recording
     corrected, carried : scores of the best model without and with the record effects, which
@@ -122,7 +122,7 @@ def diagnose(
 ) -> Diagnosis:
     """Diagnose a recording with a measured force against a catalogue of effects.
 
-    given : of the model to answer for, in place of the paper's; what it has is not found again
+    given : parameters to answer for, not the paper's model; what they contain is not found again
     free : record effects, which are estimated and not named
     accepted : rig checks that the user says are right as they are
     limits : say from which size what was not named would have shown; nothing else rests on that
