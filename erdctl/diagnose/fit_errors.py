@@ -8,6 +8,7 @@ from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.record_effects import RecordEffects
 from erdctl.estimate.covariance import Fit, estimates
+from erdctl.estimate.held_lags import with_held_lags
 from erdctl.estimate.last_step import assess
 from erdctl.estimate.onsets import onset_intervals, placed
 from erdctl.model.effect import Effect
@@ -26,6 +27,9 @@ def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEff
         model, [shared], hypothesis.values, fixed=held | onsets,
         bounded=sorted(bounded), levels=levels, threads=1,
     )  # fmt: skip
+    part = hypothesis.problem
+    slight = [n for n, need in part.needs.items() if need.slight and n in part.held]
+    fit = with_held_lags(fit, shared, slight)
     if onsets:
         # Found by a search of all times: no curvature says how well.
         found = onset_intervals(model, shared, fit.values, hypothesis.problem.held)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +13,7 @@ from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import DIRECTIONS, Recording
 from erdctl.estimate.covariance import Fit, estimates, together
+from erdctl.estimate.held_lags import with_held_lags
 from erdctl.estimate.last_step import assess
 from erdctl.estimate.least_squares import Fitted, fit
 from erdctl.estimate.measurement_noise import measurement_noise
@@ -68,13 +69,15 @@ def identify(
     progress("fitting", part_of("the paper's two steps", 1, starts + 2))
     steps = two_step(search, held)
     best, evaluations = _search(model, search, held, steps, robust, progress)
-    last = f"last step and errors, {len(recording)} samples"
-    progress("fitting", part_of(last, starts + 2, starts + 2))
+    what = f"last step and errors, {len(recording)} samples"
+    progress("fitting", part_of(what, starts + 2, starts + 2))
     blocks = pieces(recording)
-    found = assess(
+    last = assess(
         model, blocks, best.values,
         fixed=held, evaluations=evaluations, converged=best.converged, robust=robust,
     )  # fmt: skip
+    found = with_held_lags(last, search, [n for n in held if needs[n].slight])
+    lagging = [n for n in found.intervals if n not in last.intervals]
     reasons |= together(found)
     reasons |= _uncertain(found, reasons)
     complete = {**held, **steps}
@@ -89,7 +92,7 @@ def identify(
         fit=found,
         two_step_rms=rms,
         noise_rms=measurement_noise(search, residual),
-        warnings=tuple(_warnings(found, steps, reasons)),
+        warnings=(*_warnings(found, steps, reasons), *_of_lags(lagging)),
     )
 
 
@@ -118,6 +121,16 @@ def _search(
         return float(np.dot(np.sqrt(block.weight), np.abs(found.residual)))
 
     return min(results, key=cost), sum(found.evaluations for found in results)
+
+
+def _of_lags(names: Sequence[str]) -> list[str]:
+    """What to say of parameters that a lag held at 0 may have moved."""
+    if not names:
+        return []
+    return [
+        f"{', '.join(names)}: for any lag of Eq. 12 that the data allow, not for none alone; a step"
+        " of the duty while the piston moves would tell the lag, and these closer"
+    ]
 
 
 def _disagreements(found: Fit, steps: Mapping[str, float], reasons: Mapping[str, str]) -> list[str]:

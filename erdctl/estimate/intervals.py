@@ -42,11 +42,12 @@ def with_intervals(
     """
     model, free = found.model, found.free
     sizes = {e.key(q.symbol) for e in model.effects for q in e.sizes}
+    together = {n for group in found.flat if len(group) > 1 for n in group}
     asked = [
         n for n in free
-        if n.split(".")[0] not in DIRECTIONS and n not in sizes
-        and not any(n in group and group != (n,) for group in found.flat)
+        if n.split(".")[0] not in DIRECTIONS and n not in sizes and n not in together
     ]  # fmt: skip
+    bounded = [n for n in bounded if n not in sizes and n not in together]
     if not (asked or bounded) or sum(len(b.force) for b in blocks) > MOST_SAMPLES:
         return found
     if any(e.smooth for e in model.effects):
@@ -56,7 +57,7 @@ def with_intervals(
     rows = data.rows(values)
     robust = np.diag(found.covariance)
     usual = _noise(robust, plain)
-    for name in [*asked, *(n for n in bounded if n not in sizes)]:
+    for name in [*asked, *bounded]:
         q, at = model.quantities[name], [i for i, n in enumerate(free) if n == name]
         rest, own = others(rows, free, name), _noise(robust[at], plain[at])
         phi = max(own, usual) if np.isfinite(own) else usual

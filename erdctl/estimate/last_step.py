@@ -13,6 +13,7 @@ from erdctl.estimate import jumps, own_levels
 from erdctl.estimate.autoregressive import ColouredNoise
 from erdctl.estimate.covariance import Fit
 from erdctl.estimate.finer import Finer
+from erdctl.estimate.flat import flat_groups
 from erdctl.estimate.intervals import with_intervals
 from erdctl.estimate.normal_equations import Normal
 from erdctl.estimate.own_levels import OwnLevels
@@ -102,6 +103,17 @@ def assess(
         errors, own = covariance(records, inverse, rough), None
     else:
         errors, own = own_levels.covariance(records, levels, rough)
+    # What is at a bound may go back from it where others make up for it.
+    wide = normal
+    if ends:
+        sums = [
+            sum_up(model, b, f, values, (*free, *ends), None)
+            for b, f in zip(weighted, finer, strict=True)
+        ]
+        count = p + len(ends)
+        whole = np.sum([n for s in sums for n in s.normal.values()], axis=0)
+        wide = Normal.of(whole[:count, :count])
+    known = dict(zip(free, np.sqrt(np.maximum(np.diag(errors), 0.0)).tolist(), strict=True))
     found = Fit(
         model=model,
         values=dict(values),
@@ -113,7 +125,7 @@ def assess(
         samples=samples,
         evaluations=evaluations,
         converged=converged,
-        flat=_flat(normal, free),
+        flat=flat_groups(model, wide, (*free, *ends), values, known),
         jumps=jumps.REASON if jumps.slips(model, blocks, finer, values, free) else None,
     )
     return (
@@ -129,9 +141,3 @@ def _moved(model: Model, values: Values, free: Sequence[str], step: Array) -> di
         q = model.quantities[name]
         out[name] = float(np.clip(values[name] + move, q.low, q.high))
     return out
-
-
-def _flat(normal: Normal, free: Sequence[str]) -> tuple[tuple[str, ...], ...]:
-    """The parameters along each direction in which the cost does not change."""
-    names = np.array(free)
-    return tuple(tuple(names[np.abs(along) > 0.1].tolist()) for along in normal.lost.T)

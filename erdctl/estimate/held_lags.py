@@ -1,0 +1,141 @@
+"""What a lag that no step of the duty shows leaves of the errors of all other parameters.
+
+One state of F_ER serves both directions (Eq. 12): after a reversal it goes from the yield force of
+one to that of the other, with the lag. Where no duty steps this is all that shows of a lag, and it
+is held at 0, as a fit to so little may run far. But if it is not 0, the others have made up for it:
+of a single sine at one duty stiffness and damping of either direction were told to 1.6 % and off by
+40 %. So they are told as far as a lag that the data allow would move them:
+
+    within = union of theta(T) +- 1.96 sigma over T = 0 and all T with c(T) - min c <= 1.96^2 phi
+
+c is the sum of squares that all other parameters leave, phi as in `erdctl.estimate.profile`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+
+import numpy as np
+
+from erdctl.core.blocks import Block
+from erdctl.core.recording import DIRECTIONS, Array
+from erdctl.estimate.covariance import Fit
+from erdctl.estimate.linearisation import jacobian
+from erdctl.estimate.normal_equations import Normal
+from erdctl.model.parameters import NORMAL_95
+
+LAGS = tuple(f"{d}.T_d" for d in DIRECTIONS)
+TIMES = np.geomspace(0.004, 0.3, 11)  # of lags [s]; published ones of ER dampers end at 0.06 s
+RATIOS = (0.5, 0.7, 1.4, 2.0)  # of the lags of the two directions
+CLOSER = 3  # halvings of what lies between a time and the next
+STEPS = 2  # of Gauss-Newton, from the last time
+FELT = 0.5  # of a standard error, a move of a parameter below which its error holds it
+
+
+def with_held_lags(found: Fit, block: Block, held: Sequence[str]) -> Fit:
+    """The fit with intervals of the parameters that a lag among those held at 0 would move.
+
+    block : what to tell it by, all of the data or a part of them
+    """
+    none = set(held) == set(LAGS) and all(found.values[n] == 0.0 for n in LAGS)
+    if not none or found.jumps is not None:
+        return found
+    line = _Line.of(found, block)
+    if line is None:
+        return found
+    line.look()
+    values = line.allowed()
+    errors, intervals = found.stderr, dict(found.intervals)
+    for i, name in enumerate(found.free):
+        low, high = float(values[:, i].min()), float(values[:, i].max())
+        reach = NORMAL_95 * errors[name]
+        if high - low <= FELT * errors[name] or not np.isfinite(reach):
+            continue
+        q = found.model.quantities[name]
+        sides = intervals.get(name, (low, high))
+        low, high = min(low - reach, sides[0]), max(high + reach, sides[1])
+        intervals[name] = (max(low, q.low), min(high, q.high))
+    return replace(found, intervals=intervals)
+
+
+@dataclass(frozen=True, eq=False)
+class _Line:
+    """What is left, and the free parameters (p,), at some pairs of lags [s]."""
+
+    found: Fit
+    block: Block
+    phi: float
+    known: dict[tuple[float, float], tuple[float, Array]] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, found: Fit, block: Block) -> _Line | None:
+        """With both at 0; None where the data tell nothing at all."""
+        values, weight = found.values, block.weight
+        model, free = found.model, list(found.free)
+        here = model.force(block.signals, values)
+        rows = jacobian(model, block.signals, values, free) * np.sqrt(weight)
+        plain = np.diag(Normal.of(rows @ rows.T).pseudo_inverse())
+        robust = np.diag(found.covariance)
+        told = (plain > 0.0) & (robust > 0.0)
+        if not told.any():
+            return None
+        # A part of the data tells less of a lag than all of them tell of the others.
+        part = found.samples / max(int(np.count_nonzero(weight)), 1)
+        phi = float(np.median(robust[told] / plain[told])) * part
+        rest = block.force - here
+        start = np.array([values[n] for n in free])
+        return cls(found, block, phi, {(0.0, 0.0): (float(np.dot(weight, rest**2)), start)})
+
+    def look(self) -> None:
+        """Along equal lags, closer where little is left, and about the best with unequal ones."""
+        last = (0.0, 0.0)
+        for time in TIMES.tolist():
+            last = self._at(time, time, last)
+        for _ in range(CLOSER):
+            times = sorted(c for c, r in self.known if c == r)
+            for a, b in pairwise(times):
+                if self._is_allowed((a, a)) or self._is_allowed((b, b)):
+                    self._at(0.5 * (a + b), 0.5 * (a + b), (b, b))
+        best = min(self.known, key=lambda lags: self.known[lags][0])
+        for ratio in RATIOS:
+            self._at(best[0] * ratio, best[1], best)
+            self._at(best[0], best[1] * ratio, best)
+
+    def allowed(self) -> Array:
+        """(m, p) free parameters with both at 0 and at all lags that the data allow."""
+        return np.array(
+            [
+                v
+                for lags, (_, v) in self.known.items()
+                if lags == (0.0, 0.0) or self._is_allowed(lags)
+            ]
+        )
+
+    def _is_allowed(self, lags: tuple[float, float]) -> bool:
+        least = min(cost for cost, _ in self.known.values())
+        return self.known[lags][0] - least <= NORMAL_95**2 * self.phi
+
+    def _at(self, T_c: float, T_r: float, near: tuple[float, float]) -> tuple[float, float]:
+        """Look at a pair of lags, from where the others are at one that is known."""
+        model, free, block = self.found.model, list(self.found.free), self.block
+        root = np.sqrt(block.weight)
+        lags = dict(zip(LAGS, (T_c, T_r), strict=True))
+        at = self.known[near][1]
+        low = np.array([model.quantities[n].low for n in free])
+        high = np.array([model.quantities[n].high for n in free])
+        best: tuple[float, Array] | None = None
+        for step in range(STEPS + 1):
+            values = {**self.found.values, **dict(zip(free, at.tolist(), strict=True)), **lags}
+            rest = (block.force - model.force(block.signals, values)) * root
+            cost = float(rest @ rest)
+            if best is not None and not cost < best[0]:
+                break
+            best = cost, at
+            if step < STEPS:
+                rows = jacobian(model, block.signals, values, free) * root
+                at = np.clip(at + Normal.of(rows @ rows.T).solve(rows @ rest), low, high)
+        assert best is not None
+        self.known[T_c, T_r] = best
+        return T_c, T_r
