@@ -8,12 +8,13 @@ of a single sine at one duty stiffness and damping of either direction were told
 
     within = union of theta(T) +- 1.96 sigma over T = 0 and all T with c(T) - min c <= 1.96^2 phi
 
-c is the sum of squares that all other parameters leave, phi as in `erdctl.estimate.profile`.
+c is the sum of squares that all other parameters leave, phi as in `erdctl.estimate.profile`. Where
+with a lag nothing but noise is left, and it is clearly told by that, it is free (`asked_for`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
@@ -22,16 +23,49 @@ import numpy as np
 from erdctl.core.blocks import Block
 from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.estimate.covariance import Fit
+from erdctl.estimate.last_step import assess
+from erdctl.estimate.least_squares import fit
 from erdctl.estimate.linearisation import jacobian
+from erdctl.estimate.measurement_noise import measurement_noise
 from erdctl.estimate.normal_equations import Normal
+from erdctl.model.composed import Model
 from erdctl.model.parameters import NORMAL_95
+from erdctl.model.slots import Values
 
 LAGS = tuple(f"{d}.T_d" for d in DIRECTIONS)
 TIMES = np.geomspace(0.004, 0.3, 11)  # of lags [s]; published ones of ER dampers end at 0.06 s
 RATIOS = (0.5, 0.7, 1.4, 2.0)  # of the lags of the two directions
 CLOSER = 3  # halvings of what lies between a time and the next
+BEGUN = (0.01, 0.06)  # s, where a fit with them free begins
+NOISE_ALONE = 1.1  # of the measurement noise, rms, that a fit with them free may leave
+CLEAR = 4.0  # standard errors of a lag
 STEPS = 2  # of Gauss-Newton, from the last time
 FELT = 0.5  # of a standard error, a move of a parameter below which its error holds it
+
+
+def asked_for(
+    model: Model, block: Block, values: Values, fixed: Iterable[str], *, robust: bool = False
+) -> dict[str, float] | None:
+    """Values of a fit with the lags free, where the data clearly ask for that.
+
+    values, fixed : of the fit with them at 0
+    As short as lags are, clear of 0, and nothing else is missing: what does not fit otherwise would
+    take them anywhere (1 s on a real damper).
+    """
+    held = set(fixed) - set(LAGS)
+    starts = ({**values, **dict.fromkeys(LAGS, T_d)} for T_d in BEGUN)
+    best = min(
+        (fit(model, block, start=start, fixed=held, robust=robust) for start in starts),
+        key=lambda found: found.cost,
+    )
+    if not all(best.values[n] < TIMES[-1] for n in LAGS):
+        return None
+    rms = np.sqrt(np.average(best.residual**2, weights=block.weight))
+    if rms > NOISE_ALONE * measurement_noise(block, best.residual):
+        return None
+    errors = assess(model, [block], best.values, fixed=held, robust=robust).stderr
+    clear = any(best.values[n] > CLEAR * errors[n] > 0.0 for n in LAGS)
+    return best.values if clear else None
 
 
 def with_held_lags(found: Fit, block: Block, held: Sequence[str]) -> Fit:
@@ -89,14 +123,14 @@ class _Line:
         return cls(found, block, phi, {(0.0, 0.0): (float(np.dot(weight, rest**2)), start)})
 
     def look(self) -> None:
-        """Along equal lags, closer where little is left, and about the best with unequal ones."""
+        """Along equal lags, closer at the ends of what is allowed, and unequal ones at the best."""
         last = (0.0, 0.0)
         for time in TIMES.tolist():
             last = self._at(time, time, last)
         for _ in range(CLOSER):
             times = sorted(c for c, r in self.known if c == r)
             for a, b in pairwise(times):
-                if self._is_allowed((a, a)) or self._is_allowed((b, b)):
+                if self._is_allowed((a, a)) != self._is_allowed((b, b)):
                     self._at(0.5 * (a + b), 0.5 * (a + b), (b, b))
         best = min(self.known, key=lambda lags: self.known[lags][0])
         for ratio in RATIOS:

@@ -13,7 +13,7 @@ from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import DIRECTIONS, Recording
 from erdctl.estimate.covariance import Fit, estimates, together
-from erdctl.estimate.held_lags import with_held_lags
+from erdctl.estimate.held_lags import LAGS, asked_for, with_held_lags
 from erdctl.estimate.last_step import assess
 from erdctl.estimate.least_squares import Fitted, fit
 from erdctl.estimate.measurement_noise import measurement_noise
@@ -69,15 +69,20 @@ def identify(
     progress("fitting", part_of("the paper's two steps", 1, starts + 2))
     steps = two_step(search, held)
     best, evaluations = _search(model, search, held, steps, robust, progress)
+    values, slight = best.values, [n for n in held if needs[n].slight]
+    if set(LAGS) <= set(slight):
+        lagging = asked_for(model, search, values, held, robust=robust)
+        if lagging is not None:
+            values, held = lagging, {n: v for n, v in held.items() if n not in LAGS}
     what = f"last step and errors, {len(recording)} samples"
     progress("fitting", part_of(what, starts + 2, starts + 2))
     blocks = pieces(recording)
     last = assess(
-        model, blocks, best.values,
+        model, blocks, values,
         fixed=held, evaluations=evaluations, converged=best.converged, robust=robust,
     )  # fmt: skip
-    found = with_held_lags(last, search, [n for n in held if needs[n].slight])
-    lagging = [n for n in found.intervals if n not in last.intervals]
+    found = with_held_lags(last, search, [n for n in slight if n in held])
+    moved = [n for n in found.intervals if n not in last.intervals]
     reasons |= together(found)
     reasons |= _uncertain(found, reasons)
     complete = {**held, **steps}
@@ -92,7 +97,7 @@ def identify(
         fit=found,
         two_step_rms=rms,
         noise_rms=measurement_noise(search, residual),
-        warnings=(*_warnings(found, steps, reasons), *_of_lags(lagging)),
+        warnings=(*_warnings(found, steps, reasons), *_of_lags(moved)),
     )
 
 

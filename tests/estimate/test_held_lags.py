@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import oracle
 import pytest
@@ -57,3 +59,21 @@ def test_a_lag_that_the_data_rule_out_moves_little() -> None:
     interval = found["compression.k_nom"].interval
     assert interval is not None
     assert interval[1] - interval[0] < 0.05 * TRUTH["k_nom"]
+
+
+@pytest.mark.parametrize("lag", [0.01, 0.03, 0.1])
+def test_a_lag_that_the_data_ask_for_is_free(lag: float) -> None:
+    """It is not told, but what it does is no stiffness: k_nom is right to 3 %."""
+    found = identify(sine(0.3, lag, 2)).joint
+    assert found["compression.T_d"].value is None
+    assert found["compression.T_d"].assumed == pytest.approx(lag, rel=0.3)
+    for direction in DIRECTIONS:
+        assert found[f"{direction}.k_nom"].value == pytest.approx(TRUTH["k_nom"], rel=0.03)
+
+
+def test_what_is_no_lag_makes_none() -> None:
+    """A force that grows with the cube of the deflection stays a misfit."""
+    plain = sine(0.3, 0.001, 3)
+    assert plain.force is not None
+    bent = replace(plain, force=plain.force + 30.0 * (plain.x / 0.01) ** 3)
+    assert identify(bent).joint["compression.T_d"].assumed == 0.0
