@@ -29,7 +29,7 @@ def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEff
     )  # fmt: skip
     part = hypothesis.problem
     slight = [n for n, need in part.needs.items() if need.slight and n in part.held]
-    fit = with_held_lags(fit, shared, slight)
+    fit, _ = with_held_lags(fit, shared, slight)
     if onsets:
         # Found by a search of all times: no curvature says how well.
         found = onset_intervals(model, shared, fit.values, hypothesis.problem.held)

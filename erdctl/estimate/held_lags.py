@@ -9,12 +9,12 @@ of a single sine at one duty stiffness and damping of either direction were told
     within = union of theta(T) +- 1.96 sigma over T = 0 and all T with c(T) - min c <= 1.96^2 phi
 
 c is the sum of squares that all other parameters leave, phi as in `erdctl.estimate.profile`. Where
-with a lag nothing but noise is left, and it is clearly told by that, it is free (`asked_for`).
+with a lag nothing but noise is left, and it is clearly told by that, it is free.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
@@ -23,12 +23,9 @@ import numpy as np
 from erdctl.core.blocks import Block
 from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.estimate.covariance import Fit
-from erdctl.estimate.last_step import assess
-from erdctl.estimate.least_squares import fit
 from erdctl.estimate.linearisation import jacobian
 from erdctl.estimate.measurement_noise import measurement_noise
 from erdctl.estimate.normal_equations import Normal
-from erdctl.model.composed import Model
 from erdctl.model.parameters import NORMAL_95
 from erdctl.model.slots import Values
 
@@ -36,49 +33,23 @@ LAGS = tuple(f"{d}.T_d" for d in DIRECTIONS)
 TIMES = np.geomspace(0.004, 0.3, 11)  # of lags [s]; published ones of ER dampers end at 0.06 s
 RATIOS = (0.5, 0.7, 1.4, 2.0)  # of the lags of the two directions
 CLOSER = 3  # halvings of what lies between a time and the next
-BEGUN = (0.01, 0.06)  # s, where a fit with them free begins
 NOISE_ALONE = 1.1  # of the measurement noise, rms, that a fit with them free may leave
-CLEAR = 4.0  # standard errors of a lag
-STEPS = 2  # of Gauss-Newton, from the last time
+CLEAR = 4.0  # standard errors from 0
 FELT = 0.5  # of a standard error, a move of a parameter below which its error holds it
 
 
-def asked_for(
-    model: Model, block: Block, values: Values, fixed: Iterable[str], *, robust: bool = False
-) -> dict[str, float] | None:
-    """Values of a fit with the lags free, where the data clearly ask for that.
-
-    values, fixed : of the fit with them at 0
-    As short as lags are, clear of 0, and nothing else is missing: what does not fit otherwise would
-    take them anywhere (1 s on a real damper).
-    """
-    held = set(fixed) - set(LAGS)
-    starts = ({**values, **dict.fromkeys(LAGS, T_d)} for T_d in BEGUN)
-    best = min(
-        (fit(model, block, start=start, fixed=held, robust=robust) for start in starts),
-        key=lambda found: found.cost,
-    )
-    if not all(best.values[n] < TIMES[-1] for n in LAGS):
-        return None
-    rms = np.sqrt(np.average(best.residual**2, weights=block.weight))
-    if rms > NOISE_ALONE * measurement_noise(block, best.residual):
-        return None
-    errors = assess(model, [block], best.values, fixed=held, robust=robust).stderr
-    clear = any(best.values[n] > CLEAR * errors[n] > 0.0 for n in LAGS)
-    return best.values if clear else None
-
-
-def with_held_lags(found: Fit, block: Block, held: Sequence[str]) -> Fit:
+def with_held_lags(found: Fit, block: Block, held: Sequence[str]) -> tuple[Fit, Values | None]:
     """The fit with intervals of the parameters that a lag among those held at 0 would move.
 
+    And where a fit with the lags free may begin, if the data clearly ask for that: as short as lags
+    are, clear of 0, and nothing else is missing. What does not fit otherwise would take them
+    anywhere (1 s on a real damper).
     block : what to tell it by, all of the data or a part of them
     """
     none = set(held) == set(LAGS) and all(found.values[n] == 0.0 for n in LAGS)
-    if not none or found.jumps is not None:
-        return found
-    line = _Line.of(found, block)
+    line = _Line.of(found, block) if none and found.jumps is None else None
     if line is None:
-        return found
+        return found, None
     line.look()
     values = line.allowed()
     errors, intervals = found.stderr, dict(found.intervals)
@@ -91,7 +62,7 @@ def with_held_lags(found: Fit, block: Block, held: Sequence[str]) -> Fit:
         sides = intervals.get(name, (low, high))
         low, high = min(low - reach, sides[0]), max(high + reach, sides[1])
         intervals[name] = (max(low, q.low), min(high, q.high))
-    return replace(found, intervals=intervals)
+    return replace(found, intervals=intervals), line.asked_for()
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,6 +108,17 @@ class _Line:
             self._at(best[0] * ratio, best[1], best)
             self._at(best[0], best[1] * ratio, best)
 
+    def asked_for(self) -> Values | None:
+        """All values at the best lags, if these are clear, short, and leave nothing but noise."""
+        best = min(self.known, key=lambda lags: self.known[lags][0])
+        gained = self.known[0.0, 0.0][0] - self.known[best][0]
+        if gained < CLEAR**2 * self.phi or max(best) >= TIMES[-1]:
+            return None
+        values, weight = self._values(best, self.known[best][1]), self.block.weight
+        rest = self.block.force - self.found.model.force(self.block.signals, values)
+        rms = np.sqrt(np.average(rest**2, weights=weight))
+        return values if rms <= NOISE_ALONE * measurement_noise(self.block, rest) else None
+
     def allowed(self) -> Array:
         """(m, p) free parameters with both at 0 and at all lags that the data allow."""
         return np.array(
@@ -147,29 +129,35 @@ class _Line:
             ]
         )
 
+    @property
+    def least(self) -> float:
+        """The least that is left anywhere."""
+        return min(cost for cost, _ in self.known.values())
+
     def _is_allowed(self, lags: tuple[float, float]) -> bool:
-        least = min(cost for cost, _ in self.known.values())
-        return self.known[lags][0] - least <= NORMAL_95**2 * self.phi
+        return self.known[lags][0] - self.least <= NORMAL_95**2 * self.phi
 
     def _at(self, T_c: float, T_r: float, near: tuple[float, float]) -> tuple[float, float]:
         """Look at a pair of lags, from where the others are at one that is known."""
         model, free, block = self.found.model, list(self.found.free), self.block
         root = np.sqrt(block.weight)
-        lags = dict(zip(LAGS, (T_c, T_r), strict=True))
         at = self.known[near][1]
         low = np.array([model.quantities[n].low for n in free])
         high = np.array([model.quantities[n].high for n in free])
-        best: tuple[float, Array] | None = None
-        for step in range(STEPS + 1):
-            values = {**self.found.values, **dict(zip(free, at.tolist(), strict=True)), **lags}
+        costs: list[tuple[float, Array]] = []
+        steps = 2 if model.effects else 1  # the paper's model is linear but for beta
+        for step in range(steps + 1):
+            values = self._values((T_c, T_r), at)
             rest = (block.force - model.force(block.signals, values)) * root
-            cost = float(rest @ rest)
-            if best is not None and not cost < best[0]:
+            costs.append((float(rest @ rest), at))
+            far = step > 0 and costs[-1][0] > self.least + CLEAR**2 * self.phi
+            if step == steps or far:
                 break
-            best = cost, at
-            if step < STEPS:
-                rows = jacobian(model, block.signals, values, free) * root
-                at = np.clip(at + Normal.of(rows @ rows.T).solve(rows @ rest), low, high)
-        assert best is not None
-        self.known[T_c, T_r] = best
+            rows = jacobian(model, block.signals, values, free) * root
+            at = np.clip(at + Normal.of(rows @ rows.T).solve(rows @ rest), low, high)
+        self.known[T_c, T_r] = min(costs, key=lambda found: found[0])
         return T_c, T_r
+
+    def _values(self, lags: tuple[float, float], free: Array) -> dict[str, float]:
+        own = dict(zip(self.found.free, free.tolist(), strict=True))
+        return {**self.found.values, **own, **dict(zip(LAGS, lags, strict=True))}

@@ -13,7 +13,7 @@ from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import DIRECTIONS, Recording
 from erdctl.estimate.covariance import Fit, estimates, together
-from erdctl.estimate.held_lags import LAGS, asked_for, with_held_lags
+from erdctl.estimate.held_lags import with_held_lags
 from erdctl.estimate.last_step import assess
 from erdctl.estimate.least_squares import Fitted, fit
 from erdctl.estimate.measurement_noise import measurement_noise
@@ -69,19 +69,23 @@ def identify(
     progress("fitting", part_of("the paper's two steps", 1, starts + 2))
     steps = two_step(search, held)
     best, evaluations = _search(model, search, held, steps, robust, progress)
-    values, slight = best.values, [n for n in held if needs[n].slight]
-    if set(LAGS) <= set(slight):
-        lagging = asked_for(model, search, values, held, robust=robust)
-        if lagging is not None:
-            values, held = lagging, {n: v for n, v in held.items() if n not in LAGS}
     what = f"last step and errors, {len(recording)} samples"
     progress("fitting", part_of(what, starts + 2, starts + 2))
     blocks = pieces(recording)
     last = assess(
-        model, blocks, values,
+        model, blocks, best.values,
         fixed=held, evaluations=evaluations, converged=best.converged, robust=robust,
     )  # fmt: skip
-    found = with_held_lags(last, search, [n for n in slight if n in held])
+    slight = [n for n in held if needs[n].slight]
+    found, lagging = with_held_lags(last, search, slight)
+    if lagging is not None:
+        held = {n: v for n, v in held.items() if n not in slight}
+        best = fit(model, search, start=lagging, fixed=held, robust=robust)
+        evaluations += best.evaluations
+        last = found = assess(
+            model, blocks, best.values,
+            fixed=held, evaluations=evaluations, converged=best.converged, robust=robust,
+        )  # fmt: skip
     moved = [n for n in found.intervals if n not in last.intervals]
     reasons |= together(found)
     reasons |= _uncertain(found, reasons)
