@@ -86,7 +86,7 @@ def identify(
             model, blocks, best.values,
             fixed=held, evaluations=evaluations, converged=best.converged, robust=robust,
         )  # fmt: skip
-    moved = [n for n in found.intervals if n not in last.intervals]
+    moved = [n for n in found.intervals if n not in {*last.intervals, *reasons}]
     reasons |= together(found)
     reasons |= _uncertain(found, reasons)
     complete = {**held, **steps}
@@ -137,8 +137,8 @@ def _of_lags(names: Sequence[str]) -> list[str]:
     if not names:
         return []
     return [
-        f"{', '.join(names)}: for any lag of Eq. 12 that the data allow, not for none alone; a step"
-        " of the duty while the piston moves would tell the lag, and these closer"
+        f"the intervals of {', '.join(names)} hold for any lag of Eq. 12 that the data allow; a"
+        " step of the duty while the piston moves would tell the lag, and these closer"
     ]
 
 
