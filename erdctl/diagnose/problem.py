@@ -10,10 +10,10 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
+from erdctl.bench.direction_of_motion import uncertain
 from erdctl.bench.identifiability import Lack, held_values, unmet
 from erdctl.core.blocks import Block, whole
 from erdctl.core.recording import Array, Index, Recording
-from erdctl.core.signals import Signals
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.record_effects import NONE_VARY, Varying
 from erdctl.model.parameters import Parameters
@@ -168,43 +168,3 @@ def stretches(recording: Recording, group: Index) -> Index:
         out[a:b] = first + np.arange(b - a) * pieces // (b - a)
         first += pieces
     return out
-
-
-def uncertain(signals: Signals) -> npt.NDArray[np.bool_]:
-    """(n,) whether the direction of motion cannot be trusted.
-
-    A differentiated, noisy deflection has the wrong sign at some samples next to reversals, and a
-    sign law turns each into an error of twice the yield force. These samples say nothing about the
-    physics; the noise of xdot is what it holds above the frequencies of its motion.
-    """
-    out = np.zeros(len(signals), dtype=np.bool_)
-    for a, b in zip(signals.starts[:-1].tolist(), signals.starts[1:].tolist(), strict=True):
-        xdot = signals.xdot[a:b]
-        if b - a < thresholds.LEAST_SPECTRUM:
-            continue
-        out[a:b] = np.abs(xdot) < thresholds.DIRECTION_SIGMAS * velocity_noise(xdot)
-    return out
-
-
-def velocity_noise(xdot: Array) -> float:
-    """Standard deviation of the noise in the velocity of one record (n,) [m/s].
-
-    The spectrum of a test's motion ends somewhere; what lies beyond three times the frequency that
-    holds 99 % of the energy is noise, and noise goes on below it at about the same density.
-    """
-    window = np.hanning(len(xdot))
-    power = np.abs(np.fft.rfft((xdot - xdot.mean()) * window)) ** 2
-    total = np.cumsum(power)
-    edge = motion_edge(power)
-    if total[-1] == 0.0 or edge >= len(power):
-        return 0.0
-    beyond = float(total[-1] - total[edge])
-    share = 2.0 * beyond / (np.sum(window**2) * len(xdot))
-    return float(np.sqrt(share))
-
-
-def motion_edge(power: Array) -> int:
-    """The bin of a velocity's power spectrum (k,) beyond which there is no motion."""
-    total = np.cumsum(power)
-    motion = int(np.searchsorted(total, thresholds.MOTION_ENERGY * total[-1]))
-    return thresholds.NOISE_BEYOND * motion + thresholds.NOISE_BINS

@@ -107,26 +107,10 @@ FEW_DUTIES, FEW_MOTIONS = 2, 2
 
 # --- doubtful samples ---------------------------------------------------------------------------
 
-# Standard deviations of the velocity noise within which the direction of motion is uncertain.
-# Decides: which samples have no weight.
-# Origin: 0.3 % of the samples of a normal noise lie beyond.
-DIRECTION_SIGMAS = 3.0
-
 # Part of a recorded sample that may come from samples of uncertain direction.
 # Decides: which samples a force channel that averages or delays leaves without weight.
 # Origin: none; set by argument so that ramps at reversals keep weight.
 DOUBTFUL_PART = 0.5
-
-# Share of the velocity's spectral energy that is motion, the multiple of its frequency beyond which
-# the spectrum is noise, and the bins added to it.
-# Decides: the estimate of the velocity noise.
-# Origin: none.
-MOTION_ENERGY, NOISE_BEYOND, NOISE_BINS = 0.99, 3, 8
-
-# Samples of a record whose velocity noise can be estimated.
-# Decides: whether any of its samples is doubtful.
-# Origin: none.
-LEAST_SPECTRUM = 32
 
 # --- comparing two hypotheses -------------------------------------------------------------------
 

@@ -13,11 +13,12 @@ import pytest
 from places import FIXTURES
 from rig import campaign, noisy
 
+from erdctl.bench.direction_of_motion import uncertain
 from erdctl.core.blocks import thinned
 from erdctl.core.recording import Recording
 from erdctl.core.signals import Signals
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
-from erdctl.diagnose.problem import groups, prepare, uncertain
+from erdctl.diagnose.problem import groups, prepare
 from erdctl.diagnose.residual.localisation import locate
 from erdctl.diagnose.residual.predictability import lack_of_fit_test
 from erdctl.effects import get

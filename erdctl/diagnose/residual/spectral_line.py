@@ -14,9 +14,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from erdctl.bench.direction_of_motion import motion_edge
 from erdctl.core.recording import Array
 from erdctl.diagnose import thresholds
-from erdctl.diagnose.problem import Problem, motion_edge
+from erdctl.diagnose.problem import Problem
 
 
 @dataclass(frozen=True)
