@@ -9,16 +9,18 @@ from dataclasses import replace
 
 import numpy as np
 
+from erdctl.bench.direction_of_motion import uncertain
 from erdctl.bench.identifiability import unmet
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem
 from erdctl.model.composed import Model
-from erdctl.model.slots import ChannelSlot, ControlSlot, Values
+from erdctl.model.slots import ChannelSlot, ControlSlot, MotionSlot, Values
 
 
 def as_taken(problem: Problem, model: Model, values: Values) -> Problem:
     """The problem without samples of uncertain direction, and with each beta free that it tells."""
-    return _without_doubtful(told_by_control(problem, model, values), model, values)
+    problem = _of_mended_velocity(told_by_control(problem, model, values), model, values)
+    return _without_doubtful(problem, model, values)
 
 
 def told_by_control(problem: Problem, model: Model, values: Values) -> Problem:
@@ -34,6 +36,21 @@ def told_by_control(problem: Problem, model: Model, values: Values) -> Problem:
     acts = model.prepare(problem.block.signals, values).signals.duty
     lacking = unmet(replace(problem.recording, duty=acts))
     return problem.with_free(n for n in betas if n not in lacking)
+
+
+def _of_mended_velocity(problem: Problem, model: Model, values: Values) -> Problem:
+    """Without the samples of which a velocity that is mended does not tell the direction.
+
+    They are others than those of the logged one: a single turn that falls on a sample is an error
+    of twice the yield force, and had 87 % of what the right model left.
+    """
+    if not any(slot.of_samples for _, slot in model.of(MotionSlot)):
+        return problem
+    s = problem.block.signals
+    whole, rows = (s, slice(None)) if s.sampled is None else s.sampled
+    unsure = uncertain(model.prepare(whole, values).signals)[rows]
+    weight = np.where(unsure, 0.0, problem.block.weight)
+    return replace(problem, block=problem.block._replace(weight=weight))
 
 
 def _without_doubtful(problem: Problem, model: Model, values: Values) -> Problem:
