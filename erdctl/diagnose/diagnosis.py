@@ -18,7 +18,7 @@ from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Recording
 from erdctl.diagnose import scores, thresholds
-from erdctl.diagnose.conditions import cannot_tell, few_conditions
+from erdctl.diagnose.conditions import cannot_tell, few_conditions, most_told
 from erdctl.diagnose.detectable import Detectable, detectable
 from erdctl.diagnose.executor import Executor, executor
 from erdctl.diagnose.findings import Finding, earned, findings, part_taken
@@ -143,7 +143,7 @@ def diagnose(
         problem = freed(problem)
     if rig.blocking:
         candidates = []  # what a wrong sign or unit does is no physics
-    missing = untestable(survey, candidates)
+    missing, most = untestable(survey, candidates), most_told(recording, most)
     testable = [e for e in candidates if e.name not in missing]
     aside = kept_aside(recording, testable)
     seen = problem.of([r for r in range(len(recording.names)) if r not in aside])

@@ -212,6 +212,11 @@ BEAM, BEAM_DEPTH = 3, 3
 # search and the names do not depend on a limit.
 MOST_EFFECTS = 12
 
+# The same for a log of one duty and one speed.
+# Decides: how far such a log is searched; its names are ones that it cannot tell.
+# Origin: budget; in 60 such short logs the most that were named are three.
+MOST_OF_ONE_LOOP = 4
+
 # Part of the most promising effect's screened gain, and the number of effects in any case; part of
 # what a chosen effect takes.
 # Decides: which effects are fitted together with a parent's; which in the place of a chosen one.
