@@ -12,7 +12,8 @@ import trajectories
 from rig import campaign, noisy, recording
 
 from erdctl.core.recording import Recording, concatenate
-from erdctl.diagnose.conditions import one_speed_but_turns
+from erdctl.diagnose import thresholds
+from erdctl.diagnose.conditions import most_told, one_speed_but_turns
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
 from erdctl.diagnose.problem import prepare
@@ -152,6 +153,19 @@ def test_at_one_speed_but_for_turns_no_law_of_the_speed_is_told(tmp_path: Path) 
     assert found.cannot_tell == "one speed but for turns"
     estimates = parameters(found).estimates
     assert not [n for n, e in estimates.items() if e.identified]
+
+
+def test_a_turn_on_a_sample_of_a_mended_velocity_is_no_misfit(tmp_path: Path) -> None:
+    """It was an error of twice the yield force, 87 % of what the right model left, and a velocity
+    that is noisy and late by a third of a sample was told as a skew of the force."""
+    found = said(1473039, tmp_path, "velocity_noise", "time_skew")
+    assert [f.effect.name for f in found.findings] == ["velocity_noise"]
+
+
+def test_a_log_of_one_loop_is_not_searched_for_twelve_effects() -> None:
+    assert most_told(at(0.3), 12) == thresholds.MOST_OF_ONE_LOOP
+    assert most_told(at(0.3), 2) == 2
+    assert most_told(campaign(), 12) == 12
 
 
 def test_which_motions_have_one_speed_but_for_turns() -> None:
