@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.record_effects import RecordEffects
+from erdctl.diagnose.thin import thinned
 from erdctl.estimate.covariance import Fit, estimates
 from erdctl.estimate.held_lags import with_held_lags
 from erdctl.estimate.last_step import assess
@@ -27,9 +29,10 @@ def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEff
         model, [shared], hypothesis.values, fixed=held | onsets,
         bounded=sorted(bounded), levels=levels, threads=1,
     )  # fmt: skip
-    part = hypothesis.problem
+    part = thinned(hypothesis.problem, thresholds.SEARCH_SAMPLES)
     slight = [n for n, need in part.needs.items() if need.slight and n in part.held]
-    fit, _ = with_held_lags(fit, shared, slight)
+    few = part.block if record_effects is None else record_effects.shared(part.block)
+    fit, _ = with_held_lags(fit, few, slight)
     if onsets:
         # Found by a search of all times: no curvature says how well.
         found = onset_intervals(model, shared, fit.values, hypothesis.problem.held)

@@ -44,9 +44,10 @@ def with_held_lags(found: Fit, block: Block, held: Sequence[str]) -> tuple[Fit, 
     And where a fit with the lags free may begin, if the data clearly ask for that: as short as lags
     are, clear of 0, and nothing else is missing. What does not fit otherwise would take them
     anywhere (1 s on a real damper).
-    block : what to tell it by, all of the data or a part of them
+    block : what to tell it by, all of the data or a part of them;  held : parameters that are held
+        though the data may hold something of them
     """
-    none = set(held) == set(LAGS) and all(found.values[n] == 0.0 for n in LAGS)
+    none = set(held) >= set(LAGS) and all(found.values[n] == 0.0 for n in LAGS)
     line = _Line.of(found, block) if none and found.jumps is None else None
     if line is None:
         return found, None
@@ -151,7 +152,7 @@ class _Line:
             rest = (block.force - model.force(block.signals, values)) * root
             costs.append((float(rest @ rest), at))
             far = step > 0 and costs[-1][0] > self.least + CLEAR**2 * self.phi
-            if step == steps or far:
+            if step == steps or far or not np.isfinite(costs[-1][0]):
                 break
             rows = jacobian(model, block.signals, values, free) * root
             at = np.clip(at + Normal.of(rows @ rows.T).solve(rows @ rest), low, high)

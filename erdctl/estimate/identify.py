@@ -14,7 +14,7 @@ from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import DIRECTIONS, Recording
 from erdctl.estimate.covariance import Fit, estimates, together
-from erdctl.estimate.held_lags import with_held_lags
+from erdctl.estimate.held_lags import LAGS, with_held_lags
 from erdctl.estimate.last_step import assess
 from erdctl.estimate.least_squares import Fitted, fit
 from erdctl.estimate.measurement_noise import measurement_noise
@@ -83,7 +83,7 @@ def identify(
     slight = [n for n in held if needs[n].slight]
     found, lagging = with_held_lags(last, search, slight)
     if lagging is not None:
-        held = {n: v for n, v in held.items() if n not in slight}
+        held = {n: v for n, v in held.items() if n not in LAGS}
         best = fit(model, search, start=lagging, fixed=held, robust=robust)
         evaluations += best.evaluations
         last = found = assess(

@@ -162,6 +162,15 @@ def test_a_turn_on_a_sample_of_a_mended_velocity_is_no_misfit(tmp_path: Path) ->
     assert [f.effect.name for f in found.findings] == ["velocity_noise"]
 
 
+def test_no_number_stands_on_a_lag_that_the_log_does_not_show(tmp_path: Path) -> None:
+    """One sine at one duty, a lag of 0.13 s and a leak: k_nom was 4,883 +- 77 for 8,227 N/m."""
+    found = parameters(said(1471040, tmp_path, "oil_leakage")).estimates
+    for name, true in (("compression.k_nom", 8226.8), ("release.c_vis", 721.5)):
+        interval = found[name].interval
+        assert interval is not None
+        assert interval[0] < true < interval[1]
+
+
 def test_a_log_of_one_loop_is_not_searched_for_twelve_effects() -> None:
     assert most_told(at(0.3), 12) == thresholds.MOST_OF_ONE_LOOP
     assert most_told(at(0.3), 2) == 2
