@@ -8,20 +8,19 @@ from functools import cached_property
 
 import numpy as np
 
-from erdctl.core.recording import DIRECTIONS, Array, Index
+from erdctl.core.recording import Array, Index
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.as_taken import as_taken, told_by_control
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.record_effects import RecordEffects, estimate
 from erdctl.diagnose.told import as_begun, as_told
 from erdctl.estimate.finer import Finer
+from erdctl.estimate.held_lags import LAGS
 from erdctl.estimate.jumps import slips
 from erdctl.estimate.least_squares import Fitted, at_bound, fit
 from erdctl.estimate.linearisation import jacobian
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
-
-LAGS = tuple(f"{d}.T_d" for d in DIRECTIONS)  # of the yield force
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,11 +14,12 @@ from dataclasses import replace
 
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import compare
-from erdctl.diagnose.hypothesis import LAGS, Hypothesis, fit_hypothesis
+from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.predictability import lack_of_fit_of, misfit_is_left
 from erdctl.diagnose.search import Selection
 from erdctl.diagnose.thin import thinned
+from erdctl.estimate.held_lags import LAGS
 from erdctl.estimate.starts import fresh_start
 
 

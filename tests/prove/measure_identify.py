@@ -1,7 +1,7 @@
 """What `identify` is worth on logs that `prove --keep` left, of the paper's damper alone.
 
     erdctl prove --kind sparse --cases 60 --seed 1471000 --keep sparse
-    python tests/prove/measure_identify.py sparse ...
+    PYTHONPATH=. python tests/prove/measure_identify.py sparse ...
 
 Of each way to a velocity: logs, 95 % intervals that hold the plant's value, and the largest
 residual over the noise that the plant has added.
