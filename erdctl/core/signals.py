@@ -36,6 +36,7 @@ class Signals:
         what counts by samples
     begun : (r,) F_ER as each record begins [N], where that goes on from elsewhere; None for steady
     logged_step : step of the log between whose samples these were made up [s], 0 where none was
+    sharp : whether a sample is engaged or not, and never in part
     """
 
     t: Array
@@ -49,6 +50,7 @@ class Signals:
     sampled: tuple[Signals, Index] | None = None
     begun: Array | None = None
     logged_step: float = 0.0
+    sharp: bool = False
 
     @classmethod
     def of(cls, recording: Recording) -> Signals:

@@ -38,9 +38,10 @@ def backlash(s: Signals, p: Values) -> Signals:
     """Motion of the piston from that of the rod."""
     if p["g"] == 0.0:
         return s
-    from erdctl.model.recurrences import play
+    from erdctl.model.recurrences import BLUR, play
 
-    lost, engaged = play(s.xdot, s.step, s.starts, s.compressing, s.rests, p["g"])
+    blur = 0.0 if s.sharp else BLUR
+    lost, engaged = play(s.xdot, s.step, s.starts, s.compressing, s.rests, p["g"], blur)
     return s.with_motion(s.x - lost, s.xdot * engaged, engaged)
 
 

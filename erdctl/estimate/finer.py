@@ -8,6 +8,7 @@ damper.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -64,6 +65,11 @@ class Finer(NamedTuple):
             t, x, xdot, duty, step, starts, temperature=warmth, logged_step=s.typical_step
         )
         return cls(s, fine, rows)
+
+    @property
+    def sharp(self) -> Finer:
+        """The same, with contacts that set in at once."""
+        return self._replace(signals=replace(self.signals, sharp=True))
 
     def force(self, model: Model, values: Values) -> Array:
         """(n,) force at the log's samples [N]."""

@@ -121,7 +121,9 @@ class _Data:
     def of(cls, found: Fit, blocks: Sequence[Block], finer: Sequence[Finer]) -> _Data:
         root = np.sqrt(np.concatenate([b.weight for b in blocks]))
         measured = np.concatenate([b.force for b in blocks])
-        out = cls(found, finer, measured, root, np.inf)
+        # A sample that may be engaged in part takes up its own noise: one value of a play fits it
+        # best, and next to it none, where all that contacts tell is on which side a sample is.
+        out = cls(found, [f.sharp for f in finer], measured, root, np.inf)
         rest = measured - out.force(found.values)
         return replace(out, limit=farthest(rest, root, measured))
 

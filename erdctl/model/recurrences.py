@@ -24,6 +24,7 @@ def play(
     compressing: npt.NDArray[np.bool_],
     rests: npt.NDArray[np.bool_],
     gap: float,
+    blur: float = BLUR,
 ) -> tuple[Array, Array]:
     """Play operator along a velocity that is a straight line between samples.
 
@@ -32,6 +33,7 @@ def play(
     xdot, step : (n,) [m/s], [s];  starts : (r + 1,);  gap : [m] > 0
     compressing : (n,) direction of motion; a record begins on the flank of its first, or, where
     rests : (r,) says that it begins at rest, in the middle of the play
+    blur : part of a step over which contact sets in [1]
     Returns q (n,) [m], and the engaged part of each sample (n,) [1]: 1 on a flank that the motion
     presses on, 0 off it, and from 0 to 1 as contact falls between a tenth of a step after the
     sample, at the speed that the rod has there, and a tenth before; less far before and after where
@@ -59,7 +61,7 @@ def play(
             turning = v0 * v1 < 0.0
             before = v0 / (v0 - v1) * h if turning else h
             # Time into the step at which a flank is met, and the time to blur it over.
-            contact, edge = -1.0, BLUR * h
+            contact, edge = -1.0, blur * h
             for leg in range(2 if turning else 1):
                 a = v0 if leg == 0 else 0.0
                 b = 0.0 if turning and leg == 0 else v1
@@ -80,7 +82,7 @@ def play(
                     met = 2.0 * room / (u + np.sqrt(max(u * u + 2.0 * rate * room, 0.0)))
                     met = min(met, span)
                     contact = (before if leg == 1 else 0.0) + met
-                    edge = max(min(BLUR * h, 2.0 * (free + met)), 1e-12)
+                    edge = max(min(blur * h, 2.0 * (free + met)), 1e-12)
                 q = flank
             lost[i + 1] = q
             pressing = (v1 > 0.0 and q == half) or (v1 < 0.0 and q == -half)
@@ -89,7 +91,7 @@ def play(
                 engaged[i + 1] = min(1.0, 0.5 + (h - contact) / edge)
             elif not pressing and v1 != 0.0:
                 ahead = abs((half if v1 > 0.0 else -half) - q) / abs(v1)
-                edge = max(min(BLUR * h, 2.0 * (free + ahead)), 1e-12)
+                edge = max(min(blur * h, 2.0 * (free + ahead)), 1e-12)
                 engaged[i + 1] = max(0.0, 0.5 - ahead / edge)
     return lost, engaged
 

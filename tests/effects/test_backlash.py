@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 from made import PLAIN, act, force, signals, sine
 
+from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.effects import get
 from erdctl.model.composed import Model
@@ -68,6 +72,23 @@ def test_a_motion_that_goes_on_does_not_begin_at_rest(phase: float) -> None:
     slow_first = 0.01 * np.sin(0.3 * t + 3.0 * t**2), 0.01 * np.cos(0.3 * t + 3.0 * t**2)
     xdot = slow_first[1] * (0.3 + 6.0 * t)
     assert signals(xdot, x=slow_first[0], t=t).rests.tolist() == [False]
+
+
+@given(
+    xdot=arrays(
+        float, st.integers(4, 40), elements=st.floats(-1.0, 1.0).map(lambda v: round(v, 3))
+    ),
+    gap=st.floats(1e-3, 3.0),
+)
+def test_without_a_blur_a_sample_is_engaged_or_not(xdot: Array, gap: float) -> None:
+    s = signals(xdot, step=1.0)
+    blurred = play(s.xdot, s.step, s.starts, s.compressing, s.rests, gap)
+    lost, engaged = play(s.xdot, s.step, s.starts, s.compressing, s.rests, gap, 0.0)
+    assert np.array_equal(lost, blurred[0])
+    part = (engaged > 0.0) & (engaged < 1.0)
+    assert not part[(np.abs(blurred[1] - 0.5) > 1e-9)].any()
+    whole = (blurred[1] == 0.0) | (blurred[1] == 1.0)
+    assert np.array_equal(engaged[whole], blurred[1][whole])
 
 
 @pytest.mark.parametrize("gap", [2e-5, 1e-4, 1e-3])

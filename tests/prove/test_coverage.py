@@ -74,6 +74,18 @@ def test_a_bias_of_the_step_is_gone(effect: str) -> None:
     assert np.median(off) < 2.0
 
 
+def test_a_play_is_not_told_by_the_noise_of_samples_next_to_contact() -> None:
+    """These had intervals that did not hold it, as narrow as 0.06 % of it."""
+    dampers = {9305: ["white"], 9313: ["white", "growing"], 9344: ["white"], 9352: ["white"]}
+    own = [
+        h for seed, kinds in dampers.items() for kind in kinds for number in (0, 1)
+        for h in read(conceal("backlash", seed), kind, number) if h.parameter == "backlash.g"
+    ]  # fmt: skip
+    assert len(own) == 10
+    assert share(own) >= 0.8
+    assert share(own, 0.1) <= 0.5
+
+
 def test_laws_name_parameters_of_the_catalogue() -> None:
     from erdctl.plant.plant import Plant, Side
     from erdctl.plant.twin import Scales
