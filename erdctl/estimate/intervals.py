@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from erdctl.core.blocks import Block
 from erdctl.core.recording import DIRECTIONS, Array
+from erdctl.estimate.carried import along, beyond, is_wide, reached
 from erdctl.estimate.covariance import Fit
 from erdctl.estimate.finer import MOST_SAMPLES, Finer
 from erdctl.estimate.least_squares import fit
@@ -57,6 +58,7 @@ def with_intervals(
     rows = data.rows(values)
     robust = np.diag(found.covariance)
     usual = _noise(robust, plain)
+    carried: list[_Refitted] = []
     for name in [*asked, *bounded]:
         q, at = model.quantities[name], [i for i, n in enumerate(free) if n == name]
         rest, own = others(rows, free, name), _noise(robust[at], plain[at])
@@ -74,13 +76,25 @@ def with_intervals(
             continue
         best, low, high = interval(cost, q, values[name], NORMAL_95 * error)
         if len(blocks) == 1:
-            again = _refitted(data, blocks[0], values, name, rest, phi, fixed)
+            again = _Refitted(data, blocks[0], values, name, rest, phi, frozenset(fixed))
             low, high = widened(again, q, best, low, high)
+            if is_wide(best, low, high):
+                for value in along(q, best, low, high):
+                    again(value)
+                carried.append(again)
         if best != values[name]:
             moved = {**values, name: best}
             # The others' step is a leap where a slope holds no farther than the step is long.
             values = data.best(values, (data.taken_up(moved, name, rest), moved))
         intervals[name] = (min(low, values[name]), max(high, values[name]))
+    noise = {n: _noise(robust[[i]], plain[[i]]) for i, n in enumerate(free)}
+    noise = {n: max(v, usual) if np.isfinite(v) else usual for n, v in noise.items()}
+    reach = {n: NORMAL_95 * float(np.sqrt(max(v, 0.0))) for n, v in zip(free, robust, strict=True)}
+    for again in carried:
+        ends = again.ends_of_others(noise)
+        for n, (low, high) in beyond(ends, reach, values, model.quantities).items():
+            had = intervals.get(n, (low, high))
+            intervals[n] = (min(low, had[0]), max(high, had[1]))
     flat = tuple(g for g in found.flat if g[0] not in intervals)
     return replace(found, values=values, intervals=intervals, flat=flat)
 
@@ -200,23 +214,46 @@ def _along(
     return cost
 
 
-def _refitted(
-    data: _Data, block: Block, values: dict[str, float], name: str, rest: Linear, phi: float,
-    fixed: Iterable[str],
-) -> Callable[[float], float]:  # fmt: skip
+@dataclass(frozen=True, eq=False)
+class _Refitted:
     """The same with all others searched, from where they are at the nearest value.
 
     The search goes in the log's own steps, and what it leaves is counted between them.
     """
-    held = {*fixed, name}
-    solved: dict[float, dict[str, float]] = {}
 
-    def cost(value: float) -> float:
-        near = min(solved, key=lambda v: abs(v - value), default=None)
-        start = {**(values if near is None else solved[near]), name: value}
-        found = fit(data.found.model, block, start=start, fixed=held, max_evaluations=REFITS)
-        solved[value] = found.values
-        followed = data.left({**values, name: value}, rest)
-        return min(followed, data.left({**found.values, name: value}, rest)) / phi
+    data: _Data
+    block: Block
+    values: dict[str, float]
+    name: str
+    rest: Linear
+    phi: float
+    fixed: frozenset[str]
+    solved: dict[float, tuple[float, dict[str, float]]] = field(default_factory=dict)
 
-    return cost
+    def __call__(self, value: float) -> float:
+        near = min(self.solved, key=lambda v: abs(v - value), default=None)
+        start = {**(self.values if near is None else self.solved[near][1]), self.name: value}
+        held = {*self.fixed, self.name}
+        model = self.data.found.model
+        found = fit(model, self.block, start=start, fixed=held, max_evaluations=REFITS)
+        followed = self.data.left({**self.values, self.name: value}, self.rest)
+        left = self.data.left({**found.values, self.name: value}, self.rest)
+        cost = min(followed, left) / self.phi
+        self.solved[value] = cost, dict(found.values)
+        return cost
+
+    def ends_of_others(self, plain: Mapping[str, float]) -> dict[str, tuple[float, float]]:
+        """How far the data let the others go with it; plain : phi of each by name."""
+        names = [n for n in self.data.found.free if n != self.name]
+        least = min(cost for cost, _ in self.solved.values())
+        near = [(c, v) for c, v in self.solved.values() if c <= least + NORMAL_95**2]
+        at, errors = [], []
+        for _, values in near:
+            rows = self.data.rows(values)
+            rest = others(rows, self.data.found.free, self.name)
+            moved = self.data.taken_up(values, self.name, rest)
+            at.append([moved[n] for n in names])
+            told = np.maximum(np.diag(rest.normal.pseudo_inverse()), 0.0)
+            errors.append(np.sqrt(told * [plain[n] for n in names]))
+        low, high = reached(np.array([c for c, _ in near]), np.array(at), np.array(errors))
+        return dict(zip(names, zip(low.tolist(), high.tolist(), strict=True), strict=True))
