@@ -88,10 +88,10 @@ def with_intervals(
             values = data.best(values, (data.taken_up(moved, name, rest), moved))
         intervals[name] = (min(low, values[name]), max(high, values[name]))
     noise = {n: _noise(robust[[i]], plain[[i]]) for i, n in enumerate(free)}
-    noise = {n: max(v, usual) if np.isfinite(v) else usual for n, v in noise.items()}
+    noise = {n: v if np.isfinite(v) else usual for n, v in noise.items()}
     reach = {n: NORMAL_95 * float(np.sqrt(max(v, 0.0))) for n, v in zip(free, robust, strict=True)}
     for again in carried:
-        ends = again.ends_of_others(noise)
+        ends = again.ends_of_others(values, noise, asked)
         for n, (low, high) in beyond(ends, reach, values, model.quantities).items():
             had = intervals.get(n, (low, high))
             intervals[n] = (min(low, had[0]), max(high, had[1]))
@@ -238,22 +238,28 @@ class _Refitted:
         found = fit(model, self.block, start=start, fixed=held, max_evaluations=REFITS)
         followed = self.data.left({**self.values, self.name: value}, self.rest)
         left = self.data.left({**found.values, self.name: value}, self.rest)
-        cost = min(followed, left) / self.phi
-        self.solved[value] = cost, dict(found.values)
-        return cost
+        self.solved[value] = left / self.phi, dict(found.values)
+        return min(followed, left) / self.phi
 
-    def ends_of_others(self, plain: Mapping[str, float]) -> dict[str, tuple[float, float]]:
-        """How far the data let the others go with it; plain : phi of each by name."""
-        names = [n for n in self.data.found.free if n != self.name]
-        least = min(cost for cost, _ in self.solved.values())
+    def ends_of_others(
+        self, values: Values, phi: Mapping[str, float], searched: Sequence[str]
+    ) -> dict[str, tuple[float, float]]:
+        """How far the data let the others go with it, from their values.
+
+        phi : of each by name;  searched : those with intervals by profile, as slopes may say little
+            of them: where they are found is all that counts here
+        """
+        free = [n for n in self.data.found.free if n != self.name]
+        least, best = min(self.solved.values(), key=lambda s: s[0])
         near = [(c, v) for c, v in self.solved.values() if c <= least + NORMAL_95**2]
-        at, errors = [], []
-        for _, values in near:
-            rows = self.data.rows(values)
-            rest = others(rows, self.data.found.free, self.name)
-            moved = self.data.taken_up(values, self.name, rest)
-            at.append([moved[n] for n in names])
-            told = np.maximum(np.diag(rest.normal.pseudo_inverse()), 0.0)
-            errors.append(np.sqrt(told * [plain[n] for n in names]))
-        low, high = reached(np.array([c for c, _ in near]), np.array(at), np.array(errors))
-        return dict(zip(names, zip(low.tolist(), high.tolist(), strict=True), strict=True))
+        # The log's own steps have a bias, and the same one all along.
+        at = np.array([[values[n] + v[n] - best[n] for n in free] for _, v in near])
+        variance = np.array([0.0 if n in searched else phi[n] for n in free])
+        errors = []
+        for _, v in near:
+            told = others(
+                self.data.rows(v), self.data.found.free, self.name
+            ).normal.pseudo_inverse()
+            errors.append(np.sqrt(np.maximum(np.diag(told), 0.0) * variance))
+        low, high = reached(np.array([c for c, _ in near]), at, np.array(errors))
+        return dict(zip(free, zip(low.tolist(), high.tolist(), strict=True), strict=True))
