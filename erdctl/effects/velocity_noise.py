@@ -42,6 +42,7 @@ from erdctl.model.slots import MotionSlot, Values
 REACHES = (*range(1, 17), 20, 25, 32, 40)  # samples each way
 ENDS = (40, 20, 10, 5, 2, 1)  # the most that are used, the nearer to an end of a record the fewer
 FEWEST = 20  # samples of a record for each weight
+SHORTEST = FEWEST + 2  # samples of a record that has any
 DETERMINED = 1e-5  # of the largest singular value
 BEND = 4  # of as many slopes one has the bend of the deflection over its reach beside it
 CERTAIN = 4.0  # times its standard error, from which on a part of xdot is none of its noise
