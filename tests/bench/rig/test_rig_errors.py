@@ -9,7 +9,7 @@ from rig import real
 from rig_errors import ERRORS, RigError, chosen
 
 from erdctl.bench.rig import Rig, look
-from erdctl.bench.rig.fault import CODES
+from erdctl.bench.rig.fault import CODES, RigFault, sound
 from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.core.recording import Recording
 from erdctl.io.logs import read_logs
@@ -107,6 +107,30 @@ def test_spoiled_samples_have_no_weight(good: Recording) -> None:
     total = sum(float(b.weight.sum()) for b in pieces(kept, longest=500))
     plain = sum(float(b.weight.sum()) for b in pieces(good, longest=500))
     assert plain - 1.1 * np.count_nonzero(frozen) <= total < plain
+
+
+@pytest.mark.parametrize("frequency", [0.5, 2.0, 6.0])
+def test_a_noisy_velocity_is_replaced_by_one_that_a_force_has_no_need_to_smooth(
+    frequency: float,
+) -> None:
+    """A deflection in steps of 6 um at 200 Hz."""
+    random, omega = np.random.default_rng(3), 2.0 * np.pi * frequency
+    t = np.arange(4000) * 5e-3
+    true = 0.15 * np.cos(omega * t) + 0.05 * np.cos(1.7 * omega * t + 1.0)
+    x = 0.15 / omega * np.sin(omega * t) + 0.05 / (1.7 * omega) * np.sin(1.7 * omega * t + 1.0)
+    log = Recording(
+        t=t, x=np.round((x + 5e-6 * random.standard_normal(4000)) / 6e-6) * 6e-6,
+        xdot=true + 5e-3 * random.standard_normal(4000), duty=np.full(4000, 0.3), force=1e3 * true,
+        starts=np.array([0, 4000]), names=("a",),
+    )  # fmt: skip
+    noisy = RigFault("velocity_noise", None, "", "")
+    late = RigFault("velocity_lag", None, "", "")
+
+    def off(*faults: RigFault) -> float:
+        return float(np.std((sound(log, faults).xdot - true)[50:-50]))
+
+    assert off(noisy) < 0.6 * off(noisy, late)
+    assert off(noisy, late) == off(late)
 
 
 def test_a_velocity_at_fault_is_left_out(good: Recording) -> None:
