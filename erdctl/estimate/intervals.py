@@ -87,16 +87,32 @@ def with_intervals(
             # The others' step is a leap where a slope holds no farther than the step is long.
             values = data.best(values, (data.taken_up(moved, name, rest), moved))
         intervals[name] = (min(low, values[name]), max(high, values[name]))
-    noise = {n: _noise(robust[[i]], plain[[i]]) for i, n in enumerate(free)}
-    noise = {n: v if np.isfinite(v) else usual for n, v in noise.items()}
-    reach = {n: NORMAL_95 * float(np.sqrt(max(v, 0.0))) for n, v in zip(free, robust, strict=True)}
+    flat = tuple(g for g in found.flat if g[0] not in intervals)
+    found = replace(found, values=values, intervals=intervals, flat=flat)
+    return _carried_along(found, carried, plain, asked)
+
+
+def _carried_along(
+    found: Fit, carried: Sequence[_Refitted], plain: Array, searched: Sequence[str]
+) -> Fit:
+    """The fit with intervals of what follows others along wide profiles, see `carried`.
+
+    What the data tell only together has none, and what had one keeps at least that.
+    """
+    robust, usual = np.diag(found.covariance), _noise(np.diag(found.covariance), plain)
+    phi, reach = {}, {}
+    for i, name in enumerate(found.free):
+        own = _noise(robust[[i]], plain[[i]])
+        phi[name] = own if np.isfinite(own) else usual
+        reach[name] = NORMAL_95 * float(np.sqrt(max(robust[i], 0.0)))
+    together, intervals = {n for group in found.flat for n in group}, dict(found.intervals)
     for again in carried:
-        ends = again.ends_of_others(values, noise, asked)
-        for n, (low, high) in beyond(ends, reach, values, model.quantities).items():
+        ends = again.ends_of_others(found.values, phi, searched)
+        ends = {n: e for n, e in ends.items() if n not in together}
+        for n, (low, high) in beyond(ends, reach, found.values, found.model.quantities).items():
             had = intervals.get(n, (low, high))
             intervals[n] = (min(low, had[0]), max(high, had[1]))
-    flat = tuple(g for g in found.flat if g[0] not in intervals)
-    return replace(found, values=values, intervals=intervals, flat=flat)
+    return replace(found, intervals=intervals)
 
 
 def farthest(residual: Array, root: Array, measured: Array) -> float:
