@@ -51,7 +51,7 @@ def test_only_what_goes_beyond_an_error_has_ends_of_its_own() -> None:
 
 
 def test_a_yield_force_beside_a_saturation_of_any_sharpness() -> None:
-    """One of these 16 intervals held it with one sharpness taken; the farthest was 31 errors off."""
+    """With one sharpness taken, one of 16 intervals held it, and the farthest was 31 errors off."""
     readings = [(9404, "white", 0), (9407, "ar1", 0), (9409, "white", 1), (9413, "white", 0)]
     held = [
         h.inside for seed, kind, number in readings
