@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any, cast
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -9,7 +12,10 @@ from hypothesis import strategies as st
 
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.estimate.carried import along, beyond, reached
+from erdctl.estimate.identify import identify
+from erdctl.estimate.intervals import _carried_along
 from erdctl.model.parameters import NORMAL_95
+from erdctl.model.slots import Values
 from erdctl.prove.coverage import conceal, read
 
 
@@ -50,13 +56,34 @@ def test_only_what_goes_beyond_an_error_has_ends_of_its_own() -> None:
     assert found == {"b": (0.0, 1.1), "c": (0.8, 9.0)}
 
 
+class Wide:
+    """A profile along which everything may go anywhere."""
+
+    def ends_of_others(self, values: Values, *_: object) -> dict[str, tuple[float, float]]:
+        return dict.fromkeys(values, (-1e9, 1e9))
+
+
+def test_what_is_told_only_together_stays_so() -> None:
+    found = identify(conceal("", 9400, samples=2_000).recording).fit
+    pair = ("compression.sigma", "compression.beta")
+    found = replace(found, flat=(pair,), intervals={})
+    told = _carried_along(found, [cast(Any, Wide())], np.ones(len(found.free)), [])
+    assert told.flat == (pair,)
+    assert set(told.intervals) == set(found.free) - set(pair)
+    for name, ends in told.intervals.items():
+        q = found.model.quantities[name]
+        assert ends == (max(q.low, -1e9), min(q.high, 1e9))
+
+
 def test_a_yield_force_beside_a_saturation_of_any_sharpness() -> None:
     """With one sharpness taken, one of 16 intervals held it, and the farthest was 31 errors off."""
     readings = [(9404, "white", 0), (9407, "ar1", 0), (9409, "white", 1), (9413, "white", 0)]
     held = [
-        h.inside for seed, kind, number in readings
+        h for seed, kind, number in readings
         for h in read(conceal("field_saturation", seed), kind, number)
         if h.parameter.split(".")[1] in ("sigma", "beta")
     ]  # fmt: skip
     assert len(held) == 16
-    assert sum(bool(inside) for inside in held) >= 15
+    assert sum(bool(h.inside) for h in held) >= 15
+    ends = [h.estimate.interval for h in held if h.estimate.interval is not None]
+    assert np.median([high - low for low, high in ends] / np.array([h.truth for h in held])) < 2.0
