@@ -14,13 +14,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from erdctl.core.recording import Array
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.backward_step import without_each
 from erdctl.diagnose.comparison import compare_alike, ranked
 from erdctl.diagnose.forward_step import Exploration
-from erdctl.diagnose.hypothesis import Hypothesis, with_columns
+from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
+from erdctl.diagnose.residual.record_levels import with_levels
 
 
 def beyond_levels(
@@ -30,8 +30,7 @@ def beyond_levels(
 
     critical : see `energy.critical_value`
     """
-    levels = _level_rows(worse)
-    own = [with_columns(h, levels) for h in (worse, better)]
+    own = [with_levels(h, worse) for h in (worse, better)]
     # A level of a record with few samples of weight may miss the others; no model has it.
     if replace(compare_alike(problem, *own), settling=0.0).beyond(critical):
         return True
@@ -40,14 +39,6 @@ def beyond_levels(
     extra = len(better.model.quantities) - len(worse.model.quantities)
     records = len(problem.recording.names)
     return _chance(before, after, least, extra, records) < thresholds.CHANCE_OF_LEVELS
-
-
-def taken_by_levels(best: Hypothesis) -> float:
-    """Part of the mean square that a model leaves which a gain and a zero of each record take."""
-    weight = best.problem.block.weight
-    own = with_columns(best, _level_rows(best))
-    before, after = (float(np.dot(weight, h.residual**2)) for h in (best, own))
-    return 1.0 - after / before if before > 0.0 else 0.0
 
 
 def not_of_records(x: Exploration, best: Hypothesis) -> Hypothesis:
@@ -61,14 +52,6 @@ def not_of_records(x: Exploration, best: Hypothesis) -> Hypothesis:
             break
         best = ranked(labels)[0]
     return best
-
-
-def _level_rows(hypothesis: Hypothesis) -> Array:
-    """(2 r, n) the modelled force, and 1, in each record and 0 elsewhere."""
-    s = hypothesis.problem.block.signals
-    modelled = hypothesis.model.force(s, hypothesis.values)
-    records = np.repeat(np.eye(len(s.starts) - 1), np.diff(s.starts), axis=1)
-    return np.vstack([records * modelled, records])
 
 
 def _chance(before: float, after: float, least: float, extra: int, records: int) -> float:

@@ -17,8 +17,8 @@ from erdctl.diagnose.detectable import Detectable
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.findings import Finding
 from erdctl.diagnose.learning.words import law_words
-from erdctl.diagnose.levels_of_records import taken_by_levels
 from erdctl.diagnose.residual.predictability import LackOfFit
+from erdctl.diagnose.residual.record_levels import taken_by_levels
 from erdctl.diagnose.unseen import Left, Unseen
 
 
@@ -93,10 +93,14 @@ def _left(found: Diagnosis) -> str:
             f" noise as far as these data tell{_hum(left)}{_withdrawn(found)}"
         )
     words = "" if found.learned is None else f"{_laws(found)}; with that, "
-    words += (
-        f"{left.misfit_rms:.3g} N rms beyond a noise of {left.noise_rms:.3g} N can be predicted"
-        " from motion and duty, but by no effect in the catalogue"
-    )
+    words += f"{left.misfit_rms:.3g} N rms beyond a noise of {left.noise_rms:.3g} N "
+    if left.records > 0.0:
+        words += (
+            "are explained by no effect in the catalogue; the gains of records differ by"
+            f" {100 * left.records:.2g} % (standard deviation), and those of a rig hardly would"
+        )
+    else:
+        words += "can be predicted from motion and duty, but by no effect in the catalogue"
     if left.spectral_line is not None:
         words += (
             f"; {100 * left.spectral_line.share:.0f} % of it swings at"

@@ -11,7 +11,7 @@ the yield force (a spectral line), teeth of one length (a line over travel), and
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import numpy as np
@@ -21,6 +21,7 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem, t_statistic
 from erdctl.diagnose.residual.impulses import impulse_share
+from erdctl.diagnose.residual.record_levels import records_apart
 from erdctl.diagnose.residual.regression import cross_predicted, features
 from erdctl.diagnose.residual.spectral_line import SpectralLine, spectral_lines
 from erdctl.diagnose.residual.travel_line import TravelLine, travel_line
@@ -38,6 +39,7 @@ class LackOfFit:
     impulses : the share of the rest's square that they hold, if there are any
     hum : a line of the force channel's own, which is noise
     travel_line : what comes again with every so much travel, if the rest holds it
+    records : standard deviation of the gains of records, if these differ unlike those of a rig
     measures : the statistics on which this rests, by the names of their thresholds
     """
 
@@ -51,6 +53,7 @@ class LackOfFit:
     impulses: float
     hum: SpectralLine | None = None
     travel_line: TravelLine | None = None
+    records: float = 0.0
     measures: Mapping[str, float] = field(default_factory=dict)
 
     def square(self, found: Array) -> Array:
@@ -65,8 +68,27 @@ class LackOfFit:
 @lru_cache(maxsize=8)
 def lack_of_fit_of(hypothesis: Hypothesis, seed: int = 0) -> LackOfFit:
     """The misfit in what a hypothesis leaves."""
+    problem, residual = hypothesis.problem, hypothesis.residual
+    if apart := records_apart(hypothesis):
+        scatter, own = apart
+        return _of_records(scatter, lack_of_fit_test(problem, own.residual, seed), own, residual)
     first = _predicted_by_groups(hypothesis, seed)
-    return lack_of_fit_test(hypothesis.problem, hypothesis.residual, seed, first)
+    return lack_of_fit_test(problem, residual, seed, first)
+
+
+def _of_records(scatter: float, within: LackOfFit, own: Hypothesis, residual: Array) -> LackOfFit:
+    """The misfit within records, and that between them."""
+    levels, weight = residual - own.residual, own.problem.block.weight
+    between = float(np.average(levels**2, weights=weight))
+    return replace(
+        within,
+        predicted=within.predicted + levels,
+        excess=within.excess + levels**2,
+        misfit_rms=float(np.sqrt(within.misfit_rms**2 + between)),
+        significant=True,
+        hint=True,
+        records=scatter,
+    )
 
 
 def misfit_is_left(hypothesis: Hypothesis, seed: int = 0) -> bool:
