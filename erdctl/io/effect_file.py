@@ -139,8 +139,7 @@ def effect_source(name: str, found: LearnedEffect, values: Values, origin: str) 
         "",
         *(line for letter, axis in zip("zy", law.curve.axes, strict=False) for line in _paragraph(
             f"{letter} : {axis.kind.words} [{axis.kind.unit}], from {axis.range[0]:.4g} to"
-            f" {axis.range[1]:.4g}, where it was learned; beyond these the law stays at its end"
-            " value")),
+            f" {axis.range[1]:.4g}, where it was learned; beyond, {axis.ends}")),
         *(line for s in symbols for line in s),
         *_paragraph(f"Learned from {_plain(origin)}: {learned}"),
         "",

@@ -34,7 +34,8 @@ class LawDocument(msgspec.Struct, omit_defaults=True, kw_only=True):
     A spline (natural, cubic) goes through its parameters f_1, f_2, ... at the `knots`, and is 0 at
     the first where `zero_first`; a closed form has two: the ends of the range in which it was seen.
     Over two coordinates there is a value f_i_j at the knots i of the first and j of the second one.
-    Outside of the knots the curve stays at its end value. In SI units.
+    Outside of the knots a spline stays at its end value; a closed form goes on, as far as two times
+    that range and three times what it is at its ends. In SI units.
     """
 
     slot: str

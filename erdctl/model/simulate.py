@@ -196,5 +196,5 @@ class Remarks:
             yield (
                 f"{curve.kind.words} spans {least:.3g}..{most:.3g}{unit}, but a law of it was"
                 f" learned on {low:.3g}..{high:.3g}; beyond, for"
-                f" {100 * count / self._samples:.2g} % of the samples, it stays at its end value"
+                f" {100 * count / self._samples:.2g} % of the samples, {curve.ends}"
             )

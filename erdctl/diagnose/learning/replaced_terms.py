@@ -1,8 +1,9 @@
 """Whether a law corrects a term of the paper's model, or takes its place.
 
-Beyond the range seen a law stays at its end value; the yield force goes on with the duty cycle, the
-viscous force with the speed, the gas force with the stroke. A force over the duty of late fits as
-well as the yield force with its lag, which then falls to nothing, and misses the first higher duty.
+Beyond the range seen a curve stays at its end value; the yield force goes on with the duty cycle,
+the viscous force with the speed, the gas force with the stroke. A force over the duty of late fits
+as well as the yield force with its lag, which then falls to nothing, and misses the first higher
+duty.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ A log need not span a coordinate without gaps: between its levels a curve is wha
 of it. It need not fill the plane of two coordinates: sines lie on ellipses of deflection and speed,
 and what the travel has left of the former direction is nearly a function of the travel itself. The
 values of a surface in the corners are then what the splines make of them, and another motion comes
-there: beyond the range seen each coordinate stays at its end by itself.
+there: beyond the range seen each coordinate of a surface stays at its end by itself.
 """
 
 from __future__ import annotations

@@ -11,6 +11,7 @@ Source: C. de Boor, A Practical Guide to Splines (2001), Ch. 4.
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
@@ -18,27 +19,28 @@ from typing import NamedTuple
 import numpy as np
 
 from erdctl.core.recording import Array
-from erdctl.model.learned.curve import Curve
+from erdctl.model.learned.c_coordinates import NEVER
+from erdctl.model.learned.curve import GROWN, REACH, Curve
 from erdctl.model.learned.forms import FORMS, STEEPEST
 from erdctl.model.learned.surface import Surface
 
 WIDTH = 88  # of the lines of a table
 
-_FALL = f"FMIN(-at / p->w, K({STEEPEST!r}))"
+_FALL = f"FMIN(-AT / p->w, K({STEEPEST!r}))"
 _TURN = f"K({2.0 * float(np.pi)!r})"
 
-# Of `at`, a value of the coordinate within its range; SCALE is the largest size of it there.
+# Of AT, a value of the coordinate; SCALE is the largest size of it within its range.
 FORMS_IN_C: Mapping[str, str] = {
-    "line": "at / SCALE",
-    "power": "(at < K(0.0) ? K(-1.0) : K(1.0)) * POW(FABS(at / SCALE), p->n)",
+    "line": "AT / SCALE",
+    "power": "(AT < K(0.0) ? K(-1.0) : K(1.0)) * POW(FABS(AT / SCALE), p->n)",
     "exponential": f"EXP({_FALL})",
     "saturation": f"-EXPM1({_FALL})",
-    "tanh": "TANH(at / p->w)",
-    "hinge": "FMAX(at - p->m, K(0.0)) / SCALE",
-    "threshold": "K(0.5) * (K(1.0) + TANH((at - p->m) / p->w))",
-    "bell": f"EXP(-FMIN((at - p->m) / p->w * ((at - p->m) / p->w), K({STEEPEST!r})))",
-    "sine": f"SIN({_TURN} * (at - p->m) / p->w)",
-    "swing": f"SIN({_TURN} * (p->n * at - p->p))",
+    "tanh": "TANH(AT / p->w)",
+    "hinge": "FMAX(AT - p->m, K(0.0)) / SCALE",
+    "threshold": "K(0.5) * (K(1.0) + TANH((AT - p->m) / p->w))",
+    "bell": f"EXP(-FMIN((AT - p->m) / p->w * ((AT - p->m) / p->w), K({STEEPEST!r})))",
+    "sine": f"SIN({_TURN} * (AT - p->m) / p->w)",
+    "swing": f"SIN({_TURN} * (p->n * AT - p->p))",
 }
 assert FORMS_IN_C.keys() == FORMS.keys()
 
@@ -87,8 +89,26 @@ def curve_in_c(curve: Curve, unit: str) -> CCurve:
 
 def _form(curve: Curve, form: str) -> CCurve:
     low, high = curve.range
-    at = FORMS_IN_C[form].replace("SCALE", f"K({max(abs(low), abs(high))!r})")
-    return CCurve("", f"at = clipped(at, K({low!r}), K({high!r}));\nvalue = p->a * ({at});")
+    reach, equation = REACH * (high - low), FORMS_IN_C[form]
+    equation = equation.replace("SCALE", f"K({max(abs(low), abs(high))!r})")
+    near, within = (
+        f"clipped(at, K({a!r}), K({b!r}))" for a, b in ((low - reach, high + reach), (low, high))
+    )
+    code = f"at = FABS(at) < {NEVER} / K(2.0) ? {near} : {within};\nvalue = {_of('at', equation)};"
+    if not FORMS[form].grows:
+        return CCurve("", f"{code}\nvalue *= p->a;")
+    ends = ", ".join(f"FABS({_of(f'K({z!r})', equation)})" for z in (low, high))
+    return CCurve(
+        "real most;",
+        f"""\
+{code}
+most = K({GROWN!r}) * FMAX({ends});
+value = p->a * clipped(value, -most, most);""",
+    )
+
+
+def _of(at: str, equation: str) -> str:
+    return re.sub(r"\bAT\b", at, equation)
 
 
 def _axis(curve: Curve, of: str) -> str:

@@ -21,6 +21,7 @@ class Form(NamedTuple):
     """One form: its equation, its parameters over a range, and its value at z (n,) by Z.
 
     bends : whether a curve through few knots can be it
+    grows : whether it grows without end beyond a range, on one side or on both
     steps : widths, at least, from one value of z that was seen to the next: what swings or bulges
         in between would be told by nothing
     """
@@ -29,6 +30,7 @@ class Form(NamedTuple):
     parameters: Callable[[str, float, float], tuple[Quantity, ...]]
     value: Callable[[Array, float, Values], Array]
     bends: bool = True
+    grows: bool = False
     steps: float = 0.0
 
     def narrowest(self, z: Array) -> float:
@@ -104,14 +106,19 @@ def _fall(z: Array, p: Values) -> Array:
 
 
 FORMS: Mapping[str, Form] = {
-    "line": Form("a z/Z", _none, lambda z, Z, p: z / Z),
+    "line": Form("a z/Z", _none, lambda z, Z, p: z / Z, grows=True),
     "power": Form(
-        "a |z/Z|^n sign(z)", _power, lambda z, Z, p: np.sign(z) * np.abs(z / Z) ** p["n"]
+        "a |z/Z|^n sign(z)", _power, lambda z, Z, p: np.sign(z) * np.abs(z / Z) ** p["n"],
+        grows=True,
     ),
-    "exponential": Form("a exp(-z/w)", _widths, lambda z, Z, p: np.exp(_fall(z, p))),
-    "saturation": Form("a (1 - exp(-z/w))", _widths, lambda z, Z, p: -np.expm1(_fall(z, p))),
+    "exponential": Form("a exp(-z/w)", _widths, lambda z, Z, p: np.exp(_fall(z, p)), grows=True),
+    "saturation": Form(
+        "a (1 - exp(-z/w))", _widths, lambda z, Z, p: -np.expm1(_fall(z, p)), grows=True
+    ),
     "tanh": Form("a tanh(z/w)", _widths, lambda z, Z, p: np.tanh(z / p["w"])),
-    "hinge": Form("a max(z - m, 0)/Z", _places, lambda z, Z, p: np.maximum(z - p["m"], 0.0) / Z),
+    "hinge": Form(
+        "a max(z - m, 0)/Z", _places, lambda z, Z, p: np.maximum(z - p["m"], 0.0) / Z, grows=True
+    ),
     "threshold": Form(
         "a/2 (1 + tanh((z - m)/w))", _both,
         lambda z, Z, p: 0.5 * (1.0 + np.tanh((z - p["m"]) / p["w"])),

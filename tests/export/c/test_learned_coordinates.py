@@ -206,8 +206,8 @@ def curves_apart(curve: Curve, folder: Path, *, single: bool = False) -> float:
     values = {q.symbol: float(random.uniform(-5, 5)) for q in sizes}
     values |= {q.symbol: q.start for q in shape}
     low, high = curve.range
-    z = random.uniform(low - 0.2 * (high - low), high + 0.2 * (high - low), 500)
-    z[:3] = low, high, 1e30
+    z = random.uniform(low - 3.0 * (high - low), high + 3.0 * (high - low), 500)
+    z[:3] = low, high, 1e30  # what has not been yet, which Python has as infinite
     y = random.uniform(-0.1, 1.1, 500)
     out = np.empty(500)
     number = ctypes.POINTER(ctypes.c_double)
@@ -215,6 +215,7 @@ def curves_apart(curve: Curve, folder: Path, *, single: bool = False) -> float:
     compiled(curve_program(curve), folder, single).run(
         500, *(a.ctypes.data_as(number) for a in (given, z, y, out))
     )
+    z[2] = np.inf
     rows = curve.at_both(z, y) if isinstance(curve, Surface) else curve.at(z, values)
     return apart(out, np.array([values[q.symbol] for q in sizes]) @ rows)
 

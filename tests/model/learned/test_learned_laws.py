@@ -111,6 +111,33 @@ def test_beyond_what_was_seen_it_stays_at_its_end_value(times: float) -> None:
     assert np.array_equal(ends, out)
 
 
+@pytest.mark.parametrize("form", FORMS)
+@given(low=st.floats(-3.0, 3.0), span=st.floats(0.01, 5.0), part=st.floats(0.0, 1.0))
+def test_a_closed_form_goes_on_but_not_without_end(
+    form: str, low: float, span: float, part: float
+) -> None:
+    curve = Curve("since_duty_step", (low, low + span), form)
+    inside = np.linspace(*curve.range, 50)
+    values = {q.symbol: q.low + part * (q.high - q.low) for q in curve.shape()}
+    far = np.array([1.0, 1.5, 2.0, 2.1, 1e3]) * span
+    ((*above,), (*below,)) = (curve.at(z, values)[0] for z in (inside[-1] + far, low - far))
+    for side in (above, below):
+        assert side[3] == side[4]  # no farther than two times the range
+        most = 3.0 * np.abs(curve.at(inside[[0, -1]], values)).max()
+        assert max(map(abs, side)) <= (most if FORMS[form].grows else 1.0) * (1.0 + 1e-12)
+    if form == "line":
+        scale = max(abs(low), abs(low + span))
+        assert above[0] == pytest.approx((inside[-1] + span) / scale, rel=1e-9, abs=1e-9)
+    end = curve.at(inside[[-1]], values)
+    assert np.array_equal(curve.at(np.array([np.inf]), values), end)  # no step has been yet
+
+
+def test_simulate_says_that_a_closed_form_goes_on() -> None:
+    line = Law(LawSlot.FRICTION, Curve("abs_x", (0.0, float(np.abs(LOG.x).max())), "line"))
+    (said,) = [r for r in remarks(parameters(line), replace(LOG, x=2.0 * LOG.x)) if "law" in r]
+    assert "it goes on by its form as far as 2 times that range, tested by no data" in said
+
+
 def test_simulate_says_where_a_law_is_asked_for_more() -> None:
     found = parameters(law(LawSlot.YIELD, "abs_x"))
     beyond, within = (replace(LOG, x=times * LOG.x) for times in (2.0, 0.9))
