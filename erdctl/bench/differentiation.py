@@ -12,6 +12,14 @@ from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array, Index
 
 WINDOW = 0.020  # s: passes what a damper test moves at (below 20 Hz), averages sensor noise
+WIDEST = 8.0  # times that, where the noise of x asks for it
+STEP = math.sqrt(2.0)  # from a width to the next
+WORTH = 0.5  # of the mean square error of the velocity: what another window must leave at most
+DEGREES = {2: "quadratic", 4: "quartic"}
+NOISE_ORDER = 6  # of the differences that tell the noise of x
+OF_SIGMA = 0.6745  # of a normal deviation: the median of its size
+ROUNDING = 1e-6  # of the stroke, below which steps of x are no digits of a recorder
+OF_A_DIGIT = 0.05  # as near as steps of x are to whole numbers of them
 FEWEST = 5  # samples of a window; three would let the noise through unfiltered
 JITTER = 1e-3  # of the step, and so of xdot: below it the times count as evenly spaced
 GAP = 10.0  # steps; across a longer pause there is no local polynomial
@@ -26,13 +34,15 @@ def derive_xdot(
     row_of: Callable[[int], int] = lambda sample: sample + 1,
     notes: dict[str, None] | None = None,
 ) -> tuple[Array, str]:
-    """Derivative of a local quadratic, record by record.
+    """Derivative of a local quadratic, or quartic, record by record.
 
         xdot_i = a_1,   min over a of  sum_k (a_0 + a_1 u_k + a_2 u_k^2 - x_k)^2,  u_k = t_k - t_i
 
     over the samples k of a window of about 20 ms, at least 5 samples, centred on sample i (at
     the ends of a record: the first or the last window). Evenly spaced, this is the
-    Savitzky-Golay filter; otherwise the same fit is made at the actual times.
+    Savitzky-Golay filter, and where x is noisy the window is wider, up to 160 ms, and where it
+    moves fast the polynomial of degree 4, as long as that halves the error (`_window`); otherwise
+    the quadratic is fitted at the actual times.
 
     t : (n,) strictly increasing within a record [s];  x : (n,) [m];  starts : (r + 1,) offsets
     file, row_of : for messages; row of a sample
@@ -40,7 +50,8 @@ def derive_xdot(
     Returns (n,) xdot [m/s] and a note: method, window, and where the response has fallen by 3 dB
     against an ideal differentiator. Exact for x quadratic in t; x = t^2 gives 2 t.
     Raises InputProblem at a pause of more than 10 steps, or for a record of one sample.
-    Source: A. Savitzky, M. J. E. Golay, Analytical Chemistry 36 (1964) 1627-1639.
+    Source: A. Savitzky, M. J. E. Golay, Analytical Chemistry 36 (1964) 1627-1639; C. L. Mallows,
+    Technometrics 15 (1973) 661-675 (bias and variance by differences of fits).
     """
     xdot = np.empty_like(x)
     notes = {} if notes is None else notes
@@ -70,20 +81,24 @@ def derive_xdot(
     return xdot, "derived from x by " + "; ".join(kinds[:3]) + more
 
 
-def bandwidth(width: int, step: float) -> float:
+def bandwidth(width: int, step: float, degree: int = 2) -> float:
     """Frequency at which the derivative has fallen by 3 dB against an ideal differentiator [Hz].
 
-        |H| / omega = sum_k k sin(k theta) / (theta sum_k k^2) = 1 / sqrt(2),  theta = omega step
+        |H| / omega = 2 sum_k a_k sin(k theta) / theta = 1 / sqrt(2),  theta = omega step
 
-    with k from 1 to (width - 1) / 2.  width : odd number of samples;  step : [s]
+    with the weights a_k of the slope, k from 1 to (width - 1) / 2; of degree 2 k / (2 sum k^2).
+    width : odd number of samples;  step : [s]
     Check: for a long window u = theta k_max solves 3 (sin u - u cos u) / u^3 = 1/sqrt(2), which
     is u = 1.8148: 1.8148 / (2 pi 10 ms) = 28.9 Hz for 20 ms.
     >>> round(bandwidth(2001, 1e-5), 1)
     28.9
     """
+    from scipy.signal import savgol_coeffs
+
     k = np.arange(1, width // 2 + 1)
-    theta = np.linspace(0.0, math.pi, 2049)[1:] * min(1.0, 1.0 / k[-1] * 2.0)
-    response = np.sin(np.outer(theta, k)) @ k / (theta * (k @ k))
+    weights = savgol_coeffs(width, degree, deriv=1, use="dot")[width // 2 + 1 :]
+    theta = np.linspace(0.0, math.pi, 2049)[1:] * min(1.0, degree / k[-1])
+    response = 2.0 * np.sin(np.outer(theta, k)) @ weights / theta
     fallen = int(np.argmax(response < math.sqrt(0.5)))
     two = slice(fallen - 1, fallen + 1)
     at = np.interp(-math.sqrt(0.5), -response[two], theta[two])
@@ -91,23 +106,101 @@ def bandwidth(width: int, step: float) -> float:
 
 
 def _record(t: Array, x: Array, step: float, even: bool) -> tuple[Array, str]:
-    width = max(2 * round(WINDOW / 2.0 / step) + 1, FEWEST)
-    width = min(width, (t.size - 1) // 2 * 2 + 1)
+    most = (t.size - 1) // 2 * 2 + 1
+    width = min(max(2 * round(WINDOW / 2.0 / step) + 1, FEWEST), most)
     if width < FEWEST:
         return np.gradient(x, t), "differences of neighbours (fewer than 5 samples in a record)"
+    width, degree = _window(x, width, most) if even else (width, 2)
     span = f"{width} samples = {1e3 * (width - 1) * step:.3g} ms"
+    fallen = f"{bandwidth(width, step, degree):.3g} Hz"
     if not even:
-        return _at_actual_times(t, x, width), (
-            f"local quadratic fits at the uneven times ({span};"
-            f" -3 dB near {bandwidth(width, step):.3g} Hz)"
-        )
+        note = f"local quadratic fits at the uneven times ({span}; -3 dB near {fallen})"
+        return _at_actual_times(t, x, width), note
     from scipy.signal import savgol_filter
 
     # The mean step: the median of times rounded to a few digits is off by the rounding.
     mean = float(t[-1] - t[0]) / (t.size - 1)
-    xdot = savgol_filter(x, width, 2, deriv=1, delta=mean, mode="interp")
-    note = f"a Savitzky-Golay filter (quadratic, {span}; -3 dB at {bandwidth(width, step):.3g} Hz)"
-    return xdot, note
+    xdot = savgol_filter(x, width, degree, deriv=1, delta=mean, mode="interp")
+    return xdot, f"a Savitzky-Golay filter ({DEGREES[degree]}, {span}; -3 dB at {fallen})"
+
+
+def _window(x: Array, least: int, most: int) -> tuple[int, int]:
+    """Samples of the window, and the degree of the polynomial, that leave the least error.
+
+    Of each degree the window is wider by steps while each halves the mean square error e_w of the
+    slope; a higher degree is taken where it halves it, too.
+
+        e_w = s^2 |a_w|^2 + b_w^2,   b_w ~ w^degree
+        mean (v_w - v_n)^2 = s^2 |a_w - a_n|^2 + (b_w - b_n)^2
+
+    v_w, a_w, b_w : slopes by a window w, its weights and its bias, n being the next narrower one
+    Check: noise alone wants the widest quadratic, a motion alone the narrowest quartic.
+    >>> noise = np.random.default_rng(0).standard_normal(4000)
+    >>> _window(noise, 5, 999), _window(np.sin(0.1 * np.arange(4000)), 5, 999)
+    ((35, 2), (5, 4))
+    """
+    square = _noise(x)
+    found = [(*_widened(x, least, most, degree, square), degree) for degree in DEGREES]
+    error, width, degree = found[0]
+    for other in found[1:]:
+        if other[0] < WORTH * error:
+            error, width, degree = other
+    return width, degree
+
+
+def _widened(x: Array, least: int, most: int, degree: int, square: float) -> tuple[float, int]:
+    """Mean square error of the slope per step, and the window; see `_window`."""
+    from scipy.signal import savgol_coeffs, savgol_filter
+
+    width, slopes = least, savgol_filter(x, least, degree, deriv=1)
+    weights = savgol_coeffs(least, degree, deriv=1)
+    error = square * float(weights @ weights)
+    while True:
+        wider = 2 * math.ceil(0.5 * STEP * (width - 1)) + 1
+        if wider > min(most, WIDEST * least):
+            return error, width
+        more, own = savgol_filter(x, wider, degree, deriv=1), savgol_coeffs(wider, degree, deriv=1)
+        change = own - np.pad(weights, (wider - width) // 2)
+        bent = max(float(np.mean((more - slopes) ** 2)) - square * float(change @ change), 0.0)
+        growth = ((wider - 1) / (width - 1)) ** degree
+        bias = bent / (growth - 1.0) ** 2
+        error = square * float(weights @ weights) + bias
+        after = square * float(own @ own) + growth**2 * bias
+        if after >= WORTH * error:
+            return error, width
+        width, slopes, weights, error = wider, more, own, after
+
+
+def _noise(x: Array) -> float:
+    """Variance of white noise in x, by its sixth differences, which no motion of a bench has.
+
+    By their median: a corner of a triangle has some. At least that of a last digit q, q^2 / 12.
+    Noise that is not white, as behind a filter, has fewer.
+    Check: three standard deviations.
+    >>> noise = 3.0 * np.random.default_rng(0).standard_normal(4000)
+    >>> round(_noise(noise + np.arange(4000.0) ** 2) ** 0.5, 1)
+    3.0
+    """
+    differences = np.abs(np.diff(x, NOISE_ORDER))
+    if not differences.size:
+        return 0.0
+    gain = math.comb(2 * NOISE_ORDER, NOISE_ORDER)  # sum of the squares of their weights
+    return max(float(np.median(differences) / OF_SIGMA) ** 2 / gain, _digit(x) ** 2 / 12.0)
+
+
+def _digit(x: Array) -> float:
+    """The digit q of which all values are multiples; 0 of a channel that is finer than its noise.
+
+    >>> _digit(np.array([0.0, 0.25, 1.0, 1.5])), _digit(np.array([0.0, 0.25, 1.0, 1.6]))
+    (0.25, 0.0)
+    """
+    steps = np.abs(np.diff(x))
+    steps = steps[steps > ROUNDING * float(np.ptp(x))]
+    if not steps.size:
+        return 0.0
+    q = float(steps.min())
+    off = np.abs(steps / q - np.round(steps / q))
+    return q if float(np.quantile(off, 0.9)) < OF_A_DIGIT else 0.0
 
 
 def _at_actual_times(t: Array, x: Array, width: int) -> Array:

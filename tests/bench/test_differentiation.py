@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.signal import savgol_filter
 
-from erdctl.bench.differentiation import bandwidth, derive_xdot
+from erdctl.bench.differentiation import _at_actual_times, bandwidth, derive_xdot
 from erdctl.core.errors import ExitCode, InputProblem
 from erdctl.core.recording import Array, Index
 
@@ -32,11 +33,11 @@ def test_sine_against_its_derivative() -> None:
     w = 2.0 * np.pi * 1.5
     xdot, note = derive_xdot(t, 0.02 * np.sin(w * t), one(t.size))
     error = np.abs(xdot / (0.02 * w) - np.cos(w * t))
-    # theta^2 / 6 sum k^4 / sum k^2 = 9.7e-4 of the amplitude is the filter's own loss at 1.5 Hz
-    assert error[10:-10].max() == pytest.approx(9.7e-4, rel=0.02)
-    assert error.max() < 1e-2
+    # theta^2 / 6 sum k^4 / sum k^2 = 9.7e-4 of the amplitude would be a quadratic's own loss
+    assert error[10:-10].max() < 1e-6
+    assert error.max() < 1e-3
     assert "Savitzky-Golay" in note
-    assert "21 samples = 20 ms" in note
+    assert "quartic, 21 samples = 20 ms" in note
 
 
 @pytest.mark.parametrize("step", [1e-4, 1e-3, 5e-3])
@@ -49,14 +50,17 @@ def test_quadratics_are_exact_to_the_ends(step: float, spacing: str) -> None:
     assert ("uneven" in note) == (spacing == "uneven")
 
 
+@pytest.mark.parametrize("noise", [0.0, 1e-2])
 @pytest.mark.parametrize("rate", [200.0, 1000.0, 10000.0])
-def test_the_claimed_bandwidth_is_where_a_sine_has_lost_3_db(rate: float) -> None:
+def test_the_claimed_bandwidth_is_where_a_sine_has_lost_3_db(rate: float, noise: float) -> None:
     t = np.arange(int(4 * rate)) / rate
-    _, note = derive_xdot(t, np.zeros_like(t), one(t.size))
-    claimed = re.search(r"-3 dB at ([\d.]+) Hz", note)
-    assert claimed
-    w = 2.0 * np.pi * float(claimed[1])
-    xdot, _ = derive_xdot(t, np.sin(w * t) / w, one(t.size))
+    noise = np.random.default_rng(3).normal(scale=noise, size=t.size)
+    _, note = derive_xdot(t, np.sin(40.0 * t) + noise, one(t.size))
+    said = re.search(r"\((\w+), (\d+) samples .* -3 dB at ([\d.]+) Hz", note)
+    assert said
+    w = 2.0 * np.pi * float(said[3])
+    width, degree = int(said[2]), {"quadratic": 2, "quartic": 4}[said[1]]
+    xdot = savgol_filter(np.sin(w * t) / w, width, degree, deriv=1, delta=1.0 / rate)
     inner = slice(t.size // 10, -t.size // 10)
     gain = rms(xdot[inner]) / rms(np.cos(w * t)[inner])
     assert gain == pytest.approx(np.sqrt(0.5), rel=0.01)
@@ -67,21 +71,56 @@ def test_bandwidth_of_a_long_window() -> None:
 
 
 def test_noise_gain() -> None:
-    # variance of sum k x_k / (h sum k^2) for white x: sigma^2 / (h^2 sum k^2), k = -10..10
+    # variance of sum k x_k / (h sum k^2) for white x: sigma^2 / (h^2 sum k^2), k = -66..66
     rng = np.random.default_rng(1)
     t = np.arange(200_000) * 1e-3
-    xdot, _ = derive_xdot(t, rng.normal(scale=1e-6, size=t.size), one(t.size))
-    assert rms(xdot) == pytest.approx(1e-6 / 1e-3 / np.sqrt(770.0), rel=0.02)
+    xdot, note = derive_xdot(t, rng.normal(scale=1e-6, size=t.size), one(t.size))
+    assert "quadratic, 133 samples = 132 ms" in note
+    squares = 2.0 * np.sum(np.arange(1.0, 67.0) ** 2)
+    assert rms(xdot) == pytest.approx(1e-6 / 1e-3 / np.sqrt(squares), rel=0.02)
 
 
-def test_both_methods_are_one_on_even_times(monkeypatch: pytest.MonkeyPatch) -> None:
+def worth(t: Array, x: Array, xdot: Array) -> float:
+    """Error of the velocity over that of the filter of 20 ms, the ends left out."""
+    width = max(2 * round(0.010 / (t[1] - t[0])) + 1, 5)
+    inner = slice(t.size // 10, -t.size // 10)
+    found, narrow = derive_xdot(t, x, one(t.size))[0], savgol_filter(x, width, 2, 1, t[1] - t[0])
+    return rms((found - xdot)[inner]) / rms((narrow - xdot)[inner])
+
+
+def test_no_window_leaves_more_than_that_of_20_ms() -> None:
+    """Of motions up to 15 Hz, sampled at 100 Hz to 2 kHz, with noise and digits up to 1 % of them;
+    as read by that filter, 12 Hz at 200 Hz lost 8 % of the speed, and noise stayed in others."""
+    random, found = np.random.default_rng(11), []
+    for _ in range(200):
+        rate, amplitude = float(random.choice([100.0, 200.0, 500.0, 1000.0, 2000.0])), 0.01
+        t = np.arange(int(6.0 * rate)) / rate
+        w = 2.0 * np.pi * np.exp(random.uniform(np.log(0.3), np.log(15.0), 3))
+        phase, part = random.uniform(0.0, 6.0, 3), random.dirichlet(np.ones(3)) * amplitude
+        x = np.sum(part[:, None] * np.sin(w[:, None] * t + phase[:, None]), axis=0)
+        xdot = np.sum((part * w)[:, None] * np.cos(w[:, None] * t + phase[:, None]), axis=0)
+        x += 10.0 ** random.uniform(-8.0, -4.0) * random.standard_normal(t.size)
+        digit = 10.0 ** random.uniform(-8.0, -4.3)
+        found.append(worth(t, np.round(x / digit) * digit, xdot))
+    print(np.quantile(found, [0.0, 0.25, 0.5, 0.75, 0.95, 1.0]).round(3))
+    assert max(found) < 1.2
+    assert np.median(found) < 0.3
+
+
+def test_a_triangle_is_no_worse_for_it() -> None:
+    t = np.arange(8000) * 1e-3
+    phase = 2.0 * np.pi * t
+    x, xdot = 0.01 * 2.0 / np.pi * np.arcsin(np.sin(phase)), 0.04 * np.sign(np.cos(phase))
+    for noise in (0.0, 1e-7, 1e-6, 1e-5):
+        noisy = x + noise * np.random.default_rng(4).standard_normal(t.size)
+        assert worth(t, noisy, xdot) < 1.1
+
+
+def test_both_methods_are_one_on_even_times() -> None:
     rng = np.random.default_rng(2)
     t = np.arange(3000) * 1e-3
     x = rng.normal(size=t.size)
-    even, _ = derive_xdot(t, x, one(t.size))
-    monkeypatch.setattr("erdctl.bench.differentiation.JITTER", -1.0)
-    actual, note = derive_xdot(t, x, one(t.size))
-    assert "uneven" in note
+    even, actual = savgol_filter(x, 21, 2, 1, 1e-3), _at_actual_times(t, x, 21)
     assert np.allclose(even, actual, rtol=1e-9, atol=1e-9 * rms(even))
 
 

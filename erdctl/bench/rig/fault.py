@@ -11,7 +11,6 @@ import numpy.typing as npt
 
 from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.core.recording import Index, Recording
-from erdctl.core.signals import Signals
 
 CODES = (
     "force_sign", "time_unit", "speed_unit", "stroke_unit", "force_unit", "duty_unit",
@@ -139,23 +138,13 @@ class Rig:
 
 
 def sound(recording: Recording, faults: Collection[RigFault]) -> Recording:
-    """The recording with the derivative of x in the place of a velocity channel at fault.
-
-    Of one that is noisy and nothing else, its slopes of x are weighted to come near to it: a filter
-    of any other width leaves noise of its own, and a force smoothed to match it fits better.
-    """
-    at_fault = {f.code for f in faults if f.code in VELOCITY_CODES}
-    if not at_fault:
+    """The recording with the derivative of x in the place of a velocity channel at fault."""
+    if not any(f.code in VELOCITY_CODES for f in faults):
         return recording
     from erdctl.bench.differentiation import derive_xdot
 
     r = recording
     xdot, note = derive_xdot(r.t, r.x, r.starts)
-    if at_fault == {"velocity_noise"}:
-        from erdctl.effects.velocity_noise import SHORTEST, velocity_noise
-
-        if np.diff(r.starts).min() >= SHORTEST:
-            xdot, note = velocity_noise(Signals.of(r), {"w": 1.0}).xdot, "slopes of x, weighted"
     return replace(r, xdot=xdot, xdot_note=f"{note}, the column xdot being left out")
 
 

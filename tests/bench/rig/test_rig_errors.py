@@ -7,6 +7,7 @@ import pytest
 from places import FIXTURES, SHARED
 from rig import real
 from rig_errors import ERRORS, RigError, chosen
+from scipy.signal import savgol_filter
 
 from erdctl.bench.rig import Rig, look
 from erdctl.bench.rig.fault import CODES, RigFault, sound
@@ -123,14 +124,11 @@ def test_a_noisy_velocity_is_replaced_by_one_that_a_force_has_no_need_to_smooth(
         xdot=true + 5e-3 * random.standard_normal(4000), duty=np.full(4000, 0.3), force=1e3 * true,
         starts=np.array([0, 4000]), names=("a",),
     )  # fmt: skip
-    noisy = RigFault("velocity_noise", None, "", "")
-    late = RigFault("velocity_lag", None, "", "")
-
-    def off(*faults: RigFault) -> float:
-        return float(np.std((sound(log, faults).xdot - true)[50:-50]))
-
-    assert off(noisy) < 0.6 * off(noisy, late)
-    assert off(noisy, late) == off(late)
+    found = sound(log, [RigFault("velocity_noise", None, "", "")]).xdot
+    narrow = savgol_filter(log.x, 5, 2, deriv=1, delta=5e-3)  # which a force had to be smoothed for
+    off, before = (float(np.std((xdot - true)[50:-50])) for xdot in (found, narrow))
+    print(off, before)
+    assert off < 0.4 * before
 
 
 def test_a_velocity_at_fault_is_left_out(good: Recording) -> None:
