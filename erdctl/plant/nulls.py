@@ -50,4 +50,6 @@ def draw_null(seed: int, name: str | None = None) -> Null:
         "t": log.t, "x": log.x, "xdot": log.xdot, "duty": log.duty, "force": log.force,
         "record": np.repeat([r.record.name for r in over], lengths),
     }  # fmt: skip
+    if not log.logs_velocity:
+        del columns["xdot"]
     return Null(seed, name, KINDS[name], pa.table(columns), rms)

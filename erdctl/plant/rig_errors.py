@@ -23,6 +23,7 @@ class RigLog:
 
     edges : first samples of the records, and n;  rate : [Hz]
     noise : rms of the force noise [N];  scale : range of the force [N]
+    logs_velocity : whether there is a velocity channel
     """
 
     t: Array
@@ -34,6 +35,7 @@ class RigLog:
     rate: float
     noise: float
     scale: float
+    logs_velocity: bool = True
 
     def records(self) -> list[slice]:
         """One slice for each record."""
@@ -178,6 +180,16 @@ def coarse_motion(log: RigLog, random: Random) -> RigLog:
     return replace(noisy, x=read, xdot=np.concatenate(speed))
 
 
+def no_velocity(log: RigLog, random: Random) -> RigLog:
+    """No velocity channel; the deflection has noise of 5e-5 to 1e-3 of its range, or such steps."""
+    noisy, size = white(log, random), float(np.exp(random.uniform(np.log(5e-5), np.log(1e-3))))
+    size *= float(np.ptp(log.x))
+    x = log.x + size * random.standard_normal(len(log.t))
+    if random.random() < 0.5:
+        x = np.round(log.x / size) * size
+    return replace(noisy, x=x, logs_velocity=False)
+
+
 @dataclass(frozen=True)
 class Kind:
     """One kind.
@@ -211,6 +223,7 @@ KINDS: Mapping[str, Kind] = {
     "wander": Kind(wander, False, ("force_drift",)),
     "jitter": Kind(jitter, False),
     "coarse_motion": Kind(coarse_motion, False),
+    "no_velocity": Kind(no_velocity, False),
 }
 
 
