@@ -17,8 +17,7 @@ from erdctl.plant.nulls import draw_null
 def test_is_no_skew(seed: int, tmp_path: Path) -> None:
     """These had been named: the skew leaves doubtful samples without weight, those next to turns,
     where a jitter shows most, and each rule must hold it against a model that is spared them."""
-    null = draw_null(seed)
-    assert null.name == "jitter"
+    null = draw_null(seed, "jitter")
     path = tmp_path / "log.parquet"
     pq.write_table(null.table, path)
     log = read_logs([str(path)], need_force=True, report=lambda line: None)
