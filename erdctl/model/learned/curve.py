@@ -153,7 +153,8 @@ class Curve:
         >>> c.at(np.array([0.0, 1.0, 2.0, 5.0]), {}).round(9).tolist()
         [[0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 1.0]]
 
-        A line goes on, to three times its range, and has its end value where there is no z.
+        Check: over 0 to 2 a line is z / 2: 0.5, 1, 2 at 1, 2, 4; as far as two ranges beyond, at 6,
+        it is 3; and where there is no z it has its end value of 1.
         >>> line = Curve("since_duty_step", (0.0, 2.0), "line")
         >>> line.at(np.array([1.0, 2.0, 4.0, 100.0, np.inf]), {}).tolist()
         [[0.5, 1.0, 2.0, 3.0, 1.0]]
