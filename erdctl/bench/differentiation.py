@@ -15,6 +15,7 @@ WINDOW = 0.020  # s: passes what a damper test moves at (below 20 Hz), averages 
 WIDEST = 8.0  # times that, where the noise of x asks for it
 STEP = math.sqrt(2.0)  # from a width to the next
 WORTH = 0.5  # of the mean square error of the velocity: what another window must leave at most
+LOOK, PARTS = 80_000, 8  # samples of a record that are looked at for this, and in how many parts
 DEGREES = {2: "quadratic", 4: "quartic"}
 NOISE_ORDER = 6  # of the differences that tell the noise of x
 OF_SIGMA = 0.6745  # of a normal deviation: the median of its size
@@ -156,8 +157,9 @@ def _window(x: Array, least: int, most: int) -> tuple[int, int]:
     >>> _window(noise, 5, 999), _window(np.sin(0.1 * np.arange(4000)), 5, 999)
     ((35, 2), (5, 4))
     """
-    square = _noise(x)
-    found = [(*_widened(x, least, most, degree, square), degree) for degree in DEGREES]
+    looked = _looked(x)
+    square, most = _noise(looked), min(most, looked.shape[-1])
+    found = [(*_widened(looked, least, most, degree, square), degree) for degree in DEGREES]
     error, width, degree = found[0]
     for other in found[1:]:
         if other[0] < WORTH * error:
@@ -165,8 +167,20 @@ def _window(x: Array, least: int, most: int) -> tuple[int, int]:
     return width, degree
 
 
+def _looked(x: Array) -> Array:
+    """(p, m) all of the values (n,), or of a long record evenly spaced parts."""
+    if x.size <= LOOK:
+        return x[None]
+    length = LOOK // PARTS
+    first = np.linspace(0, x.size - length, PARTS).astype(int)
+    return np.stack([x[a : a + length] for a in first.tolist()])
+
+
 def _widened(x: Array, least: int, most: int, degree: int, square: float) -> tuple[float, int]:
-    """Mean square error of the slope per step, and the window; see `_window`."""
+    """Mean square error of the slope per step, and the window; see `_window`.
+
+    x : (p, m) parts of a record, each filtered by itself
+    """
     from scipy.signal import savgol_coeffs, savgol_filter
 
     width, slopes = least, savgol_filter(x, least, degree, deriv=1)
