@@ -3,9 +3,10 @@
 Measurement noise, white or coloured, cannot be predicted from motion and control, and its variance
 does not depend on the state of the damper; physics left out changes one or the other. So what a
 flexible regression predicts of the residual on groups that it has not seen is misfit, and so is
-variance beyond that of the states where it is smallest, whatever the form and whether or not the
-catalogue knows it. Some physics keeps a phase of its own, and is looked for by itself: a ripple of
-the yield force (a spectral line), teeth of one length (a line over travel), and impulses.
+variance beyond that of the states where it is smallest, or of other records, whatever the form and
+whether or not the catalogue knows it. Some physics keeps a phase of its own, and is looked for by
+itself: a ripple of the yield force (a spectral line), teeth of one length (a line over travel), and
+impulses.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem, t_statistic
 from erdctl.diagnose.residual.impulses import impulse_share
+from erdctl.diagnose.residual.loud_records import loud_records
 from erdctl.diagnose.residual.record_levels import records_apart
 from erdctl.diagnose.residual.regression import cross_predicted, features
 from erdctl.diagnose.residual.spectral_line import SpectralLine, spectral_lines
@@ -145,7 +147,9 @@ def lack_of_fit_test(
     beyond, noise = _variance(problem, everything, rest, by_variance, measures)
     line, hum = spectral_lines(problem, rest)
     left = float(np.dot(weight, rest**2)) / total
-    excess = predicted**2 + beyond
+    loud, quiet = loud_records(rest, _third_differences(rest, s.starts), weight, s.starts)
+    noise = min(noise, quiet) if loud.any() else noise  # the same, but for its last digits
+    excess = predicted**2 + np.maximum(beyond, loud)
     part = 0.0 if line is None else line.share
     impulses = impulse_share(problem, rest)
     # A line in time is one over travel, too, where the speed is the same throughout.
