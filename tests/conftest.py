@@ -7,6 +7,7 @@ import sys
 from collections.abc import Generator
 from functools import cache
 
+import hypothesis
 import pytest
 import quick_approx
 import typer.testing
@@ -17,6 +18,9 @@ sys.path.insert(0, str(FIXTURES))  # the oracle is a script's module, not part o
 # The processes are the parallelism.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 quick_approx.install()
+# How long an example takes is the machine's affair.
+hypothesis.settings.register_profile("shared machine", deadline=None)
+hypothesis.settings.load_profile("shared machine")
 # Typer makes Click's commands of an app anew at each call, which takes longer than most calls do.
 typer.testing._get_command = cache(typer.testing._get_command)  # type: ignore[attr-defined]  # its own
 
