@@ -24,6 +24,7 @@ OF_A_DIGIT = 0.05  # as near as steps of x are to whole numbers of them
 FEWEST = 5  # samples of a window; three would let the noise through unfiltered
 JITTER = 1e-3  # of the step, and so of xdot: below it the times count as evenly spaced
 CLOCK_DIGITS = 9  # of seconds, in which steps of a rounded clock are alike
+OF_A_STEP = 0.75  # of a step, which the last digit is below: else a lost sample would be rounding
 GAP = 10.0  # steps; across a longer pause there is no local polynomial
 
 
@@ -52,8 +53,8 @@ def derive_xdot(
     Returns (n,) xdot [m/s] and a note: method, window, and where the response has fallen by 3 dB
     against an ideal differentiator. Exact for x quadratic in t; x = t^2 gives 2 t.
     Raises InputProblem at a pause of more than 10 steps, or for a record of one sample.
-    Source: A. Savitzky, M. J. E. Golay, Analytical Chemistry 36 (1964) 1627-1639; C. L. Mallows,
-    Technometrics 15 (1973) 661-675 (bias and variance by differences of fits).
+    Source: A. Savitzky, M. J. E. Golay, Analytical Chemistry 36 (1964) 1627-1639; O. V. Lepskii,
+    Theory of Probability and Its Applications 35 (1990) 454-466 (widths by differences of fits).
     """
     xdot = np.empty_like(x)
     notes = {} if notes is None else notes
@@ -138,7 +139,8 @@ def _rounded(t: Array, steps: Array) -> bool:
     """
     q = _digit(np.unique(np.round(steps, CLOCK_DIGITS)))
     even = np.linspace(t[0], t[-1], t.size)
-    return q > 0.0 and float(np.abs(t - even).max()) <= q
+    fine = 0.0 < q < OF_A_STEP * float(even[1] - even[0])
+    return fine and float(np.abs(t - even).max()) <= q
 
 
 def _window(x: Array, least: int, most: int) -> tuple[int, int]:

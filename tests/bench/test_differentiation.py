@@ -227,3 +227,10 @@ def test_a_clock_that_jitters_is_not_even() -> None:
     for digit in (1e-9, 1e-4, 1e-5):
         _, note = derive_xdot(np.round(t / digit) * digit, np.sin(t), one(t.size))
         assert "uneven" in note
+
+
+def test_a_lost_sample_is_no_rounding() -> None:
+    t = np.delete(np.arange(1000) * 5e-3, 500)
+    xdot, note = derive_xdot(t, 3.0 * t, one(t.size))
+    assert "uneven" in note
+    assert np.allclose(xdot, 3.0)
