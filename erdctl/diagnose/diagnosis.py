@@ -183,7 +183,7 @@ def diagnose(
         progress("lack of fit", part_of("regression of the residual", 1, 1))
         lack_of_fit, taken = lack_of_fit_of(selection.best, seed), None
         if selection.named and _matters(problem, selection, lack_of_fit):
-            part = part_taken(problem, selection, lack_of_fit)
+            part = part_taken(selection, lack_of_fit)
             if not earned(part):
                 withdrawn, found, taken = selection.named, (), part
                 selection, kept = selection.nothing, kept.nothing

@@ -85,11 +85,21 @@ def _share(selection: Selection, finding: Finding) -> float:
     return first + finding.gain.before - finding.gain.after
 
 
-def part_taken(problem: Problem, selection: Selection, left: LackOfFit) -> float:
-    """The part of the misfit's square, beyond noise, that the chosen effects take [1]."""
-    gain = compare(problem, selection.base, selection.best)
-    misfit = gain.before - left.noise_rms**2
-    return (gain.before - gain.after) / misfit if misfit > 0.0 else 1.0
+def part_taken(selection: Selection, left: LackOfFit) -> float:
+    """The part of the misfit's square, beyond noise, that the chosen effects take [1].
+
+    What stays in a record that is unlike the others acts there alone, and says nothing of what is
+    chosen for the others, however large it is.
+    """
+    both = selection.base, selection.best
+    weight = np.minimum(*(h.problem.block.weight for h in both))
+    if left.loud is not None:
+        weight = np.where(left.loud > 0.0, 0.0, weight)
+    if not weight.any():
+        return 1.0
+    before, after = (float(np.average(h.cross_validated**2, weights=weight)) for h in both)
+    misfit = before - left.noise_rms**2
+    return (before - after) / misfit if misfit > 0.0 else 1.0
 
 
 def earned(part: float) -> bool:

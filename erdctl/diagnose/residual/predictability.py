@@ -42,6 +42,7 @@ class LackOfFit:
     hum : a line of the force channel's own, which is noise
     travel_line : what comes again with every so much travel, if the rest holds it
     records : standard deviation of the gains of records, if these differ unlike those of a rig
+    loud : (n,) the mean square of what a record holds that is unlike all others [N^2]
     measures : the statistics on which this rests, by the names of their thresholds
     """
 
@@ -56,6 +57,7 @@ class LackOfFit:
     hum: SpectralLine | None = None
     travel_line: TravelLine | None = None
     records: float = 0.0
+    loud: Array | None = None
     measures: Mapping[str, float] = field(default_factory=dict)
 
     def square(self, found: Array) -> Array:
@@ -170,6 +172,7 @@ def lack_of_fit_test(
         impulses=impulses,
         hum=hum,
         travel_line=teeth,
+        loud=loud,
         measures=measures,
     )
 

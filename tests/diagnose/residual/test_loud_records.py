@@ -52,6 +52,19 @@ def test_noise_of_one_record_is_noise() -> None:
     assert found(r, 2.4 * np.random.default_rng(2).standard_normal(len(t))) is Verdict.ADEQUATE
 
 
+def test_what_is_right_for_the_other_records_keeps_its_name() -> None:
+    """Ten times what it takes stays, in one record: that says nothing of the others."""
+    r = campaign(8)
+    assert r.force is not None
+    force = r.force + 900.0 * r.xdot * np.abs(r.xdot)
+    t = r.t[r.slices[AT]]
+    force[r.slices[AT]] += 9.0 * np.sqrt(2.0) * np.sin(2.0 * np.pi * 0.37 * t)
+    log = noisy(replace(r, force=force), seed=5)
+    it = diagnose(log, [get("quadratic_damping")], limits=False, learning=False)
+    assert it.verdict is Verdict.UNEXPLAINED
+    assert [f.effect.name for f in it.findings] == ["quadratic_damping"]
+
+
 @given(
     seed=st.integers(0, 10_000), rho=st.floats(0.0, 0.95), records=st.integers(1, 12),
     length=st.integers(300, 1200),
