@@ -18,9 +18,11 @@ sys.path.insert(0, str(FIXTURES))  # the oracle is a script's module, not part o
 # The processes are the parallelism.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 quick_approx.install()
-# How long an example takes is the machine's affair.
-hypothesis.settings.register_profile("shared machine", deadline=None)
-hypothesis.settings.load_profile("shared machine")
+# How long an example takes is the machine's affair; and whether a change is accepted is that of the
+# change, not of what was drawn this time. New draws: pytest --hypothesis-profile=random
+hypothesis.settings.register_profile("random", deadline=None)
+hypothesis.settings.register_profile("the same", deadline=None, derandomize=True)
+hypothesis.settings.load_profile("the same")
 # Typer makes Click's commands of an app anew at each call, which takes longer than most calls do.
 typer.testing._get_command = cache(typer.testing._get_command)  # type: ignore[attr-defined]  # its own
 

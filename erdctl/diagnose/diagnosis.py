@@ -18,7 +18,7 @@ from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Recording
 from erdctl.diagnose import scores, thresholds
-from erdctl.diagnose.conditions import cannot_tell, few_conditions, most_told
+from erdctl.diagnose.conditions import cannot_tell, cannot_tell_several, most_told
 from erdctl.diagnose.detectable import Detectable, detectable
 from erdctl.diagnose.executor import Executor, executor
 from erdctl.diagnose.findings import Finding, earned, findings, part_taken
@@ -61,9 +61,9 @@ class Diagnosis:
     """What was found; see the contract for the meaning of the verdicts.
 
     cannot_tell : under which conditions something is left out that several effects, and other
-        values of the paper's parameters, would explain alike: one duty and one speed, or several
-        effects at two duties and two kinds of motion at most; or that the model holds within the
-        limits of a channel, beyond which nothing is known; "" where the log can tell
+        values of the paper's parameters, would explain alike, see `conditions`; or that the model
+        holds within the limits of a channel, beyond which nothing is known; "" where the log can
+        tell
     baseline : scores of the given parameters as they are, or else of the paper's model refitted
     refitted : scores of that model fitted to this recording
     corrected, carried : scores of the best model without and with the record effects, which
@@ -200,8 +200,8 @@ def diagnose(
             more = learned(
                 (thin, seen, problem), unfitted, kept, start, testable, lack_of_fit, workers, seed
             )
-    if not left and not untold and len(selection.named) > 1 and few_conditions(recording):
-        untold = "two duties and two kinds of motion at most"
+    if not left and not untold and len(selection.named) > 1:
+        untold = cannot_tell_several(recording, selection.named)
     if not left and not selection.named and rig.cut:
         untold = "a channel that stops at a limit"
     named = selection.best

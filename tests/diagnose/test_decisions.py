@@ -134,6 +134,22 @@ def test_of_one_motion_it_is_said_that_nothing_tests_another() -> None:
     assert said not in remaining_text(nothing)
 
 
+def test_one_motion_does_not_tell_damping_by_place_beside_another_law() -> None:
+    levels = (0.0, 0.15, 0.3, 0.45)
+    r = concatenate([sine(0.8, 0.015, d, f"r{i}") for i, d in enumerate(levels)])
+    catalogue = few("coulomb_friction", "gas_preload", "position_dependent_damping")
+    by_place = 3000.0 * r.x * r.xdot
+    one = diagnose(noisy(plus(r, by_place), seed=2, rms=NOISE), catalogue, limits=False)
+    assert one.verdict is Verdict.EXPLAINED
+    both = noisy(plus(r, by_place + 1.5 * np.sign(r.xdot)), seed=2, rms=NOISE)
+    found = diagnose(both, catalogue, limits=False)
+    names = {f.effect.name for f in found.findings}
+    assert names == {"coulomb_friction", "position_dependent_damping"}
+    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.cannot_tell == "one kind of motion, all strokes alike"
+    assert "--drive sweep:" in remaining_text(found)
+
+
 def test_what_is_more_than_one_motion() -> None:
     slow, fast, wide = (sine(f, x, 0.0, "r") for f, x in ((0.8, 0.015), (1.6, 0.015), (0.8, 0.03)))
     high = sine(0.8, 0.015, 0.3, "r")
