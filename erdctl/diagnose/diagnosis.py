@@ -165,7 +165,7 @@ def diagnose(
                 thin, seen, problem = lagging
         chosen: Selection | None = (settled := refit(seen, searched, workers))
         if 0 < len(settled.named) < len(searched.named):
-            searched = named_again(thin, searched, settled.named, testable, workers, untested)
+            searched = named_again(thin, searched, settled.best, testable, workers, untested)
             chosen = refit(seen, searched, workers)
         while chosen is not None:
             selection = chosen

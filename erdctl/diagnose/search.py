@@ -42,6 +42,7 @@ class Selection:
     singles : the base with every effect alone, the best first
     without : for each chosen effect, the best model that lacks it
     look_alikes : for each chosen effect, those that would do as well in its place, best first
+    simpler : of fewer effects, others than the chosen ones, that nearly do as well, best first
     """
 
     base: Hypothesis
@@ -49,6 +50,7 @@ class Selection:
     singles: tuple[Hypothesis, ...]
     without: Mapping[str, Hypothesis]
     look_alikes: Mapping[str, tuple[tuple[str, Hypothesis], ...]]
+    simpler: tuple[Hypothesis, ...] = ()
 
     @property
     def named(self) -> tuple[Effect, ...]:
@@ -96,34 +98,44 @@ def search(
     best = as_good_as_explored(x, best)
     best = to_other_motions(x, best)
     best = beyond_form_error(x, best, candidates)
-    return _named(x, best, candidates, singles, untested)
+    found = _named(x, best, candidates, singles, untested)
+    return replace(found, simpler=_simpler(x, found.best))
+
+
+def _simpler(x: Exploration, best: Hypothesis) -> tuple[Hypothesis, ...]:
+    """What is to be compared once more on all samples, on the few of a search too near to tell."""
+    key, base = key_of(best.effects), x.base.score
+    least = thresholds.NEARLY_AS_MUCH * (base - best.score)
+    fewer = [
+        h for k, h in x.explored.items()
+        if len(k) < len(key) and not k <= key and base - h.score > least
+    ]  # fmt: skip
+    return tuple(ranked(fewer)[: thresholds.SIMPLER])
 
 
 def named_again(
     problem: Problem,
     found: Selection,
-    kept: Iterable[Effect],
+    kept: Hypothesis,
     candidates: Sequence[Effect],
     executor: Executor,
     untested: Sequence[Effect] = (),
 ) -> Selection:
-    """The search's names once more, where some of its effects alone are kept.
+    """The search's names once more, where all samples keep fewer effects.
 
     What was dropped kept others out of the place of those that stay: a lag, which is none, any
-    compliance.
+    compliance. Where others took the place of all, they have it: these samples do not tell them.
     """
-    known = (found.base, *found.singles, *found.without.values(), found.best)
+    known = (found.base, *found.singles, *found.without.values(), *found.simpler, found.best)
     x = Exploration(problem, found.base, Explored([]), executor)
     for h in known:
         x.explored.keep(h)
-    dropped = key_of(found.named) - key_of(kept)
-    effects = tuple(e for e in found.best.effects if e.name not in dropped)
-    if key_of(effects) not in x.explored:
-        again = Task(
-            "second pass", effects, (found.best.values,), record_effects=found.best.record_effects
-        )
+    effects, key = kept.effects, key_of(kept.effects)
+    if key not in x.explored:
+        again = Task("second pass", effects, (kept.values,), record_effects=kept.record_effects)
         x.explored.keep(*executor.fit_compatible(problem, [again]))
-    return _named(x, x.explored[key_of(effects)], candidates, found.singles, untested)
+    sure = not key <= key_of(found.best.effects)
+    return _named(x, x.explored[key], candidates, found.singles, untested, sure=sure)
 
 
 def _named(
@@ -132,8 +144,13 @@ def _named(
     candidates: Sequence[Effect],
     singles: Sequence[Hypothesis],
     untested: Sequence[Effect],
+    *,
+    sure: bool = False,
 ) -> Selection:
-    """The best hypothesis, in which an effect that does better has the place of a chosen one."""
+    """The best hypothesis, in which an effect that does better has the place of a chosen one.
+
+    sure : whether none may
+    """
     problem = x.problem
     alike: dict[str, tuple[tuple[str, Hypothesis], ...]] = {}
     for effect in x.added(best):
@@ -143,7 +160,8 @@ def _named(
         # It must be worth a name itself, or the next elimination leaves neither of the two.
         preferred = [
             f for f in found
-            if f[0] not in key_of(untested) and is_preferred(problem, f[1], best)
+            if not sure
+            and f[0] not in key_of(untested) and is_preferred(problem, f[1], best)
             and compare_alike(problem, rest, f[1]).significant
             and carries_over_as_well(x, f[1], best) and not is_only_form(x, best, f[1])
         ]  # fmt: skip
@@ -168,7 +186,8 @@ def refit(
     idle : one of the chosen effects, that is left out
     """
     kept = key_of(found.best.effects) - ({idle.name} if idle else set())
-    again = {key_of(h.effects): h for h in (found.base, found.best, *found.without.values())}
+    known = found.base, found.best, *found.without.values(), *found.simpler
+    again = {key_of(h.effects): h for h in known}
     whole = len(found.best.residual) == len(problem.block.force)  # all samples were searched
     if whole and found.best.record_effects is None:  # which settle by and by
         explored = Explored(again.values())
@@ -181,9 +200,14 @@ def refit(
     while best is not last:  # each may leave what the other one drops
         last, best = best, to_other_records(x, resolved(x, eliminate(x, best)))
         best = not_of_records(x, beyond_form_error(x, best))
+    for other in (explored[key_of(h.effects)] for h in found.simpler):
+        # As much by fewer effects: on the samples of the search a few points spoke against it.
+        fewer = len(other.effects) < len(best.effects)
+        if fewer and compare_alike(problem, best, other).gain > 0.0:
+            best = eliminate(x, other)
     names = [e.name for e in x.added(best)]
-    without = {n: explored[key_of(best.effects) - {n}] for n in names}
-    alike = {n: found.look_alikes[n] for n in names}
+    without = dict(zip(names, without_each(x, best), strict=True))
+    alike = {n: found.look_alikes.get(n, ()) for n in names}
     return Selection(base, best, found.singles, without, alike)
 
 

@@ -203,6 +203,12 @@ WORTH_PROCESSES = 60_000
 # Origin: budget.
 SEARCH_SAMPLES = 12_000
 
+# Of the reduction of the mean square by the chosen effects, the part that a hypothesis of fewer
+# effects must reach to be fitted to all samples beside them; and how many are.
+# Decides: nothing by itself; on all samples the fewer effects must do at least as well.
+# Origin: budget.
+NEARLY_AS_MUCH, SIMPLER = 0.8, 2
+
 # Of the thinned log: the longest step [s] next to a turn of the motion or a step of the duty, and
 # the time [s] before and after them in which it counts.
 # Origin: time constants of springs and yield forces, 5 to 50 ms.

@@ -32,3 +32,16 @@ def test_the_pair_is_named(tmp_path: Path) -> None:
     found = diagnose(few, [get(n) for n in ALL], limits=False, learning=False)
     assert {f.effect.name for f in found.findings} == {t.name for t in case.truth}
     assert found.verdict is Verdict.EXPLAINED
+
+
+def test_one_effect_has_the_place_of_two_that_say_no_more(tmp_path: Path) -> None:
+    """A soft mount was `explained` as a late force and a stretch before yield: on the samples of
+    the search these two are the better ones by chance, and worse on all."""
+    case = draw(1530056, known=ALL)
+    pq.write_table(log(case), tmp_path / "log.parquet")
+    recording = read_logs([str(tmp_path / "log.parquet")], need_force=True, report=print).recording
+    assert [t.name for t in case.truth] == ["mount_compliance"]
+    tried = ("mount_compliance", "time_skew", "preyield_elasticity", "backlash")
+    found = diagnose(recording, [get(n) for n in tried], limits=False, learning=False)
+    assert [f.effect.name for f in found.findings] == ["mount_compliance"]
+    assert found.verdict is Verdict.EXPLAINED
