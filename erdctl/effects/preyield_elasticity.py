@@ -4,7 +4,7 @@
 
 F_ER : (n,) yield force of Eq. 12 [N];  F_y : (n,) what acts [N];  x_d : [m] >= 0, off at 0
 Valid where chains stretch before they break, so that F_y is a matter of travel, where a lag is one
-of time: the Bouc-Wen loop with n = 1 and beta = gamma, its height the yield force. Solved exactly
+of time: the Bouc-Wen loop with n = 1 and beta = 0, its height the yield force. Solved exactly
 along |x| for an input that is a straight line between samples, or, in a step in which the piston
 turns, jumps where it does. A record begins with F_y steady.
 Check: F_ER = 10 N, x_d = 0.1 mm: 0.1 mm after a reversal F_y = 10 - 20 exp(-1) = 2.6424 N.
@@ -49,7 +49,7 @@ EFFECT = Effect(
     said="{x_d} of travel until the yield force is back",
     alters=(("yield", "F_y"),),
     source="Spencer et al., J. Engineering Mechanics 123 (1997) 230-238, Eqs. 3, 4",
-    validity="Bouc-Wen with n = 1 and beta = gamma; rate-independent",
+    validity="Bouc-Wen with n = 1 and beta = 0; rate-independent",
     requires=(Requirement.FIELD, Requirement.REVERSALS),
     shows=Variable.SINCE_REVERSAL,
     quantities=(
