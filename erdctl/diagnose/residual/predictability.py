@@ -22,7 +22,7 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem, t_statistic
 from erdctl.diagnose.residual.impulses import impulse_share
-from erdctl.diagnose.residual.loud_records import loud_records
+from erdctl.diagnose.residual.loud_parts import loud_parts
 from erdctl.diagnose.residual.record_levels import records_apart
 from erdctl.diagnose.residual.regression import cross_predicted, features
 from erdctl.diagnose.residual.spectral_line import SpectralLine, spectral_lines
@@ -42,7 +42,7 @@ class LackOfFit:
     hum : a line of the force channel's own, which is noise
     travel_line : what comes again with every so much travel, if the rest holds it
     records : standard deviation of the gains of records, if these differ unlike those of a rig
-    loud : (n,) the mean square of what a record holds that is unlike all others [N^2]
+    loud : (n,) the mean square of what a record or a stretch holds unlike all others [N^2]
     measures : the statistics on which this rests, by the names of their thresholds
     """
 
@@ -149,8 +149,12 @@ def lack_of_fit_test(
     beyond, noise = _variance(problem, everything, rest, by_variance, measures)
     line, hum = spectral_lines(problem, rest)
     left = float(np.dot(weight, rest**2)) / total
-    loud, quiet = loud_records(rest, _third_differences(rest, s.starts), weight, s.starts)
-    noise = min(noise, quiet) if loud.any() else noise  # the same, but for its last digits
+    loud, quick = np.zeros_like(rest), _third_differences(rest, s.starts)
+    pieces = np.append(np.flatnonzero(np.diff(problem.stretch, prepend=-1)), len(rest))
+    for starts, factor in ((s.starts, thresholds.LOUD), (pieces, thresholds.LOUD_STRETCH)):
+        more, quiet = loud_parts(rest, quick, weight, starts, factor)
+        loud = np.maximum(loud, more)
+        noise = min(noise, quiet) if more.any() else noise  # the same, but for its last digits
     excess = predicted**2 + np.maximum(beyond, loud)
     part = 0.0 if line is None else line.share
     impulses = impulse_share(problem, rest)

@@ -1,8 +1,9 @@
-"""Records of which a model leaves far more than of the others, and no faster.
+"""Records, and stretches of them, in which a model leaves far more than elsewhere, and no faster.
 
-What few records alone hold no regression learns from the others, so that it counts as noise. But
-noise of a channel is alike in all records, or where it is not its third differences are larger as
-well. An effect that acts in one record of ten is not: a stroke that no other reaches, a duty.
+What a record or a place alone holds no regression learns from the others, so that it counts as
+noise. But noise of a channel is alike in all of them, or where it is not its third differences are
+larger as well. An effect that acts in one record of ten is not: a stroke that no other reaches, a
+duty; nor a stop that is touched once.
 """
 
 from __future__ import annotations
@@ -13,14 +14,17 @@ from erdctl.core.recording import Array, Index
 from erdctl.diagnose import thresholds
 
 
-def loud_records(rest: Array, quick: Array, weight: Array, starts: Index) -> tuple[Array, float]:
-    """(n,) mean square of a rest (n,) beyond noise in records unlike the others, and the noise's.
+def loud_parts(
+    rest: Array, quick: Array, weight: Array, starts: Index, factor: float
+) -> tuple[Array, float]:
+    """(n,) mean square of a rest (n,) beyond noise in parts unlike the others, and the noise's.
 
     quick : (n,) squares of its third differences, nan where there is none
-    Check: of six records with squares of 1 one has 25 at the same third differences: 24 are beyond.
+    starts : of the parts, and their end;  factor : of mean squares, from which on they are unlike
+    Check: of six parts with squares of 1 one has 25 at the same third differences: 24 are beyond.
     >>> starts, ones = np.arange(0, 601, 100), np.ones(600)
     >>> rest = np.where(np.arange(600) < 100, 5.0, 1.0)
-    >>> beyond, noise = loud_records(rest, ones, ones, starts)
+    >>> beyond, noise = loud_parts(rest, ones, ones, starts, 9.0)
     >>> beyond[[0, 100]].tolist(), noise
     ([24.0, 0.0], 1.0)
     """
@@ -35,7 +39,7 @@ def loud_records(rest: Array, quick: Array, weight: Array, starts: Index) -> tup
         usual = float(np.median(square[known] / fast[known]))
         typical = float(np.median(square[known]))
         noise = usual * fast
-        loud = known & (square > thresholds.LOUD * np.maximum(noise, typical))
+        loud = known & (square > factor * np.maximum(noise, typical))
         own[loud] = noise[loud]
     beyond = np.repeat(square - own, np.diff(starts))
     return beyond, float(np.dot(mass, own) / max(float(mass.sum()), 1e-300))
