@@ -201,10 +201,10 @@ def refit(
         last, best = best, to_other_records(x, resolved(x, eliminate(x, best)))
         best = not_of_records(x, beyond_form_error(x, best))
     for other in (explored[key_of(h.effects)] for h in found.simpler):
-        # As much by fewer effects: on the samples of the search a few points spoke against it.
-        fewer = len(other.effects) < len(best.effects)
-        if fewer and compare_alike(problem, best, other).gain > 0.0:
-            best = eliminate(x, other)
+        # As much by fewer effects, which the samples of the search were too few to tell.
+        if len(other.effects) < len(best.effects):
+            left = eliminate(x, other)
+            best = left if compare_alike(problem, best, left).gain > 0.0 else best
     names = [e.name for e in x.added(best)]
     without = dict(zip(names, without_each(x, best), strict=True))
     alike = {n: found.look_alikes.get(n, ()) for n in names}

@@ -68,8 +68,8 @@ RIG_GAIN = 0.03
 # over what its third differences are of theirs.
 # Decides: from where on it is no noise.
 # Origin: three times in rms; of 61 nulls of the plant (seed 1490000 on) the largest record has 2.8.
-# Noise of a long memory changes more from one stretch to the next: of 190 nulls of 19 kinds (seed
-# 1532000 on) the largest has 6.2.
+# Five times in rms of a stretch, since noise of a long memory changes more from one to the next: of
+# 380 nulls of 19 kinds (seeds 1532000 and 1533000 on) the largest has 9.0, where samples are lost.
 LOUD, LOUD_STRETCH = 9.0, 25.0
 
 # Mean square over all samples, those without weight too, over that of a model that is worse where

@@ -42,7 +42,7 @@ class LackOfFit:
     hum : a line of the force channel's own, which is noise
     travel_line : what comes again with every so much travel, if the rest holds it
     records : standard deviation of the gains of records, if these differ unlike those of a rig
-    loud : (n,) the mean square of what a record or a stretch holds unlike all others [N^2]
+    loud : (n,) the mean square of what a record holds that is unlike the others [N^2]
     measures : the statistics on which this rests, by the names of their thresholds
     """
 
@@ -149,13 +149,13 @@ def lack_of_fit_test(
     beyond, noise = _variance(problem, everything, rest, by_variance, measures)
     line, hum = spectral_lines(problem, rest)
     left = float(np.dot(weight, rest**2)) / total
-    loud, quick = np.zeros_like(rest), _third_differences(rest, s.starts)
+    quick = _third_differences(rest, s.starts)
     pieces = np.append(np.flatnonzero(np.diff(problem.stretch, prepend=-1)), len(rest))
-    for starts, factor in ((s.starts, thresholds.LOUD), (pieces, thresholds.LOUD_STRETCH)):
-        more, quiet = loud_parts(rest, quick, weight, starts, factor)
-        loud = np.maximum(loud, more)
-        noise = min(noise, quiet) if more.any() else noise  # the same, but for its last digits
-    excess = predicted**2 + np.maximum(beyond, loud)
+    loud, quiet = loud_parts(rest, quick, weight, s.starts, thresholds.LOUD)
+    once, calm = loud_parts(rest, quick, weight, pieces, thresholds.LOUD_STRETCH)
+    for alone, least in ((loud, quiet), (once, calm)):
+        noise = min(noise, least) if alone.any() else noise  # the same, but for its last digits
+    excess = predicted**2 + np.maximum(beyond, np.maximum(loud, once))
     part = 0.0 if line is None else line.share
     impulses = impulse_share(problem, rest)
     # A line in time is one over travel, too, where the speed is the same throughout.
