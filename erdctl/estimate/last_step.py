@@ -22,7 +22,8 @@ from erdctl.estimate.sandwich import by_record, roughness, sum_up, weighed
 from erdctl.model.composed import Model
 from erdctl.model.slots import MotionSlot, Values
 
-STEPS = 3  # of Gauss-Newton in a model with effects, from a fit in the log's own steps
+STEPS = 8  # of Gauss-Newton in a model with effects, from a fit in the log's own steps
+SHORTER = (1.0, 0.5, 0.25, 0.125)  # of a step, where all of it goes too far
 SETTLED = 1e-5  # part of the cost that a step must gain for another
 COLOURED = 16  # blocks on which the effect of coloured noise is measured
 
@@ -88,9 +89,12 @@ def assess(
             normal = Normal.of(np.sum([r.normal for r in records], axis=0)[:p, :p])
             inverse = normal.pseudo_inverse()
             step = inverse @ np.sum([r.score for r in records], axis=0)[:p]
-            moved = _moved(model, values, free, step)
-            again, after, noise_after = residuals(moved)
-            if not after <= before:
+            for part in SHORTER:
+                moved = _moved(model, values, free, part * step)
+                again, after, noise_after = residuals(moved)
+                if after <= before:
+                    break
+            else:
                 break
             values, weighted, noise = moved, again, noise_after
             gained, before = before - after, after
