@@ -8,9 +8,11 @@ spring unloads, the play is crossed, and it loads again.
 
 Implicit in v: each sample solves one equation that is monotone in v, with a stick branch (v = 0,
 the spring alone moves) where the yield force holds. The rod's travel in a step is the mean of its
-speeds; where the piston moves with it, its own is to its last speed v as the rod's is to xdot. So
-an error of second order in the step remains both in stick and when the spring is stiff. It is
-stable for every compliance s > 0 and goes over into the model without a spring as s goes to 0.
+speeds. The piston's is to its last speed v as that of a piston would be which gains as much speed in
+the step as the rod does: behind a stiff spring as the rod's is to xdot, and behind a soft one, where
+the piston still moves as the rod turns, near to v dt. So an error of second order in the step
+remains both in stick and when the spring is stiff. It is stable for every compliance s > 0 and goes
+over into the model without a spring as s goes to 0.
 A mass m takes its acceleration of the rod from the log, and that of the spring's stretch from the
 step: what the two ring at must be slow to the samples, as the step damps what is not.
 It is simulated free-running: correcting with the measured force would feed its noise back.
@@ -33,7 +35,7 @@ from erdctl.core.recording import Array, Index
 from erdctl.model.at_speed import Leg, Other, SpeedLaws, followed, slid, value
 
 F = TypeVar("F", bound=Callable[..., object])
-SLOWEST = 0.25  # of the speed in a step that the end of it may have in the rule below
+SLOWEST = 0.25  # of the mean speed in a step that the last one may be in the rule below
 
 
 def _borrowing(function: F) -> F:
@@ -110,11 +112,12 @@ def _moved(
     """
     m = len(d.grid)
     e += mean * i.dt
-    ahead = min(max(end / mean, SLOWEST), 2.0) if mean * end > 0.0 else 1.0
+    last, half_way = i.level, i.level - (end - mean)  # of a piston that gains what the rod does
+    ahead = min(max(last / half_way, SLOWEST), 2.0) if half_way * last > 0.0 else 1.0
     for branch in range(2):
         way = 1.0 if branch == 0 else -1.0
         # H(v) = gas + viscous + yield + friction - F at a stretch of e - v span; increasing in v.
-        span = i.dt / (ahead if mean * way > 0.0 else 1.0)
+        span = i.dt / (ahead if half_way * way > 0.0 else 1.0)
         if _starting(branch, e, i, d, o) * way >= 0.0:
             continue
         low, high = 0, m - 1

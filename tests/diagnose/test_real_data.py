@@ -11,6 +11,7 @@ from functools import cache
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
+from peers import black_boxes, error, expert
 from places import SHARED
 from rig import real
 
@@ -115,3 +116,17 @@ def test_friction_damper_with_backlash(inches: str, reached: float) -> None:
     paper, corrected = held_out(found, held)
     assert paper > 0.19
     assert corrected < reached
+
+
+def test_ahead_of_an_expert_and_of_black_boxes() -> None:
+    """On the stroke that was left out; `tests/prove/measure_real_dampers.py` has other splits."""
+    text = "tension1.5amplitude"
+    found, (fitted, held) = (
+        diagnosis("friction_sine.parquet", text),
+        split("friction_sine.parquet", text),
+    )
+    _, corrected = held_out(found, held)
+    name, by_hand = expert(fitted, held)
+    others = {name: by_hand, **black_boxes(fitted, held, found.selection.base)}
+    least = min(error(held, force) for force in others.values())
+    assert corrected < least

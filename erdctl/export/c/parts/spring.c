@@ -7,7 +7,7 @@
 enum { NODES = 192 };
 typedef struct PREFIX_spring Spring;
 
-static const real SLOWEST = K(0.25);  /* of the speed in a step that the end of it may have */
+static const real SLOWEST = K(0.25);  /* of the mean speed in a step that the last may be */
 
 /* What a step behind the spring is given besides: compliance, half of the free play, stiffness of
  * the gas behind it, factors of the groups, forces that the rod's motion makes, divisor of the speed
@@ -198,16 +198,18 @@ static void advance(const State *st, Spring *b, const Joint *to, const Leg *leg,
                     real end)
 {
     real dt = leg->dt, e = b->stretch + mean * dt, ahead = K(1.0), way, span, at_low, at_high, h;
+    /* Of a piston that gains as much speed as the rod does. */
+    real last = leg->level, half_way = leg->level - (end - mean);
     real slow, fast, share, u, smooth;
     int branch, low, high, mid, reach, side;
 
-    if (mean * end > K(0.0))
-        ahead = FMIN(FMAX(end / mean, SLOWEST), K(2.0));
+    if (half_way * last > K(0.0))
+        ahead = FMIN(FMAX(last / half_way, SLOWEST), K(2.0));
     b->stretch = e;
     b->speed = K(0.0);
     for (branch = 0; branch < 2; branch++) {
         way = branch == 0 ? K(1.0) : K(-1.0);
-        span = mean * way > K(0.0) ? dt / ahead : dt;
+        span = half_way * way > K(0.0) ? dt / ahead : dt;
         if (starting(st, b, to, leg, branch, e) * way >= K(0.0))
             continue;
         low = 0;
