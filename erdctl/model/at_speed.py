@@ -55,6 +55,7 @@ class Leg(NamedTuple):
     was, Y_0, smooth : signed yield force before the leg, F_ER, and its sign law but for the jump
     z : part of the friction that followed the direction, by then
     pull, level : a mass over dt [kg/s]; speed of the piston at which it has the rod's acceleration
+    v, kept : its speed as the leg begins; as it ends, with the acceleration of its last step
     """
 
     dt: float
@@ -75,6 +76,8 @@ class Leg(NamedTuple):
     z: float
     pull: float
     level: float
+    v: float
+    kept: float
 
 
 @njit(cache=True, inline="always")

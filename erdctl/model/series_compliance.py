@@ -8,11 +8,14 @@ spring unloads, the play is crossed, and it loads again.
 
 Implicit in v: each sample solves one equation that is monotone in v, with a stick branch (v = 0,
 the spring alone moves) where the yield force holds. The rod's travel in a step is the mean of its
-speeds. The piston's is to its last speed v as that of a piston would be which gains as much speed in
-the step as the rod does: behind a stiff spring as the rod's is to xdot, and behind a soft one, where
-the piston still moves as the rod turns, near to v dt. So an error of second order in the step
-remains both in stick and when the spring is stiff. It is stable for every compliance s > 0 and goes
-over into the model without a spring as s goes to 0.
+speeds. The piston's is to its last speed v as that of a piston would be which is accelerated as the
+rod, where the spring is stiff to the step, and as it was in the last step, where it is soft:
+
+    dv = w dv_rod + (1 - w) dv_last,   w = dt / (dt + c s)
+
+with c the slope of the viscous law. So an error of second order in the step remains in stick,
+behind a stiff spring, and behind a soft one, whose piston still moves as the rod turns. It is stable
+for every compliance s > 0 and goes over into the model without a spring as s goes to 0.
 A mass m takes its acceleration of the rod from the log, and that of the spring's stretch from the
 step: what the two ring at must be slow to the samples, as the step damps what is not.
 It is simulated free-running: correcting with the measured force would feed its noise back.
@@ -35,7 +38,8 @@ from erdctl.core.recording import Array, Index
 from erdctl.model.at_speed import Leg, Other, SpeedLaws, followed, slid, value
 
 F = TypeVar("F", bound=Callable[..., object])
-SLOWEST = 0.25  # of the mean speed in a step that the last one may be in the rule below
+LONGEST = 4.0  # of the mean speed in a step over the last one
+NEARLY = 1e-5  # of the spring's force, by which a piston must be driven to move
 
 
 def _borrowing(function: F) -> F:
@@ -100,25 +104,45 @@ def _starting(branch: int, e: float, i: Leg, d: SpeedLaws, o: Other | None) -> f
     return float(rest + plastic * i.yields + d.friction[branch, 0])
 
 
+@njit(cache=True, inline="always")
+def _mean(first: float, last: float) -> float:
+    """Mean speed over the last one of a piston that goes from one to another, as far as they lie in
+    the direction of a branch; without a jump but at rest, as rounding must not move the force."""
+    if first > 0.0:
+        if last > 0.0:
+            return min(0.5 * (first + last) / last, LONGEST)
+        return max(LONGEST + (LONGEST - 1.0) * last / first, 1.0)
+    if last > 0.0:
+        return max(1.0 + 0.5 * last / first, 0.5) if first < 0.0 else 0.5
+    return 1.0
+
+
 @_borrowing
 def _moved(
-    e: float, mean: float, end: float, near: int, i: Leg, d: SpeedLaws, o: Other | None
+    e: float, mean: float, near: int, i: Leg, d: SpeedLaws, o: Other | None
 ) -> tuple[float, float, int, float, float, float]:
     """As a leg ends: stretch, speed behind the spring, node, signed yield force, smooth part of its
     sign law, part of the friction that follows.
 
-    mean, end : speed of the rod [m/s], over the leg and as it ends
+    mean : speed of the rod over the leg [m/s]
     near : node of the grid below the last speed, where the search begins; the new one is returned
     """
     m = len(d.grid)
     e += mean * i.dt
-    last, half_way = i.level, i.level - (end - mean)  # of a piston that gains what the rod does
-    ahead = min(max(last / half_way, SLOWEST), 2.0) if half_way * last > 0.0 else 1.0
+    j, there = min(max(near, 0), m - 2), 0 if i.v > 0.0 else 1
+    c = abs(d.viscous[there, j + 1] - d.viscous[there, j]) / (d.grid[j + 1] - d.grid[j])
+    w = i.dt / max(i.dt + c * i.viscous * i.s, 1e-12)
+    last = i.kept + (i.level - i.kept) * w
+    # What rounding alone would move rests: it turned round and round, and with it the yield force
+    # that the lag goes to, and a gas stiffer in one direction gave a jump of the force.
+    to_go, nearly = 0.0, NEARLY * abs(_held(e, i.half, i.s))
     for branch in range(2):
         way = 1.0 if branch == 0 else -1.0
         # H(v) = gas + viscous + yield + friction - F at a stretch of e - v span; increasing in v.
-        span = i.dt / (ahead if half_way * way > 0.0 else 1.0)
-        if _starting(branch, e, i, d, o) * way >= 0.0:
+        span = i.dt * _mean(i.v * way, last * way)
+        start = _starting(branch, e, i, d, o)
+        to_go = start if branch == 0 else to_go
+        if start * way >= -nearly or (branch == 1 and to_go <= nearly):
             continue
         low, high = 0, m - 1
         a = b = np.nan  # H at these two, where the search has come by
@@ -168,9 +192,8 @@ def _moved(
     # What sticks is held by as much of what it could take from either side as balances the rest.
     up, smooth = followed(0.0, 1.0, 0.0, e, i, d, o)
     down, _ = followed(0.0, -1.0, 0.0, e, i, d, o)
-    to_go = _starting(0, e, i, d, o)
     apart = to_go - _starting(1, e, i, d, o)
-    part = to_go / apart if apart > 0.0 else 0.5
+    part = min(max(to_go / apart, 0.0), 1.0) if apart > 0.0 else 0.5
     return e, 0.0, 1, up + (down - up) * part, smooth, i.z
 
 
@@ -227,13 +250,14 @@ def march(
             other += value(d.friction, d.grid, v, way)
         was, smooth = (0.0, 0.0) if still else (was, smooth)
         F = (k * x[first] + other) / (1.0 + k * s)
-        near = np.searchsorted(d.grid, abs(v)) - 1
+        near, rate = np.searchsorted(d.grid, abs(v)) - 1, 0.0
         e = s * F + (0.0 if still else half if F > 0.0 else -half)
         force[first], stretch[first], speed[first], own[first] = F, e, v, rubs * z
         for i in range(first + 1, starts[r + 1]):
             v0, v1, dt = xdot[i - 1], xdot[i], step[i - 1]
             turning = v0 * v1 < 0.0
             before = v0 / (v0 - v1) if turning else 0.0
+            was_v = v
             for leg in range(2 if turning else 1):
                 mean, end, span = 0.5 * (v0 + v1), v1, dt
                 other, x_end, rod_end, begun = beside[i], x[i], rod[i], v0
@@ -251,12 +275,14 @@ def march(
                     last, fade = decay, np.exp(-decay)
                 y_0, y = y, u + (y - u) * fade
                 pull, level = mass / max(span, 1e-9), end + v - begun
+                kept = v + rate * span
                 now = Leg(
                     span, x_end, rod_end, other, y, by[i], k_c * g_gas[i], k_r * g_gas[i],
-                    g_visc[i], g_yield[i], half, s, was, y_0, smooth, z, pull, level,
+                    g_visc[i], g_yield[i], half, s, was, y_0, smooth, z, pull, level, v, kept,
                 )  # fmt: skip
-                e, v, near, was, smooth, z = _moved(e, mean, end, near, now, d, o)
+                e, v, near, was, smooth, z = _moved(e, mean, near, now, d, o)
                 up = v > 0.0 if v != 0.0 else up
                 added = rubs * z + pull * (v - level)
+            rate = (v - was_v) / max(dt, 1e-9)
             force[i], stretch[i], speed[i], own[i] = _held(e, half, s), e, v, added
     return force, stretch, speed, own

@@ -7,7 +7,8 @@
 enum { NODES = 192 };
 typedef struct PREFIX_spring Spring;
 
-static const real SLOWEST = K(0.25);  /* of the mean speed in a step that the last may be */
+static const real LONGEST = K(4.0);  /* of the mean speed in a step over the last one */
+static const real NEARLY = K(1e-5);   /* of the spring's force, which it takes to move a piston */
 
 /* What a step behind the spring is given besides: compliance, half of the free play, stiffness of
  * the gas behind it, factors of the groups, forces that the rod's motion makes, divisor of the speed
@@ -19,10 +20,10 @@ typedef struct Joint {
 } Joint;
 
 /* A step, or a part of it, in one direction of the rod, as it ends: its length, x of the gas force,
- * deflection of the rod, forces beside, F_ER, and as it began; the mass over that length, and the
- * speed at which the piston has the rod's acceleration. */
+ * deflection of the rod, forces beside, F_ER, and as it began; the mass over that length, the speed
+ * at which the piston has the rod's acceleration, and that at which it has that of its last step. */
 typedef struct Leg {
-    real dt, x, rod, beside, Y, Y0, pull, level;
+    real dt, x, rod, beside, Y, Y0, pull, level, kept;
 } Leg;
 
 /* A law that falls goes on as it is beyond its table: on its last line it would turn round. */
@@ -188,29 +189,48 @@ static void stick(const State *st, Spring *b, const Joint *to, const Leg *leg, r
         up = followed(st, b, to, leg, K(0.0), 0, K(0.0), e, &smooth);
         go = starting(st, b, to, leg, 0, e);
         apart = go - starting(st, b, to, leg, 1, e);
-        b->was = up + (down - up) * (apart > K(0.0) ? go / apart : K(0.5));
+        b->was = up + (down - up) * (apart > K(0.0) ? clipped(go / apart, K(0.0), K(1.0)) : K(0.5));
         b->smooth = smooth;
     }
 }
 
-/* One leg: the rod's mean speed and the last. */
-static void advance(const State *st, Spring *b, const Joint *to, const Leg *leg, real mean,
-                    real end)
+/* Mean speed over the last one, in the direction of a branch, of a piston that would go from one
+ * speed to another. Without a jump, but at rest: rounding must not move the force. */
+static real mean_part(real first, real last)
 {
-    real dt = leg->dt, e = b->stretch + mean * dt, ahead = K(1.0), way, span, at_low, at_high, h;
-    /* Of a piston that gains as much speed as the rod does. */
-    real last = leg->level, half_way = leg->level - (end - mean);
+    if (first > K(0.0)) {
+        if (last > K(0.0))
+            return FMIN(K(0.5) * (first + last) / last, LONGEST);
+        return FMAX(LONGEST + (LONGEST - K(1.0)) * last / first, K(1.0));
+    }
+    if (last > K(0.0))
+        return first < K(0.0) ? FMAX(K(1.0) + K(0.5) * last / first, K(0.5)) : K(0.5);
+    return K(1.0);
+}
+
+/* One leg, by the rod's mean speed. */
+static void advance(const State *st, Spring *b, const Joint *to, const Leg *leg, real mean)
+{
+    real dt = leg->dt, e = b->stretch + mean * dt, began = b->speed, way, span, at_low, at_high, h;
+    real nearly = NEARLY * FABS(held(e, to)), go = K(0.0), last, lag, start;
     real slow, fast, share, u, smooth;
     int branch, low, high, mid, reach, side;
 
-    if (half_way * last > K(0.0))
-        ahead = FMIN(FMAX(last / half_way, SLOWEST), K(2.0));
+    /* Of a piston accelerated as the rod, the more the stiffer the spring, or as it was. */
+    low = b->near < 0 ? 0 : b->near > NODES - 2 ? NODES - 2 : b->near;
+    branch = b->speed > K(0.0) ? 0 : 1;
+    lag = FABS(st->viscous_at[branch][low + 1] - st->viscous_at[branch][low])
+          / (st->grid[low + 1] - st->grid[low]) * to->gain.viscous * to->s;
+    last = leg->kept + (leg->level - leg->kept) * (dt / FMAX(dt + lag, K(1e-12)));
     b->stretch = e;
     b->speed = K(0.0);
     for (branch = 0; branch < 2; branch++) {
         way = branch == 0 ? K(1.0) : K(-1.0);
-        span = half_way * way > K(0.0) ? dt / ahead : dt;
-        if (starting(st, b, to, leg, branch, e) * way >= K(0.0))
+        span = dt * mean_part(began * way, last * way);
+        start = starting(st, b, to, leg, branch, e);
+        if (branch == 0)
+            go = start;
+        if (start * way >= -nearly || (branch == 1 && go <= nearly))
             continue;
         low = 0;
         high = NODES - 1;
@@ -303,7 +323,7 @@ static void set_out(const State *st, Spring *b, const Joint *to, const Sample *s
     b->near = j - 1;
     b->stretch = to->s * F + (still ? K(0.0) : F > K(0.0) ? to->half : -to->half);
     b->speed = s->xdot;
-    b->pulled = K(0.0);
+    b->rate = b->pulled = K(0.0);
     b->faces = s->up;
     b->beside = to->beside;
 }
@@ -312,7 +332,7 @@ static void set_out(const State *st, Spring *b, const Joint *to, const Sample *s
 static real march(const State *st, Spring *b, const Joint *to, const Sample *s, real x,
                   const real u[2])
 {
-    real v0 = s->xdot0, v1 = s->xdot, mean, end, begun, part, lag;
+    real v0 = s->xdot0, v1 = s->xdot, was = b->speed, mean, end, begun, part, lag;
     int leg, way, turning = v0 * v1 < K(0.0);
     Leg now;
 
@@ -349,11 +369,13 @@ static real march(const State *st, Spring *b, const Joint *to, const Sample *s, 
         now.Y = b->yielding;
         now.pull = piston_mass(st) / FMAX(now.dt, K(1e-9));
         now.level = end + b->speed - begun;
-        advance(st, b, to, &now, mean, end);
+        now.kept = b->speed + b->rate * now.dt;
+        advance(st, b, to, &now, mean);
         b->pulled = now.pull * (b->speed - now.level);
         if (b->speed > K(0.0) || b->speed < K(0.0))
             b->up = b->speed > K(0.0);
     }
+    b->rate = (b->speed - was) / FMAX(s->h, K(1e-9));
     if (b->speed > K(0.0) || b->speed < K(0.0))
         b->faces = b->speed > K(0.0);
     b->beside = to->beside;
