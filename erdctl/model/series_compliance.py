@@ -14,8 +14,8 @@ rod, where the spring is stiff to the step, and as it was in the last step, wher
     dv = w dv_rod + (1 - w) dv_last,   w = dt / (dt + c s)
 
 with c the slope of the viscous law. So an error of second order in the step remains in stick,
-behind a stiff spring, and behind a soft one, whose piston still moves as the rod turns. It is stable
-for every compliance s > 0 and goes over into the model without a spring as s goes to 0.
+behind a stiff spring, and behind a soft one, whose piston still moves as the rod turns. It is
+stable for every compliance s > 0 and goes over into the model without a spring as s goes to 0.
 A mass m takes its acceleration of the rod from the log, and that of the spring's stretch from the
 step: what the two ring at must be slow to the samples, as the step damps what is not.
 It is simulated free-running: correcting with the measured force would feed its noise back.

@@ -91,19 +91,35 @@ def test_behind_a_stiff_mount_they_are_those_of_the_rod(name: str) -> None:
     assert found == pytest.approx(rigid, abs=5e-3 * np.ptp(rigid))
 
 
-@pytest.mark.parametrize("steps", [0.3, 1.0, 2.0])
+@pytest.mark.parametrize("steps", [0.3, 1.0, 2.0, 5.0, 20.0])
 def test_a_piston_that_lags_moves_on_as_the_rod_turns(steps: float) -> None:
     """Viscous alone, K (x - e) + C v = e / s, in closed form. By the rod's own ratio of speeds in a
-    step it was given up to four times its travel there: 0.2 and 0.34 % of the range at one and two
-    steps of lag, and in sparse logs `time_skew` had the name."""
+    step it was given up to four times its travel there: 0.2, 0.34 and 1.1 % of the range at one,
+    two and twenty steps of lag, and in sparse logs `time_skew` had the name."""
     rate = 200.0
     s_m = steps / rate / C
-    s = sine(1.5, STROKE, 2.0, rate, duty=0.0)
+    s = sine(1.5, STROKE, 3.0, rate, duty=0.0)
     found = Model((get("mount_compliance"),)).force(s, PLAIN | {"mount_compliance.s_m": s_m})
     stretch = STROKE * (1j * W + K / C) / (1j * W + (1.0 / s_m + K) / C)
     true = np.imag(stretch * np.exp(1j * W * s.t)) / s_m
-    error = (found - true)[s.t > 0.4]
-    assert np.sqrt(np.mean(error**2)) < 1e-3 * np.ptp(true)
+    error = (found - true)[s.t > 0.8]
+    assert np.sqrt(np.mean(error**2)) < 7e-4 * np.ptp(true)
+
+
+@pytest.mark.parametrize(("begin", "rest"), [(-0.008, -0.004), (0.003, 0.008), (0.01, 0.002)])
+def test_a_rod_at_rest_keeps_its_force(begin: float, rest: float) -> None:
+    """A gas that is stiffer in compression could let the piston go either way: rounding decided, in
+    a jump of the force by a quarter, up to 0.5 s after the rod had stopped."""
+    t = np.arange(1000) / 500.0
+    way = 0.5 * (rest - begin)
+    x = np.where(t < 0.5, begin + way * (1.0 - np.cos(2 * np.pi * t)), rest)
+    xdot = np.where(t < 0.5, way * 2 * np.pi * np.sin(2 * np.pi * t), 0.0)
+    values = PLAIN | {"compression.k_nom": 263.0, "release.k_nom": 170.0}
+    found = Model((get("mount_compliance"),)).force(
+        signals(xdot, x=x, t=t, duty=0.0), values | {"mount_compliance.s_m": 1e-5}
+    )
+    still = found[t > 0.55]
+    assert np.ptp(still) < 1e-4 * np.abs(still).max()
 
 
 @pytest.mark.parametrize("preload", [3.0, 8.0, 30.0])
