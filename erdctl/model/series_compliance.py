@@ -118,13 +118,62 @@ def _mean(first: float, last: float) -> float:
 
 
 @_borrowing
+def _speed(
+    branch: int, span: float, e: float, near: int, i: Leg, d: SpeedLaws, o: Other | None
+) -> tuple[float, int]:
+    """Last speed of a piston that moves on a branch, and the node of the grid below it.
+
+    H(v) = gas + viscous + yield + friction - F at a stretch of e - v span is increasing in v.
+    """
+    m, way = len(d.grid), 1.0 if branch == 0 else -1.0
+    low, high = 0, m - 1
+    a = b = np.nan  # H at these two, where the search has come by
+    mid, reach = min(max(near, 1), m - 2), 1
+    while high - low > 1:
+        h = _excess(d.grid[mid], mid, 0.0, branch, span, e, i, d, o)
+        if h * way < 0.0:
+            low, a = mid, h
+        else:
+            high, b = mid, h
+        # Speeds change little from sample to sample: outwards from the last in growing steps,
+        # and by halves once there is a bracket.
+        if low > 0 and high < m - 1:
+            mid = (low + high) // 2
+        elif high == m - 1:
+            mid = min(low + reach, m - 2) if low + reach < high else (low + high) // 2
+            reach *= 4
+        else:
+            mid = max(high - reach, 1) if high - reach > low else (low + high) // 2
+            reach *= 4
+    if low == 0:
+        a = _excess(d.grid[low], low, 0.0, branch, span, e, i, d, o)
+    if high == m - 1:
+        b = _excess(d.grid[high], high, 0.0, branch, span, e, i, d, o)
+    slow, fast = d.grid[low], d.grid[high]
+    if i.half > 0.0 and span > 0.0:
+        # The spring bends where it loses or takes up its play, and is far stiffer than the
+        # damper beyond: H is straight on either side, not across.
+        for side in range(2):
+            u = way * (e - (i.half if side == 0 else -i.half)) / span
+            if slow < u < fast:
+                w = (u - d.grid[low]) / (d.grid[high] - d.grid[low])
+                h = _excess(u, low, w, branch, span, e, i, d, o)
+                if h * way < 0.0:
+                    slow, a = u, h
+                else:
+                    fast, b = u, h
+    part = -a / (b - a) if b != a else 0.0
+    return slow + part * (fast - slow), low
+
+
+@_borrowing
 def _moved(
-    e: float, mean: float, near: int, i: Leg, d: SpeedLaws, o: Other | None
+    e: float, mean: float, end: float, near: int, i: Leg, d: SpeedLaws, o: Other | None
 ) -> tuple[float, float, int, float, float, float]:
     """As a leg ends: stretch, speed behind the spring, node, signed yield force, smooth part of its
     sign law, part of the friction that follows.
 
-    mean : speed of the rod over the leg [m/s]
+    mean, end : speed of the rod [m/s], over the leg and as it ends
     near : node of the grid below the last speed, where the search begins; the new one is returned
     """
     m = len(d.grid)
@@ -133,60 +182,28 @@ def _moved(
     c = abs(d.viscous[there, j + 1] - d.viscous[there, j]) / (d.grid[j + 1] - d.grid[j])
     w = i.dt / max(i.dt + c * i.viscous * i.s, 1e-12)
     last = i.kept + (i.level - i.kept) * w
+    fastest = max(abs(i.v), abs(end), abs(2.0 * mean - end), 1e-12)
     # What rounding alone would move rests: it turned round and round, and with it the yield force
     # that the lag goes to, and a gas stiffer in one direction gave a jump of the force.
     to_go, nearly = 0.0, NEARLY * abs(_held(e, i.half, i.s))
     for branch in range(2):
         way = 1.0 if branch == 0 else -1.0
-        # H(v) = gas + viscous + yield + friction - F at a stretch of e - v span; increasing in v.
-        span = i.dt * _mean(i.v * way, last * way)
+        part = _mean(i.v * way, last * way)
+        span = i.dt * part
         start = _starting(branch, e, i, d, o)
         to_go = start if branch == 0 else to_go
         if start * way >= -nearly or (branch == 1 and to_go <= nearly):
             continue
-        low, high = 0, m - 1
-        a = b = np.nan  # H at these two, where the search has come by
-        mid, reach = min(max(near, 1), m - 2), 1
-        while high - low > 1:
-            h = _excess(d.grid[mid], mid, 0.0, branch, span, e, i, d, o)
-            if h * way < 0.0:
-                low, a = mid, h
-            else:
-                high, b = mid, h
-            # Speeds change little from sample to sample: outwards from the last in growing steps,
-            # and by halves once there is a bracket.
-            if low > 0 and high < m - 1:
-                mid = (low + high) // 2
-            elif high == m - 1:
-                mid = min(low + reach, m - 2) if low + reach < high else (low + high) // 2
-                reach *= 4
-            else:
-                mid = max(high - reach, 1) if high - reach > low else (low + high) // 2
-                reach *= 4
-        if low == 0:
-            a = _excess(d.grid[low], low, 0.0, branch, span, e, i, d, o)
-        if high == m - 1:
-            b = _excess(d.grid[high], high, 0.0, branch, span, e, i, d, o)
-        slow, fast = d.grid[low], d.grid[high]
-        if i.half > 0.0 and span > 0.0:
-            # The spring bends where it loses or takes up its play, and is far stiffer than the
-            # damper beyond: H is straight on either side, not across.
-            for side in range(2):
-                u = way * (e - (i.half if side == 0 else -i.half)) / span
-                if slow < u < fast:
-                    w = (u - d.grid[low]) / (d.grid[high] - d.grid[low])
-                    h = _excess(u, low, w, branch, span, e, i, d, o)
-                    if h * way < 0.0:
-                        slow, a = u, h
-                    else:
-                        fast, b = u, h
-        part = -a / (b - a) if b != a else 0.0
-        u = slow + part * (fast - slow)
+        u, node = _speed(branch, span, e, near, i, d, o)
+        least = mean * way / fastest
+        if u > fastest and part < least:  # no spring makes the piston outrun the rod
+            span = i.dt * least
+            u, node = _speed(branch, span, e, near, i, d, o)
         at = e - way * u * span
         if o is None:
-            return at, way * u, low, 0.0, 0.0, 0.0
+            return at, way * u, node, 0.0, 0.0, 0.0
         force, smooth = followed(way * u, way, u * span, at, i, d, o)
-        return at, way * u, low, force, smooth, slid(way, u * span, i, o)
+        return at, way * u, node, force, smooth, slid(way, u * span, i, o)
     if o is None:
         return e, 0.0, 1, 0.0, 0.0, 0.0
     # What sticks is held by as much of what it could take from either side as balances the rest.
@@ -280,7 +297,7 @@ def march(
                     span, x_end, rod_end, other, y, by[i], k_c * g_gas[i], k_r * g_gas[i],
                     g_visc[i], g_yield[i], half, s, was, y_0, smooth, z, pull, level, v, kept,
                 )  # fmt: skip
-                e, v, near, was, smooth, z = _moved(e, mean, near, now, d, o)
+                e, v, near, was, smooth, z = _moved(e, mean, end, near, now, d, o)
                 up = v > 0.0 if v != 0.0 else up
                 added = rubs * z + pull * (v - level)
             rate = (v - was_v) / max(dt, 1e-9)

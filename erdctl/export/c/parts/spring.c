@@ -208,77 +208,96 @@ static real mean_part(real first, real last)
     return K(1.0);
 }
 
-/* One leg, by the rod's mean speed. */
-static void advance(const State *st, Spring *b, const Joint *to, const Leg *leg, real mean)
+/* Last speed of a piston that moves on a branch, and the node below it: the excess grows with it. */
+static real speed_on(const State *st, const Spring *b, const Joint *to, const Leg *leg, int branch,
+                     real span, real e, int *node)
 {
-    real dt = leg->dt, e = b->stretch + mean * dt, began = b->speed, way, span, at_low, at_high, h;
-    real nearly = NEARLY * FABS(held(e, to)), go = K(0.0), last, lag, start;
-    real slow, fast, share, u, smooth;
-    int branch, low, high, mid, reach, side;
+    real way = branch == 0 ? K(1.0) : K(-1.0), at_low, at_high, slow, fast, share, u, h;
+    int low, high, mid, reach, side;
+
+    low = 0;
+    high = NODES - 1;
+    /* Speeds change little from sample to sample: outwards from the last in growing steps. */
+    mid = b->near < 1 ? 1 : b->near > NODES - 2 ? NODES - 2 : b->near;
+    reach = 1;
+    while (high - low > 1) {
+        h = excess(st, b, to, leg, st->grid[mid], mid, K(0.0), branch, span, e);
+        if (h * way < K(0.0))
+            low = mid;
+        else
+            high = mid;
+        if (low > 0 && high < NODES - 1) {
+            mid = (low + high) / 2;
+        } else if (high == NODES - 1) {
+            mid = low + reach < high ? (low + reach < NODES - 2 ? low + reach : NODES - 2)
+                                     : (low + high) / 2;
+            reach *= 4;
+        } else {
+            mid = high - reach > low ? (high - reach > 1 ? high - reach : 1)
+                                     : (low + high) / 2;
+            reach *= 4;
+        }
+    }
+    at_low = excess(st, b, to, leg, st->grid[low], low, K(0.0), branch, span, e);
+    at_high = excess(st, b, to, leg, st->grid[high], low, K(1.0), branch, span, e);
+    slow = st->grid[low];
+    fast = st->grid[high];
+    /* The spring bends where it loses or takes up its play: straight on either side. */
+    for (side = 0; to->half > K(0.0) && span > K(0.0) && side < 2; side++) {
+        u = way * (e - (side == 0 ? to->half : -to->half)) / span;
+        if (!(u > slow && u < fast))
+            continue;
+        h = excess(st, b, to, leg, u, low,
+                   (u - st->grid[low]) / (st->grid[high] - st->grid[low]), branch, span, e);
+        if (h * way < K(0.0)) {
+            slow = u;
+            at_low = h;
+        } else {
+            fast = u;
+            at_high = h;
+        }
+    }
+    share = FABS(at_high - at_low) > K(0.0) ? -at_low / (at_high - at_low) : K(0.0);
+    *node = low;
+    return slow + share * (fast - slow);
+}
+
+/* One leg, by the rod's mean speed and the last. */
+static void advance(const State *st, Spring *b, const Joint *to, const Leg *leg, real mean,
+                    real end)
+{
+    real dt = leg->dt, e = b->stretch + mean * dt, began = b->speed, way, span, part, u, smooth;
+    real nearly = NEARLY * FABS(held(e, to)), go = K(0.0), last, lag, start, least;
+    real fastest = FMAX(FMAX(FABS(began), FABS(end)),
+                        FMAX(FABS(K(2.0) * mean - end), K(1e-12)));
+    int branch, node = b->near;
 
     /* Of a piston accelerated as the rod, the more the stiffer the spring, or as it was. */
-    low = b->near < 0 ? 0 : b->near > NODES - 2 ? NODES - 2 : b->near;
+    node = node < 0 ? 0 : node > NODES - 2 ? NODES - 2 : node;
     branch = b->speed > K(0.0) ? 0 : 1;
-    lag = FABS(st->viscous_at[branch][low + 1] - st->viscous_at[branch][low])
-          / (st->grid[low + 1] - st->grid[low]) * to->gain.viscous * to->s;
+    lag = FABS(st->viscous_at[branch][node + 1] - st->viscous_at[branch][node])
+          / (st->grid[node + 1] - st->grid[node]) * to->gain.viscous * to->s;
     last = leg->kept + (leg->level - leg->kept) * (dt / FMAX(dt + lag, K(1e-12)));
     b->stretch = e;
     b->speed = K(0.0);
     for (branch = 0; branch < 2; branch++) {
         way = branch == 0 ? K(1.0) : K(-1.0);
-        span = dt * mean_part(began * way, last * way);
+        part = mean_part(began * way, last * way);
+        span = dt * part;
         start = starting(st, b, to, leg, branch, e);
         if (branch == 0)
             go = start;
         if (start * way >= -nearly || (branch == 1 && go <= nearly))
             continue;
-        low = 0;
-        high = NODES - 1;
-        /* Speeds change little from sample to sample: outwards from the last in growing steps. */
-        mid = b->near < 1 ? 1 : b->near > NODES - 2 ? NODES - 2 : b->near;
-        reach = 1;
-        while (high - low > 1) {
-            h = excess(st, b, to, leg, st->grid[mid], mid, K(0.0), branch, span, e);
-            if (h * way < K(0.0))
-                low = mid;
-            else
-                high = mid;
-            if (low > 0 && high < NODES - 1) {
-                mid = (low + high) / 2;
-            } else if (high == NODES - 1) {
-                mid = low + reach < high ? (low + reach < NODES - 2 ? low + reach : NODES - 2)
-                                         : (low + high) / 2;
-                reach *= 4;
-            } else {
-                mid = high - reach > low ? (high - reach > 1 ? high - reach : 1)
-                                         : (low + high) / 2;
-                reach *= 4;
-            }
+        u = speed_on(st, b, to, leg, branch, span, e, &node);
+        least = mean * way / fastest;
+        if (u > fastest && part < least) { /* no spring makes the piston outrun the rod */
+            span = dt * least;
+            u = speed_on(st, b, to, leg, branch, span, e, &node);
         }
-        at_low = excess(st, b, to, leg, st->grid[low], low, K(0.0), branch, span, e);
-        at_high = excess(st, b, to, leg, st->grid[high], low, K(1.0), branch, span, e);
-        slow = st->grid[low];
-        fast = st->grid[high];
-        /* The spring bends where it loses or takes up its play: straight on either side. */
-        for (side = 0; to->half > K(0.0) && span > K(0.0) && side < 2; side++) {
-            u = way * (e - (side == 0 ? to->half : -to->half)) / span;
-            if (!(u > slow && u < fast))
-                continue;
-            h = excess(st, b, to, leg, u, low,
-                       (u - st->grid[low]) / (st->grid[high] - st->grid[low]), branch, span, e);
-            if (h * way < K(0.0)) {
-                slow = u;
-                at_low = h;
-            } else {
-                fast = u;
-                at_high = h;
-            }
-        }
-        share = FABS(at_high - at_low) > K(0.0) ? -at_low / (at_high - at_low) : K(0.0);
-        u = slow + share * (fast - slow);
         b->speed = way * u;
         b->stretch = e - b->speed * span;
-        b->near = low;
+        b->near = node;
         if (OTHER) {
             b->was = followed(st, b, to, leg, b->speed, branch, u * span, b->stretch, &smooth);
             b->smooth = smooth;
@@ -370,7 +389,7 @@ static real march(const State *st, Spring *b, const Joint *to, const Sample *s, 
         now.pull = piston_mass(st) / FMAX(now.dt, K(1e-9));
         now.level = end + b->speed - begun;
         now.kept = b->speed + b->rate * now.dt;
-        advance(st, b, to, &now, mean);
+        advance(st, b, to, &now, mean, end);
         b->pulled = now.pull * (b->speed - now.level);
         if (b->speed > K(0.0) || b->speed < K(0.0))
             b->up = b->speed > K(0.0);
