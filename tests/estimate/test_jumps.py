@@ -13,6 +13,7 @@ from erdctl.diagnose.problem import prepare
 from erdctl.diagnose.record_effects import NONE_VARY
 from erdctl.effects import get
 from erdctl.estimate.covariance import Fit, estimates
+from erdctl.estimate.finer import Finer
 from erdctl.model.composed import Model
 
 
@@ -25,7 +26,7 @@ def fitted(v_s: float, c_vis: float) -> tuple[Fit, dict[str, float]]:
     own |= {"stribeck_friction.F_k": 20.0, "stribeck_friction.F_sk": 30.0}
     true = {**start, **own, "compression.c_vis": c_vis, "release.c_vis": c_vis}
     true |= {f"{way}.sigma": 20.0 for way in ("compression", "release")}
-    force = model.force(prepare(clean, NONE_VARY).block.signals, true)
+    force = Finer.of(prepare(clean, NONE_VARY).block.signals).force(model, true)
     problem = prepare(noisy(replace(clean, force=force), 5, 0.3), NONE_VARY)
     return fit_errors(problem, fit_hypothesis(problem, model.effects, [true], 20))[0], true
 
