@@ -39,7 +39,7 @@ from erdctl.model.at_speed import Leg, Other, SpeedLaws, followed, slid, value
 
 F = TypeVar("F", bound=Callable[..., object])
 LONGEST = 4.0  # of the mean speed in a step over the last one
-NEARLY = 1e-5  # of the spring's force, by which a piston must be driven to move
+NEARLY = 1e-12  # of the spring's force, by which a piston must be driven to move: above rounding
 
 
 def _borrowing(function: F) -> F:

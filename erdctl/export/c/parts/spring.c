@@ -8,7 +8,8 @@ enum { NODES = 192 };
 typedef struct PREFIX_spring Spring;
 
 static const real LONGEST = K(4.0);  /* of the mean speed in a step over the last one */
-static const real NEARLY = K(1e-5);   /* of the spring's force, which it takes to move a piston */
+/* Of the spring's force, which it takes to move a piston: above rounding. */
+static const real NEARLY = sizeof(real) < sizeof(double) ? K(3e-6) : K(1e-12);
 
 /* What a step behind the spring is given besides: compliance, half of the free play, stiffness of
  * the gas behind it, factors of the groups, forces that the rod's motion makes, divisor of the speed
