@@ -197,7 +197,9 @@ def _moved(
         u, node = _speed(branch, span, e, near, i, d, o)
         least = mean * way / fastest
         if u > fastest and part < least:  # no spring makes the piston outrun the rod
-            span = i.dt * least
+            slower, _ = _speed(branch, i.dt * least, e, near, i, d, o)
+            share = (u - fastest) / (u - slower) if slower < fastest else 1.0
+            span = i.dt * (part + (least - part) * share)
             u, node = _speed(branch, span, e, near, i, d, o)
         at = e - way * u * span
         if o is None:

@@ -293,7 +293,10 @@ static void advance(const State *st, Spring *b, const Joint *to, const Leg *leg,
         u = speed_on(st, b, to, leg, branch, span, e, &node);
         least = mean * way / fastest;
         if (u > fastest && part < least) { /* no spring makes the piston outrun the rod */
-            span = dt * least;
+            real slower = speed_on(st, b, to, leg, branch, dt * least, e, &node);
+            real share = slower < fastest ? (u - fastest) / (u - slower) : K(1.0);
+
+            span = dt * (part + (least - part) * share);
             u = speed_on(st, b, to, leg, branch, span, e, &node);
         }
         b->speed = way * u;
