@@ -6,6 +6,8 @@ from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
+import numpy as np
+
 from erdctl.core.progress import part_of
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import is_better
@@ -123,13 +125,13 @@ def _worth_a_fit(
             found.append(max(seen, key=lambda s: s[1].gain))
     # Of two that are the same force the damper's own comes first, before an error of the rig.
     found.sort(key=lambda f: (-round(f[1].gain, 6), f[1].effect.stage is Stage.SENSOR))
-    found = _one_of_each_kind(found)
+    found = _one_of_each_kind(_richer_where_it_pays(found))
     bar = thresholds.SCREENED_GAIN * found[0][1].gain if found else 0.0
     # What feeds the force back can be worth nothing near the present fit and all of it elsewhere.
     return [
         (view, c) for i, (view, c) in enumerate(found)
         if i < thresholds.SCREENED_LEAST or c.gain > bar
-        or isinstance(c.effect.slot, SeriesSlot | FeedbackSlot)
+        or (isinstance(c.effect.slot, SeriesSlot | FeedbackSlot) and not c.effect.richer_than)
     ]  # fmt: skip
 
 
@@ -137,8 +139,15 @@ def _additions(parent: Hypothesis, candidates: Sequence[Effect]) -> Iterator[Eff
     taken = {type(e.slot) for e in parent.effects}.intersection(DISTINCT)
     names = {e.name for e in parent.effects}
     for effect in candidates:
-        if effect.name not in names and type(effect.slot) not in taken:
+        other_form = any(related(effect, e) for e in parent.effects)
+        if effect.name not in names and type(effect.slot) not in taken and not other_form:
             yield effect
+
+
+def related(one: Effect, other: Effect) -> bool:
+    """Whether one of two effects is a richer form of the other, or of its equivalents."""
+    forms = ((one, other), (other, one))
+    return any({e.name, *e.equivalents}.intersection(rich.richer_than) for rich, e in forms)
 
 
 def _one_of_each_kind(
@@ -148,6 +157,19 @@ def _one_of_each_kind(
     kept: list[tuple[Hypothesis, Candidate]] = []
     for view, c in seen:
         if not any(c.effect.name in k.effect.equivalents for _, k in kept):
+            kept.append((view, c))
+    return kept
+
+
+def _richer_where_it_pays(
+    seen: Sequence[tuple[Hypothesis, Candidate]],
+) -> list[tuple[Hypothesis, Candidate]]:
+    """Without the richer forms that promise hardly more than the plain ones."""
+    left = {c.effect.name: 1.0 - c.gain for _, c in seen}
+    kept = []
+    for view, c in seen:
+        plain = [left[name] for name in c.effect.richer_than if name in left]
+        if 1.0 - c.gain < thresholds.RICHER * min(plain, default=np.inf):
             kept.append((view, c))
     return kept
 

@@ -9,7 +9,7 @@ import numpy as np
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import compare, ranked
 from erdctl.diagnose.executor import Task
-from erdctl.diagnose.forward_step import Exploration, key_of, with_effect
+from erdctl.diagnose.forward_step import Exploration, key_of, related, with_effect
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.predictability import misfit_is_left
@@ -61,9 +61,10 @@ def look_alikes(
     again = [] if alone else list(likely)
     # In the place of an effect those may differ that nothing tells apart where they are alone.
     alike = {name for e in (effect, *likely) for name in e.equivalents}
-    likely += [c for c in candidates if c.name in alike]
+    likely += [c for c in candidates if c.name in alike or related(c, effect)]
     likely += untested
     likely += [c for c in candidates if rest | {c.name} in x.explored]
+    likely = [c for c in likely if not any(related(c, e) for e in others)]
     keys = {e.name: rest | {e.name} for e in likely if e.name not in names}
     new = [e for e in dict.fromkeys(likely) if e.name in keys and keys[e.name] not in x.explored]
     if new:

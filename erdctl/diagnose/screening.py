@@ -263,6 +263,8 @@ def _axis(q: Quantity, problem: Problem) -> list[float]:
             values = [p * stroke for p in thresholds.PARTS]
         case "m/s":
             values = [p * speed for p in thresholds.PARTS]
+        case "N s/m":
+            values = [p * force / speed for p in thresholds.MULTIPLES]
         case "m/N":
             values = [p * stroke / force for p in thresholds.PARTS]
         case "1/m":

@@ -22,13 +22,14 @@ from erdctl.diagnose.companion_effects import companion_sets, joint_task
 from erdctl.diagnose.comparison import compare_alike, critical_of, ranked
 from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.form_error import beyond_form_error, is_only_form
-from erdctl.diagnose.forward_step import Exploration, Explored, forward_step, key_of
+from erdctl.diagnose.forward_step import Exploration, Explored, forward_step, key_of, related
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.levels_of_records import not_of_records
 from erdctl.diagnose.look_alikes import is_preferred, look_alikes
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.predictability import misfit_is_left, search_is_worthwhile
 from erdctl.diagnose.resolved import resolved
+from erdctl.diagnose.richer_forms import in_the_place_of_plain, plain_where_as_good
 from erdctl.estimate.starts import fresh_start
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
@@ -93,6 +94,9 @@ def search(
         if best is not alone:
             more = most - len(x.added(best))
             best, _ = _forward_selection(x, best, candidates, more, seed)
+    if misfit_is_left(best, seed):
+        best = in_the_place_of_plain(x, best, candidates)
+    best = plain_where_as_good(x, best, candidates)
     best = eliminate(x, best)
     best = second_pass(x, best, most)
     best = as_good_as_explored(x, best)
@@ -109,6 +113,7 @@ def _simpler(x: Exploration, best: Hypothesis) -> tuple[Hypothesis, ...]:
     fewer = [
         h for k, h in x.explored.items()
         if len(k) < len(key) and not k <= key and base - h.score > least
+        and not any(related(e, other) for e in h.effects for other in best.effects)
     ]  # fmt: skip
     return tuple(ranked(fewer)[: thresholds.SIMPLER])
 

@@ -280,6 +280,11 @@ LONGEST_LAG = 0.3
 # Origin: budget.
 LITTLE_BUT_NOISE = 1.0
 
+# Part of what a plain form of an effect promises to leave, below which a richer one is fitted too.
+# Decides: whether it is looked at before the plain one is found, in whose place it is tried anyway.
+# Origin: budget; behind a spring every fit is a march.
+RICHER = 0.9
+
 # Starts of each companion that are combined, and combinations that are searched to the end.
 # Origin: budget.
 COMPANION_STARTS, COMPANION_BEST = 5, 3

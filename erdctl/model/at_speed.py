@@ -54,8 +54,10 @@ class Leg(NamedTuple):
     half : half of the free play;  s : compliance
     was, Y_0, smooth : signed yield force before the leg, F_ER, and its sign law but for the jump
     z : part of the friction that followed the direction, by then
-    pull, level : a mass over dt [kg/s]; speed of the piston at which it has the rod's acceleration
-    v, kept : its speed as the leg begins; as it ends, with the acceleration of its last step
+    c : damping of the spring [N s/m];  end : speed of the rod as the leg ends
+    pull, push : slope of mass and damping by the piston's speed [N s/m], and their force at rest
+    v : speed of the piston as the leg begins;  level, kept : as it ends, if it is accelerated as
+        the rod, or as in its last step
     """
 
     dt: float
@@ -74,9 +76,12 @@ class Leg(NamedTuple):
     Y_0: float
     smooth: float
     z: float
+    c: float
+    end: float
     pull: float
-    level: float
+    push: float
     v: float
+    level: float
     kept: float
 
 

@@ -28,7 +28,8 @@ of `erdctl/export/c/parts/helpers.c` may be called.
     Series     compliance [m/N]; knows p alone                               real
 
 `force` is what `Effect.columns` add, with their amplitudes [N]; of an effect of speed alone it may
-use s->xdot and s->sign only. `play` is the free play [m] that a spring takes over, from p alone.
+use s->xdot and s->sign only. `play` is the free play [m] that a spring takes over, `damping` what
+damps a spring [N s/m], from p alone.
 
 Sample:
 
@@ -80,6 +81,7 @@ class CLaw:
     code : body of the function that its slot calls; empty where the slot has none (a term)
     force : body of the function that gives its added force [N]; empty if it adds none
     play : body of the function that gives a joint's free play [m]
+    damping : body of the function that gives what damps a `SeriesSlot` [N s/m]
     by : body of the function that gives a `SignSlot` its `by` [1], behind a spring
     state : members of its state, reals: a name, or an array with its length, "past[64]"
     past : members of its long memory, arrays too large to be copied for each look ahead
@@ -90,6 +92,7 @@ class CLaw:
     code: str = ""
     force: str = ""
     play: str = ""
+    damping: str = ""
     by: str = ""
     state: tuple[str, ...] = ()
     past: tuple[str, ...] = ()

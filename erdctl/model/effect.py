@@ -93,13 +93,15 @@ class Effect:
     alters : what becomes of a piece of the paper's equations, see `model.corrected_equation`
     requires : what a log must contain;  shows : where the misfit gathers when it is left out
     guesses : starts of a search where the grid would not do (several dips of the cost, a scale that
-        depends on the motion, a frequency). The grid is made by unit: m, m/s, m/N, 1/m, 1/m^2, s
-        and 1/J from what the recording spans, others from 0.1 to 10 times the parameter's start
+        depends on the motion, a frequency). The grid is made by unit: m, m/s, m/N, N s/m, 1/m,
+        1/m^2, s and 1/J from what the recording spans, others from 0.1 to 10 times the start
     most : what a log allows at most of a parameter by the measured force alone: a hypothesis that
         asks for more is none, however well it fits
     companions : effects that commonly come with it, and without which it may improve no fit
     equivalents : effects that force data can hardly tell from this one, whatever the log
     includes : effects of which it has the whole in parameters of its own
+    richer_than : effects of which it is a form with a parameter more: it is never beside them, but
+        tried in their place, and by itself only where it promises clearly more
     sets_in : groups of which it takes a part from a time on, by the law of `erdctl.model.onset`,
         whose time a fit finds by a search of all (`estimate.onsets`); no others
     order : effects of one slot act in this order
@@ -127,6 +129,7 @@ class Effect:
     companions: tuple[str, ...] = ()
     equivalents: tuple[str, ...] = ()
     includes: tuple[str, ...] = ()
+    richer_than: tuple[str, ...] = ()
     said: str = ""
     alters: tuple[tuple[str, str], ...] = ()
     sets_in: tuple[str, ...] = ()

@@ -23,9 +23,20 @@ from erdctl.model.slots import (
     SeriesSlot,
     Values,
     YieldSlot,
+    damping_of,
+    free_play_of,
 )
 
 Factors = Mapping[str, Array]
+
+
+class _Spring(NamedTuple):
+    """What is in series: whether with the whole damper, [m/N], damping [N s/m], own play [m]."""
+
+    whole: bool
+    compliance: float
+    damping: float
+    play: float
 
 
 class _Behind(NamedTuple):
@@ -73,7 +84,7 @@ class Prepared:
         """(n,) force of each group and, if there are any terms, of all `other` forces."""
         springs = self._springs(values)
         if springs:
-            out = self._behind_spring(values, self._fed_back(values, factors), *springs[0])
+            out = self._behind_spring(values, self._fed_back(values, factors), springs[0])
         else:
             out = self._scaled(self.bare(values), values, factors)
         for row in self._driven(out, values):
@@ -87,10 +98,9 @@ class Prepared:
         """
         springs = self._springs(values)
         if springs:
-            spring, compliance = springs[0]
             factors = self._fed_back(values, factors)
-            out = {"spring": self._march(values, factors, spring, compliance).force}
-            if spring.carries is not None:
+            out = {"spring": self._march(values, factors, springs[0]).force}
+            if not springs[0].whole:
                 gas = self.group("gas", values)
                 out["gas"] = gas * factors["gas"] if "gas" in factors else gas
         else:
@@ -103,7 +113,7 @@ class Prepared:
         """(n,) force of a group, or of the terms outside a spring, before any factor."""
         if group == "other":
             springs = self._springs(values)
-            inner = bool(springs) and springs[0][0].carries is None
+            inner = bool(springs) and springs[0].whole
             rows = self._outside(inner=inner)
             return sum((values[name] * row for name, row in rows), np.zeros(len(self.signals)))
         per = self.signals.per_direction
@@ -122,7 +132,7 @@ class Prepared:
             bare = parts = self._scaled(bare, values, factors)
         elif in_slot(self.effects, DrivenSlot):
             fed = self._fed_back(values, factors)
-            parts = self._behind_spring(values, fed, *self._springs(values)[0])
+            parts = self._behind_spring(values, fed, self._springs(values)[0])
         else:
             parts = {}
         out = None
@@ -155,7 +165,7 @@ class Prepared:
         """(n,) factors of groups behind a spring, with those that depend on the forces."""
         factors = multiplied(self.scale, factors or {})
         for effect, feedback in in_slot(self.effects, FeedbackSlot):
-            out = self._behind_spring(values, factors, *self._springs(values)[0])
+            out = self._behind_spring(values, factors, self._springs(values)[0])
             back = feedback(out, self.signals, effect.local(values))
             factors = multiplied(factors, back)
         return factors
@@ -203,10 +213,14 @@ class Prepared:
             column = channel(column, self.signals, effect.local(self.values))
         return column
 
-    def _springs(self, values: Values) -> list[tuple[SeriesSlot, float]]:
-        """The slot that puts a compliance in series, if any does, and its compliance [m/N]."""
-        all_ = [(slot, slot(e.local(values))) for e, slot in in_slot(self.effects, SeriesSlot)]
-        springs = [(slot, compliance) for slot, compliance in all_ if compliance > 0.0]
+    def _springs(self, values: Values) -> list[_Spring]:
+        """The compliance in series, if there is one."""
+        all_ = [(slot, e.local(values)) for e, slot in in_slot(self.effects, SeriesSlot)]
+        springs = [
+            _Spring(slot.carries is None, slot(p), damping_of(slot, p), free_play_of(slot, p))
+            for slot, p in all_
+        ]
+        springs = [spring for spring in springs if spring.compliance > 0.0]
         if len(springs) > 1:
             raise IncompatibleEffects("only one compliance can be in series")
         return springs
@@ -216,9 +230,7 @@ class Prepared:
         inside = {e.key(q.symbol) for e in self.effects if e.carried for q in e.amplitudes}
         return [(name, row) for name, row in self.terms if not (inner and name in inside)]
 
-    def _march(
-        self, values: Values, factors: Factors, spring: SeriesSlot, compliance: float
-    ) -> _Behind:
+    def _march(self, values: Values, factors: Factors, spring: _Spring) -> _Behind:
         """The spring and what moves behind it.
 
         Forces of the damper that do not depend on speed alone are those of the recorded motion. A
@@ -237,7 +249,7 @@ class Prepared:
         from erdctl.model.series_compliance import march
 
         refuse(self.effects)
-        s, inner = self.signals, spring.carries is None
+        s, inner = self.signals, spring.whole
         grid = speed_grid(float(np.abs(s.xdot).max()))
         by, memory = other(self.effects, values, s, inner=inner)
         apart = memory is not None and memory.yields
@@ -258,19 +270,19 @@ class Prepared:
             self.gas, s.x, s.xdot, s.step, rises, falls, s.starts, s.compressing, s.rests,
             held, slide, u_c, u_r, by, gain["gas"], gain["viscous"], gain["yield"],
             SpeedLaws(grid, viscous, sign, friction, factor), memory,
-            k[0], k[1], T[0], T[1], compliance, self.gap,
+            k[0], k[1], T[0], T[1], spring.compliance,
+            self.gap + spring.play,
             float(sum(values[e.key(m)] for e, m in masses(self.effects) if inner)),
+            spring.damping,
         )  # fmt: skip
         return _Behind(force, stretch, v, held + own, grid, viscous, friction, gain)
 
-    def _behind_spring(
-        self, values: Values, factors: Factors, spring: SeriesSlot, compliance: float
-    ) -> dict[str, Array]:
-        """Forces by group with a compliance [m/N] in series with the groups that it carries."""
+    def _behind_spring(self, values: Values, factors: Factors, spring: _Spring) -> dict[str, Array]:
+        """Forces by group with a compliance in series with the groups that it carries."""
         from erdctl.model.at_speed import along
 
-        s, inner = self.signals, spring.carries is None
-        b = self._march(values, factors, spring, compliance)
+        s, inner = self.signals, spring.whole
+        b = self._march(values, factors, spring)
         out = {
             "viscous": along(b.speed, b.grid, b.viscous) * b.gain["viscous"],
             "other": along(b.speed, b.grid, b.friction),

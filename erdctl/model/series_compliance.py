@@ -1,19 +1,19 @@
 """A spring in series with the damper, or with its fluid: the force feeds back on the motion.
 
-    de/dt = xdot - v,   s F = e beyond -g/2..g/2, 0 within,   x_p = x - e
+    de/dt = xdot - v,   F = e / s beyond -g/2..g/2, 0 within, + c de/dt,   x_p = x - e
     F = gas(x_p) + viscous(v) + F_ER sign(v) + friction(v) + m dv/dt + what the rod's motion makes
 
-e is the spring's stretch and g free play in its joint, which bears no force: after a reversal the
-spring unloads, the play is crossed, and it loads again.
+e is the spring's stretch, c what damps it and g free play in its joint, in which the spring bears
+no force: after a reversal it unloads, the play is crossed, and it loads again.
 
 Implicit in v: each sample solves one equation that is monotone in v, with a stick branch (v = 0,
 the spring alone moves) where the yield force holds. The rod's travel in a step is the mean of its
 speeds. The piston's is to its last speed v as that of a piston would be which is accelerated as the
 rod, where the spring is stiff to the step, and as it was in the last step, where it is soft:
 
-    dv = w dv_rod + (1 - w) dv_last,   w = dt / (dt + c s)
+    dv = w dv_rod + (1 - w) dv_last,   w = (dt + c s) / (dt + (c + c_v) s)
 
-with c the slope of the viscous law. So an error of second order in the step remains in stick,
+with c_v the slope of the viscous law. So an error of second order in the step remains in stick,
 behind a stiff spring, and behind a soft one, whose piston still moves as the rod turns. It is
 stable for every compliance s > 0 and goes over into the model without a spring as s goes to 0.
 A mass m takes its acceleration of the rod from the log, and that of the spring's stretch from the
@@ -38,6 +38,7 @@ from erdctl.core.recording import Array, Index
 from erdctl.model.at_speed import Leg, Other, SpeedLaws, followed, slid, value
 
 F = TypeVar("F", bound=Callable[..., object])
+BEGUN = 0.16  # s that a record's first force has acted before: as in a motion of 1 Hz
 LONGEST = 4.0  # of the mean speed in a step over the last one
 NEARLY = 1e-12  # of the spring's force, by which a piston must be driven to move: above rounding
 
@@ -87,7 +88,7 @@ def _excess(
             here, there = d.factor[branch, j], d.factor[branch, min(j + 1, len(d.grid) - 1)]
             plastic *= here + (there - here) * w
     rest = k * (i.x - at) + i.beside - _held(at, i.half, i.s)
-    rest += i.pull * (way * u - i.level)
+    rest += i.pull * way * u - i.push
     return float(rest + viscous * i.viscous + plastic * i.yields + friction)
 
 
@@ -95,7 +96,7 @@ def _excess(
 def _starting(branch: int, e: float, i: Leg, d: SpeedLaws, o: Other | None) -> float:
     """`_excess` of a piston that is about to move."""
     k, way = (i.k_c, 1.0) if branch == 0 else (i.k_r, -1.0)
-    rest = k * (i.x - e) + i.beside - _held(e, i.half, i.s) - i.pull * i.level
+    rest = k * (i.x - e) + i.beside - _held(e, i.half, i.s) - i.push
     plastic = i.Y * d.sign[branch, 0]
     if o is not None:
         rest += o.F_c * i.z
@@ -168,24 +169,25 @@ def _speed(
 
 @_borrowing
 def _moved(
-    e: float, mean: float, end: float, near: int, i: Leg, d: SpeedLaws, o: Other | None
+    e: float, mean: float, near: int, i: Leg, d: SpeedLaws, o: Other | None
 ) -> tuple[float, float, int, float, float, float]:
     """As a leg ends: stretch, speed behind the spring, node, signed yield force, smooth part of its
     sign law, part of the friction that follows.
 
-    mean, end : speed of the rod [m/s], over the leg and as it ends
+    mean : speed of the rod over the leg [m/s]
     near : node of the grid below the last speed, where the search begins; the new one is returned
     """
     m = len(d.grid)
     e += mean * i.dt
     j, there = min(max(near, 0), m - 2), 0 if i.v > 0.0 else 1
     c = abs(d.viscous[there, j + 1] - d.viscous[there, j]) / (d.grid[j + 1] - d.grid[j])
-    w = i.dt / max(i.dt + c * i.viscous * i.s, 1e-12)
+    stiff = i.dt + i.c * i.s
+    w = stiff / max(stiff + c * i.viscous * i.s, 1e-12)
     last = i.kept + (i.level - i.kept) * w
-    fastest = max(abs(i.v), abs(end), abs(2.0 * mean - end), 1e-12)
+    fastest = max(abs(i.v), abs(i.end), abs(2.0 * mean - i.end), 1e-12)
     # What rounding alone would move rests: it turned round and round, and with it the yield force
     # that the lag goes to, and a gas stiffer in one direction gave a jump of the force.
-    to_go, nearly = 0.0, NEARLY * abs(_held(e, i.half, i.s))
+    to_go, nearly = 0.0, NEARLY * abs(_held(e, i.half, i.s) + i.c * i.end)
     for branch in range(2):
         way = 1.0 if branch == 0 else -1.0
         part = _mean(i.v * way, last * way)
@@ -222,7 +224,7 @@ def march(
     compressing: npt.NDArray[np.bool_], rests: npt.NDArray[np.bool_], beside: Array, slide: Array,
     u_c: Array, u_r: Array, by: Array, g_gas: Array, g_visc: Array, g_yield: Array, d: SpeedLaws,
     o: Other | None, k_c: float, k_r: float, T_c: float, T_r: float, s: float, gap: float,
-    mass: float,
+    mass: float, c: float,
 ) -> tuple[Array, Array, Array, Array]:  # fmt: skip
     """Force of the spring (n,) [N], its stretch (n,) [m], the speed behind it (n,) [m/s], and (n,)
     what the piston's own motion adds to `beside` [N].
@@ -235,6 +237,7 @@ def march(
     s : compliance [m/N] > 0;  gap : free play [m]
     mass : that goes with the piston [kg]; `beside` has it by the acceleration of the rod, and the
         difference of the two is that of their speeds, which noise of the rod's speed leaves alone
+    c : damping of the spring [N s/m]
     rests : (r,) records that begin at rest, in the middle of the play
 
     A step in which the rod turns is made of two legs, before and after: by the mean speed of the
@@ -248,7 +251,8 @@ def march(
         up = compressing[first]
         way = 1.0 if up else -1.0
         y = u_c[first] if up else u_r[first]
-        # No step lies before it: the record begins with the spring's force steady.
+        # No step lies before it: the record begins with the spring's force steady, as far as its
+        # damping lets it be by then.
         v = xdot[first]
         still = v == 0.0 or (rests[r] and gap > 0.0)
         k = (k_c if up else k_r) * g_gas[first]
@@ -268,9 +272,10 @@ def march(
             other += was * g_yield[first] * value(d.factor, d.grid, v, way)
             other += value(d.friction, d.grid, v, way)
         was, smooth = (0.0, 0.0) if still else (was, smooth)
-        F = (k * x[first] + other) / (1.0 + k * s)
+        soft = s / (1.0 + c * s / BEGUN)
+        F = (k * x[first] + other) / (1.0 + k * soft)
         near, rate = np.searchsorted(d.grid, abs(v)) - 1, 0.0
-        e = s * F + (0.0 if still else half if F > 0.0 else -half)
+        e = soft * F + (0.0 if still else half if F > 0.0 else -half)
         force[first], stretch[first], speed[first], own[first] = F, e, v, rubs * z
         for i in range(first + 1, starts[r + 1]):
             v0, v1, dt = xdot[i - 1], xdot[i], step[i - 1]
@@ -294,14 +299,15 @@ def march(
                     last, fade = decay, np.exp(-decay)
                 y_0, y = y, u + (y - u) * fade
                 pull, level = mass / max(span, 1e-9), end + v - begun
-                kept = v + rate * span
                 now = Leg(
                     span, x_end, rod_end, other, y, by[i], k_c * g_gas[i], k_r * g_gas[i],
-                    g_visc[i], g_yield[i], half, s, was, y_0, smooth, z, pull, level, v, kept,
+                    g_visc[i], g_yield[i], half, s, was, y_0, smooth, z, c, end,
+                    pull + c, pull * level + c * end, v, level, v + rate * span,
                 )  # fmt: skip
-                e, v, near, was, smooth, z = _moved(e, mean, end, near, now, d, o)
-                up = v > 0.0 if v != 0.0 else up
+                e, v, near, was, smooth, z = _moved(e, mean, near, now, d, o)
+                up = v > 0.0 if abs(v) >= d.grid[0] else up  # rounding turns what comes to rest
                 added = rubs * z + pull * (v - level)
             rate = (v - was_v) / max(dt, 1e-9)
-            force[i], stretch[i], speed[i], own[i] = _held(e, half, s), e, v, added
+            force[i] = _held(e, half, s) + c * (v1 - v)
+            stretch[i], speed[i], own[i] = e, v, added
     return force, stretch, speed, own

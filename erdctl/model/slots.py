@@ -268,11 +268,21 @@ class DrivenSlot(FunctionSlot[DrivenFunction]):
 
 
 class SeriesSlot(FunctionSlot[NumberFunction]):
-    """Compliance [m/N] in series with some groups, or with the whole damper (`carries` None)."""
+    """Compliance [m/N] in series with some groups, or with the whole damper (`carries` None).
 
-    def __init__(self, function: NumberFunction, carries: tuple[str, ...] | None = None) -> None:
+    damping : (p) -> what damps it [N s/m], across a play as well; None: nothing
+    free_play : (p) -> play [m] of its own, beside that of joints which it takes over; None: none
+    """
+
+    def __init__(
+        self,
+        function: NumberFunction,
+        carries: tuple[str, ...] | None = None,
+        damping: NumberFunction | None = None,
+        free_play: NumberFunction | None = None,
+    ) -> None:
         super().__init__(function)
-        self.carries = carries
+        self.carries, self.damping, self.free_play = carries, damping, free_play
 
     def __call__(self, p: Values) -> float:
         return number(self.function, called(self.function, p))
@@ -306,6 +316,11 @@ Slot = (
 )  # fmt: skip
 
 
-def free_play_of(slot: MotionSlot, p: Values) -> float:
-    """Play in a joint [m]; 0 for a motion that has none."""
+def free_play_of(slot: MotionSlot | SeriesSlot, p: Values) -> float:
+    """Play in a joint [m]; 0 for a motion, or a spring, that has none."""
     return 0.0 if slot.free_play is None else number(slot.free_play, called(slot.free_play, p))
+
+
+def damping_of(slot: SeriesSlot, p: Values) -> float:
+    """What damps a spring [N s/m]; 0 where nothing does."""
+    return 0.0 if slot.damping is None else number(slot.damping, called(slot.damping, p))

@@ -2,8 +2,9 @@
 
 A spring in series hides the speed of what lies behind it; it is found from
 
-    mount:  e / s = fluid + gas + stops + seals + m dv/dt,   x_p' = x_p + h v
-            e = x - x_p beyond -g/2..g/2, 0 within: play in the mount's joint bears no force
+    mount:  e / s + c de/dt = fluid + gas + stops + seals + m dv/dt,   x_p' = x_p + h v
+            e = x - x_p beyond -g/2..g/2, 0 within: play in the mount's joint bears no force but
+            that of what fills it, c (xdot - v)
     fluid column:  (e - h v) / s = fluid,   e = deflection of the column if its fluid stood still
 
 by implicit Euler, which is stable for every s > 0. At v = 0 the dry forces may take any value
@@ -28,7 +29,8 @@ class Instant(NamedTuple):
     """What is known before the speed at the end of a fine step is.
 
     x0, v0, way0 : position, speed and direction of the body behind the spring before the step
-    drive : deflection that pulls the spring [m];  x1 : of the piston, where the spring is not its
+    drive, rate : deflection that pulls the spring [m], and its speed [m/s]
+    x1 : of the piston, where the spring is not its [m]
     yielding, goal_c, goal_r : yield state before the step, and its targets [N]
     bend : friction of the bent seal before the step [N];  void : not yet taken up [m]
     on_gas, on_viscous, on_yield : factors of faults, heat and the like
@@ -40,6 +42,7 @@ class Instant(NamedTuple):
     v0: float
     way0: float
     drive: float
+    rate: float
     x1: float
     fade: Fades
     yielding: float
@@ -98,7 +101,7 @@ def _excess(v: float, way: float, mode: int, i: Instant, up: Side, down: Side, p
     """Force of the spring beyond that of the body behind it [N]; falls with v."""
     if mode == MOUNT:
         x = i.x0 + i.h * v
-        spring = stretch(i.drive - x, p) / p.mount
+        spring = stretch(i.drive - x, p) / p.mount + p.film * (i.rate - v)
         inertia = p.mass * (v - i.v0) / i.h
         return (
             spring - inertia
@@ -122,7 +125,7 @@ def balanced(mode: int, i: Instant, up: Side, down: Side, p: Physics) -> tuple[f
     # w = |v|; a straight line through what is linear lands on the root if all is linear.
     slope = i.h / soft + i.on_viscous * side.c_vis
     if mode == MOUNT:
-        slope += p.mass / i.h
+        slope += p.mass / i.h + p.film
     low, f_low = 0.0, first
     high = first / slope
     f_high = way * _excess(way * high, way, mode, i, up, down, p)

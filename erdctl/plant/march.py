@@ -134,14 +134,14 @@ def march(
         za = 0.0 if free else a[k]
         if p.mount > 0.0 and k > 0:
             i = Instant(
-                h, xp, vp, way, x[k], 0.0, fade, yielding, goal_c, goal_r, bend, void, oil,
-                on_viscous, on_yield, told, sign,
+                h, xp, vp, way, x[k], v[k], 0.0, fade, yielding, goal_c, goal_r, bend, void,
+                oil, on_viscous, on_yield, told, sign,
             )  # fmt: skip
             vp1, now = balanced(MOUNT, i, up, down, p)
             if step > 0.0:
                 yielding = yield_state(vp1, now, i, up, down, p)
             xp1 = xp + h * vp1
-            F[k] = stretch(x[k] - xp1, p) / p.mount
+            F[k] = stretch(x[k] - xp1, p) / p.mount + p.film * (v[k] - vp1)
             power = 0.0
             if p.heating != 0.0:
                 power = fluid(xp1, vp1, now, i, up, down, p) * vp1
@@ -154,14 +154,14 @@ def march(
                 goal_c = goal_r = 0.0  # sign(0) = 0
                 last = -1.0
             i = Instant(
-                step, xp, vp, way, 0.0, 0.0, fade, yielding, goal_c, goal_r, bend, void, oil,
-                on_viscous, on_yield, told, sign,
+                step, xp, vp, way, 0.0, 0.0, 0.0, fade, yielding, goal_c, goal_r, bend, void,
+                oil, on_viscous, on_yield, told, sign,
             )  # fmt: skip
             held = beside(xp1, vp1, now, i, up, down, p)
             if p.fluid_spring > 0.0 and k > 0:
                 c = Instant(
-                    h, xp, vf, way_f, column + (xp1 - xp), xp1, fade, yielding, goal_c, goal_r,
-                    bend, void, oil, on_viscous, on_yield, told, sign,
+                    h, xp, vf, way_f, column + (xp1 - xp), 0.0, xp1, fade, yielding, goal_c,
+                    goal_r, bend, void, oil, on_viscous, on_yield, told, sign,
                 )  # fmt: skip
                 vf, now_f = balanced(COLUMN, c, up, down, p)
                 if step > 0.0:

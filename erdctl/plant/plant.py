@@ -28,6 +28,7 @@ class Physics(NamedTuple):
 
     gap: float = 0.0  # free play between rod and piston [m]
     mount: float = 0.0  # compliance of the mount in series [m/N]
+    film: float = 0.0  # what damps the mount, and the play of its joint [N s/m]
     stop_high: float = FOREVER  # deflection at which the bump stop is touched [m]
     stop_low: float = -FOREVER  # and the rebound stop [m]
     stop_rate: float = 0.0  # stiffness of the stops [N/m]

@@ -57,6 +57,7 @@ class Twin:
     """An effect: how a strength s becomes physics.
 
     name : as the file's;  family : effects of one family fill the same place, and are not paired
+    also : a second family, of what fills two places
     part : of the force ("gas", "viscous", "yielding" or "") without which it cannot be seen
     low, start, high : strengths between which the wanted level is sought; low is all but nothing
     build : plant, s, drawn shape, scales -> plant
@@ -82,6 +83,7 @@ class Twin:
     shows: Mapping[str, str]
     law: Callable[[Plant], Law] | None = None
     lies: Lies | None = None
+    also: str = ""
     part: str = ""
     shape: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     hidden: bool = False
@@ -96,4 +98,5 @@ class Twin:
     def goes_with(self, other: Twin) -> bool:
         """Whether one damper can have both."""
         stiff = not ((self.soft and other.rigid) or (self.rigid and other.soft))
-        return stiff and self.family != other.family
+        apart = {self.family, self.also}.isdisjoint({other.family, other.also} - {""})
+        return stiff and apart

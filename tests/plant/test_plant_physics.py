@@ -35,6 +35,29 @@ def test_dashpot_and_spring_in_series_are_maxwells_element(field: str, s: float)
     assert got == pytest.approx(expected, rel=5e-3)
 
 
+@pytest.mark.parametrize("c_m", [30.0, 1000.0])
+@pytest.mark.parametrize("s", [1e-6, 1e-4, 2e-3])
+def test_a_damped_mount_is_kelvins_and_voigts(s: float, c_m: float) -> None:
+    """F = i w c K / (i w c + K) x, with K = 1 / s + i w c_m."""
+    got = phasor(simulate(DASHPOT.with_physics(mount=s, film=c_m), TONE))
+    dashpot, joint = 1j * OMEGA * 200.0, 1 / s + 1j * OMEGA * c_m
+    assert got == pytest.approx(A * dashpot * joint / (dashpot + joint), rel=5e-3)
+
+
+def test_what_fills_the_play_resists_while_it_is_crossed() -> None:
+    """Of a piston that rests: c times the speed of the rod."""
+    c, g = 100.0, 1e-3
+    plant = BINGHAM.with_physics(mount=1e-6, gap=g, film=c)
+    campaign = record(sine(F, A), constant(1.0))
+    force = simulate(plant, campaign)
+    _, x, v = ride(campaign).sampled()
+    turn = int(np.argmax(x[: round(RATE / F)]))
+    after = np.arange(turn, turn + round(0.3 * RATE / F))
+    inside = after[(x[turn] - x[after] > 0.1 * g) & (x[turn] - x[after] < 0.9 * g)]
+    assert len(inside) > 3
+    np.testing.assert_allclose(force[inside], c * v[inside], rtol=1e-3, atol=1e-3)
+
+
 def test_spring_and_mount_in_series_add_their_compliances() -> None:
     got = phasor(simulate(SPRING.with_physics(mount=1e-3), TONE))
     assert got == pytest.approx(A * 500.0, rel=5e-3)

@@ -174,7 +174,7 @@ def test_physics_of_its_own_that_gives_no_numbers_is_refused(added: str) -> None
 def test_rigid_twins_are_not_paired_with_soft_ones(added: str) -> None:
     soft = [n for n in EVERY if effect(n).soft]
     for seed in range(30):
-        plan = draw_plan(seed, kind="pair", effects=[*soft, added, "backlash"])
+        plan = draw_plan(seed, kind="pair", effects=[*soft, added, "backlash", "gas_preload"])
         assert len({e.name for e in plan.effects} & {*soft, added}) < 2
     both = hidden(added, 0.1).with_physics(mount=1e-5)
     with pytest.raises(ValueError, match="not modelled behind a spring"):

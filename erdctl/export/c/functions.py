@@ -76,6 +76,8 @@ def functions(effects: Iterable[Effect], *, springs: bool, plays: bool) -> str:
             out.append(_function("force", effect, TERM, c.force))
         if c.by and springs:
             out.append(_function("by", effect, TERM, c.by))
+        if c.damping:
+            out.append(_function("damping", effect, PLAY, c.damping))
         if c.play and plays:
             out.append(_function("play", effect, PLAY, c.play))
     return "\n\n".join(out)

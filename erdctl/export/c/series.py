@@ -127,13 +127,18 @@ def _parameter(effect: Effect, symbol: str) -> str:
 
 
 def joint(spring: Effect, effects: Sequence[Effect]) -> str:
-    """What the motion asks of the spring: its compliance, and the free play that it takes over."""
+    """What is asked of the spring: compliance, damping, and the free play that it takes over."""
     p = f"&st->p.{identifier(spring.name)}"
     plays = [e for e in effects if law_of(e).play and whole(spring)]
     lines = [f"gap += play_{identifier(e.name)}(&st->p.{identifier(e.name)});" for e in plays]
     return "\n\n".join([
         function(
             "real compliance", ["const State *st"], f"return law_{identifier(spring.name)}({p});"
+        ),
+        function(
+            "real spring_damping", ["const State *st"],
+            f"return damping_{identifier(spring.name)}({p});" if law_of(spring).damping
+            else "return K(0.0);",
         ),
         function(
             "real free_play", ["const State *st"],

@@ -237,6 +237,8 @@ TOGETHER = {
     " coulomb_friction gas_preload end_stop backlash thermal_fade fluid_inertia",
     "stretch behind a mount": "mount_compliance preyield_field_dependence preyield_elasticity"
     " coulomb_friction gas_polytropic quadratic_damping field_saturation",
+    "damped mount": "damped_backlash backlash fluid_inertia yield_hysteresis stribeck_friction"
+    " presliding_friction gas_polytropic thermal_fade",
     "loop of the fluid": "fluid_compressibility yield_hysteresis signed_yield_lag gas_polytropic",
     "no spring": "backlash thermal_fade gas_thermal_drift yield_hysteresis signed_yield_lag"
     " preyield_elasticity shear_thinning field_viscosity field_threshold supply_slew input_delay"

@@ -1,30 +1,32 @@
 /* A spring in series with the damper, or with its fluid (erdctl.model.series_compliance):
  *
- *     de/dt = xdot - v,  s F = e beyond -g/2..g/2, 0 within,  F = gas(x - e) + viscous(v)
- *         + F_ER sign(v) + friction(v)
+ *     de/dt = xdot - v,  F = e / s beyond -g/2..g/2, 0 within, + c de/dt,
+ *     F = gas(x - e) + viscous(v) + F_ER sign(v) + friction(v)
  *
  * implicit in v, with a stick branch v = 0; laws of v between their nodes are straight lines. */
 enum { NODES = 192 };
 typedef struct PREFIX_spring Spring;
 
+static const real BEGUN = K(0.16);  /* s that a first force has acted before: as in 1 Hz */
 static const real LONGEST = K(4.0);  /* of the mean speed in a step over the last one */
 /* Of the spring's force, which it takes to move a piston: above rounding. */
 static const real NEARLY = sizeof(real) < sizeof(double) ? K(3e-6) : K(1e-12);
 
-/* What a step behind the spring is given besides: compliance, half of the free play, stiffness of
- * the gas behind it, factors of the groups, forces that the rod's motion makes, divisor of the speed
- * in the sign law. */
+/* What a step behind the spring is given besides: compliance, half of the free play, damping,
+ * stiffness of the gas behind it, factors of the groups, forces that the rod's motion makes, divisor
+ * of the speed in the sign law. */
 typedef struct Joint {
-    real s, half, k[2];
+    real s, half, c, k[2];
     Groups gain;
     real beside, by;
 } Joint;
 
 /* A step, or a part of it, in one direction of the rod, as it ends: its length, x of the gas force,
- * deflection of the rod, forces beside, F_ER, and as it began; the mass over that length, the speed
- * at which the piston has the rod's acceleration, and that at which it has that of its last step. */
+ * deflection of the rod, forces beside, F_ER, and as it began; slope of mass and damping by the
+ * piston's speed, and their force at rest; its speed if it is accelerated as the rod, and if as in
+ * its last step. */
 typedef struct Leg {
-    real dt, x, rod, beside, Y, Y0, pull, level, kept;
+    real dt, x, rod, beside, Y, Y0, pull, push, level, kept;
 } Leg;
 
 /* A law that falls goes on as it is beyond its table: on its last line it would turn round. */
@@ -159,7 +161,7 @@ static real excess(const State *st, const Spring *b, const Joint *to, const Leg 
     else
         yields = leg->Y * between(st->sign_at[way], j + 1, w);
     return to->k[way] * (leg->x - at) + leg->beside - held(at, to)
-           + leg->pull * (direction * u - leg->level)
+           + leg->pull * direction * u - leg->push
            + between(st->viscous_at[way], j + 1, w) * to->gain.viscous + yields * to->gain.yield
            + between(st->friction_at[way], j + 1, w)
            + (SLIDES ? slide_force(st) * slid(st, b, way, u * span) : K(0.0));
@@ -174,7 +176,7 @@ static real starting(const State *st, const Spring *b, const Joint *to, const Le
     if (OTHER)
         yields = followed(st, b, to, leg, K(0.0), way, K(0.0), e, &smooth)
                  * st->factor_at[way][0];
-    return to->k[way] * (leg->x - e) + leg->beside - held(e, to) - leg->pull * leg->level
+    return to->k[way] * (leg->x - e) + leg->beside - held(e, to) - leg->push
            + yields * to->gain.yield + st->friction_at[way][0]
            + (SLIDES ? slide_force(st) * b->z : K(0.0));
 }
@@ -268,7 +270,8 @@ static void advance(const State *st, Spring *b, const Joint *to, const Leg *leg,
                     real end)
 {
     real dt = leg->dt, e = b->stretch + mean * dt, began = b->speed, way, span, part, u, smooth;
-    real nearly = NEARLY * FABS(held(e, to)), go = K(0.0), last, lag, start, least;
+    real nearly = NEARLY * FABS(held(e, to) + to->c * end), go = K(0.0), last, lag, start, least;
+    real stiff = dt + to->c * to->s;
     real fastest = FMAX(FMAX(FABS(began), FABS(end)),
                         FMAX(FABS(K(2.0) * mean - end), K(1e-12)));
     int branch, node = b->near;
@@ -278,7 +281,7 @@ static void advance(const State *st, Spring *b, const Joint *to, const Leg *leg,
     branch = b->speed > K(0.0) ? 0 : 1;
     lag = FABS(st->viscous_at[branch][node + 1] - st->viscous_at[branch][node])
           / (st->grid[node + 1] - st->grid[node]) * to->gain.viscous * to->s;
-    last = leg->kept + (leg->level - leg->kept) * (dt / FMAX(dt + lag, K(1e-12)));
+    last = leg->kept + (leg->level - leg->kept) * (stiff / FMAX(stiff + lag, K(1e-12)));
     b->stretch = e;
     b->speed = K(0.0);
     for (branch = 0; branch < 2; branch++) {
@@ -312,13 +315,15 @@ static void advance(const State *st, Spring *b, const Joint *to, const Leg *leg,
     stick(st, b, to, leg, e);
 }
 
-/* No step lies before the first sample: it begins with the spring's force steady. */
-static void set_out(const State *st, Spring *b, const Joint *to, const Sample *s, real x,
+/* Force of the first sample. No step lies before it: it begins with the spring's force steady, as
+ * far as its damping lets it be by then. */
+static real set_out(const State *st, Spring *b, const Joint *to, const Sample *s, real x,
                     const real u[2])
 {
     int way = s->up ? 0 : 1, j = above(st, FABS(s->xdot)), i;
     int still = (s->rests && to->half > K(0.0)) || !(FABS(s->xdot) > K(0.0));
     real w = part_of(st, j, FABS(s->xdot)), rest = to->beside, F;
+    real soft = to->s / (K(1.0) + to->c * to->s / BEGUN);
 
     b->z = s->xdot > K(0.0) ? K(1.0) : s->xdot < K(0.0) ? K(-1.0) : K(0.0);
     rest += SLIDES ? slide_force(st) * b->z : K(0.0);
@@ -342,13 +347,14 @@ static void set_out(const State *st, Spring *b, const Joint *to, const Sample *s
                 + b->was * to->gain.yield * between(st->factor_at[way], j, w)
                 + between(st->friction_at[way], j, w);
     }
-    F = (to->k[way] * x + rest) / (K(1.0) + to->k[way] * to->s);
+    F = (to->k[way] * x + rest) / (K(1.0) + to->k[way] * soft);
     b->near = j - 1;
-    b->stretch = to->s * F + (still ? K(0.0) : F > K(0.0) ? to->half : -to->half);
+    b->stretch = soft * F + (still ? K(0.0) : F > K(0.0) ? to->half : -to->half);
     b->speed = s->xdot;
     b->rate = b->pulled = K(0.0);
     b->faces = s->up;
     b->beside = to->beside;
+    return F;
 }
 
 /* One sample; returns the force of the spring. A step in which the rod turns has two legs. */
@@ -356,13 +362,12 @@ static real march(const State *st, Spring *b, const Joint *to, const Sample *s, 
                   const real u[2])
 {
     real v0 = s->xdot0, v1 = s->xdot, was = b->speed, mean, end, begun, part, lag;
+    real pull;
     int leg, way, turning = v0 * v1 < K(0.0);
     Leg now;
 
-    if (s->first) {
-        set_out(st, b, to, s, x, u);
-        return held(b->stretch, to);
-    }
+    if (s->first)
+        return set_out(st, b, to, s, x, u);
     part = turning ? v0 / (v0 - v1) : K(1.0);
     for (leg = 0; leg < (turning ? 2 : 1); leg++) {
         mean = K(0.5) * (v0 + v1);
@@ -390,19 +395,21 @@ static real march(const State *st, Spring *b, const Joint *to, const Sample *s, 
         now.Y0 = b->yielding;
         b->yielding += (u[way] - b->yielding) * -EXPM1(-now.dt / lag);
         now.Y = b->yielding;
-        now.pull = piston_mass(st) / FMAX(now.dt, K(1e-9));
+        pull = piston_mass(st) / FMAX(now.dt, K(1e-9));
         now.level = end + b->speed - begun;
+        now.pull = pull + to->c;
+        now.push = pull * now.level + to->c * end;
         now.kept = b->speed + b->rate * now.dt;
         advance(st, b, to, &now, mean, end);
-        b->pulled = now.pull * (b->speed - now.level);
-        if (b->speed > K(0.0) || b->speed < K(0.0))
+        b->pulled = pull * (b->speed - now.level);
+        if (FABS(b->speed) >= st->grid[0]) /* rounding turns what comes to rest */
             b->up = b->speed > K(0.0);
     }
     b->rate = (b->speed - was) / FMAX(s->h, K(1e-9));
     if (b->speed > K(0.0) || b->speed < K(0.0))
         b->faces = b->speed > K(0.0);
     b->beside = to->beside;
-    return held(b->stretch, to);
+    return held(b->stretch, to) + to->c * (v1 - b->speed);
 }
 
 /* Forces of the groups as they are behind the spring, of a force of it. */
@@ -436,6 +443,7 @@ static Joint joint_of(State *st, const Sample *s, const Groups *gain, real besid
 
     to.s = compliance(st);
     to.half = K(0.5) * free_play(st);
+    to.c = spring_damping(st);
     to.k[0] = WHOLE ? st->p.compression_k_nom * gain->gas : K(0.0);
     to.k[1] = WHOLE ? st->p.release_k_nom * gain->gas : K(0.0);
     to.gain = *gain;
