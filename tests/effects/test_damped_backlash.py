@@ -54,7 +54,7 @@ def test_without_damping_it_is_an_elastic_one_and_with_much_none() -> None:
     s = sine(1.5, STROKE, 2.0, 500.0, duty=0.3)
     elastic, plain = force("mount_compliance", s, {"s_m": 2e-5}), Model().force(s, PLAIN)
     least = force("damped_backlash", s, {"g": 0.0, "s_m": 2e-5, "c_m": 1e-3})
-    most = force("damped_backlash", s, {"g": 1e-3, "s_m": 1e-6, "c_m": 1e8})
+    most = force("damped_backlash", s, {"g": 1e-6, "s_m": 1e-6, "c_m": 1e8})
     assert least == pytest.approx(elastic, abs=1e-4 * np.ptp(elastic))
     moving = np.abs(s.xdot) > 1e-3
     assert most[moving] == pytest.approx(plain[moving], abs=1e-3 * np.ptp(plain))
