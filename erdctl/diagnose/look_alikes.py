@@ -77,6 +77,7 @@ def look_alikes(
         _keep(x, tasks)
     _keep(x, [_instead(parent, promises[e.name], best) for e in again])
     room = _misfit_leaves(x, rest, best)
+    richer = {c.name for c in likely if c.richer_than and related(c, effect)}
     found = {}
     for name, key in keys.items():
         other = x.explored.get(key)
@@ -84,7 +85,8 @@ def look_alikes(
             continue
         gain = compare(x.problem, other, best)
         near = gain.before - gain.after <= room
-        if gain.tied or near or is_preferred(x.problem, other, best):
+        # A richer form holds the effect itself: no other explanation, unless it has the name.
+        if (name not in richer and (gain.tied or near)) or is_preferred(x.problem, other, best):
             found[key] = name
     return [(found[key_of(h.effects)], h) for h in ranked(x.explored[key] for key in found)]
 

@@ -52,7 +52,8 @@ EFFECT = Effect(
     stage=Stage.MOTION,
     slot=SeriesSlot(damped_backlash, damping=damping, free_play=free_play),
     title="joint with free play whose filling damps, and whose flanks are elastic",
-    equation="F = e_g / s_m + c_m de/dt, x_p = x - e, xdot_p = xdot - de/dt",
+    equation="c_m de/dt = F - e_g / s_m, e_g = e beyond -g/2..g/2, x_p = x - e, "
+    "xdot_p = xdot - de/dt",
     said="{g} of free play, which {c_m} of damping crosses, between flanks of {s_m}",
     alters=(("x", "x_p"), ("xdot", "xdot_p")),
     source="Nordin and Gutman, Automatica 38 (2002) 1633-1649; Voigt, Ann. Phys. 283 (1892)",

@@ -10,6 +10,7 @@ import pyarrow.parquet as pq
 import pytest
 import trajectories
 from rig import campaign, noisy, recording
+from seeded import KNOWN
 
 from erdctl.core.recording import Recording, concatenate
 from erdctl.diagnose import thresholds
@@ -17,7 +18,7 @@ from erdctl.diagnose.conditions import most_told, one_speed_but_turns
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
 from erdctl.diagnose.problem import prepare
-from erdctl.effects import get, names
+from erdctl.effects import get
 from erdctl.io.logs import read_logs
 from erdctl.plant import draw, log
 
@@ -36,7 +37,7 @@ def at(*duties: float) -> Recording:
 
 def said(seed: int, path: Path, *candidates: str) -> Diagnosis:
     """The diagnosis of a sparse case that was explained by a wrong name."""
-    pq.write_table(log(draw(seed, kind="sparse", known=names())), path / "log.parquet")
+    pq.write_table(log(draw(seed, kind="sparse", known=KNOWN)), path / "log.parquet")
     found = read_logs([str(path / "log.parquet")], need_force=True, report=print).recording
     return diagnose(found, [get(n) for n in candidates], limits=False, learning=False)
 

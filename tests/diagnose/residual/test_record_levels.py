@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import trajectories
 from rig import noisy, recording
+from seeded import KNOWN
 
 from erdctl import plant
 from erdctl.core.recording import Array, Recording, concatenate
@@ -19,7 +20,7 @@ from erdctl.diagnose.record_effects import Varying
 from erdctl.diagnose.residual.predictability import lack_of_fit_of
 from erdctl.diagnose.residual.record_levels import records_apart
 from erdctl.diagnose.wording import remaining_text
-from erdctl.effects import catalogue, get
+from erdctl.effects import get
 from erdctl.estimate.starts import fresh_start
 
 GAINS = np.array([1.0, -1.5, 0.5, 0.9, -1.2, 0.3])  # of each record, less 1, times the scatter
@@ -99,7 +100,7 @@ def test_it_is_said_unless_it_is_carried() -> None:
 def test_a_law_of_the_past_stands_where_few_records_tell_it(seed: int) -> None:
     """The largest stroke so far softens the yield force, by up to 20 and 43 %, and few records come
     before it: `adequate` at three times the noise, and damping along the stroke in the other."""
-    table = plant.log(plant.draw(seed, known=[e.name for e in catalogue()]))
+    table = plant.log(plant.draw(seed, known=KNOWN))
     names = table["record"].to_pylist()
     starts = [i for i in range(len(names)) if i == 0 or names[i] != names[i - 1]]
     columns = {c: table[c].to_numpy() for c in ("t", "x", "xdot", "duty", "force")}
