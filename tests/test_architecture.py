@@ -128,7 +128,10 @@ def effects_named_in(path: Path) -> set[str]:
     elif path.stem != "faults":
         # An effect says which others force data can hardly tell from it, and which are part of it.
         effect = get(path.stem) if path.stem in names() else None
-        allowed = {*effect.equivalents, *effect.companions, *effect.includes} if effect else set()
+        allowed = set()
+        if effect:
+            allowed = {*effect.equivalents, *effect.companions, *effect.includes}
+            allowed |= {*effect.richer_than}
     return (strings & known) - allowed
 
 

@@ -1,9 +1,9 @@
 """Joint with free play whose filling damps, and whose flanks are elastic.
 
-    F = e_g / s_m + c_m de/dt,   x_p = x - e,   xdot_p = xdot - de/dt
+    F = e_g / s_m + c_m de/dt,   e_g = e - sign(e) min(|e|, g/2),   x_p = x - e
 
 x, x_p : (n,) stroke of the rod and of the piston [m];  F : (n,) damper force [N]
-e, e_g : what lies between them, and that beyond the play -g/2..g/2, 0 within [m]
+e, e_g : what lies between them, and what of it is beyond the play [m]
 g : free play [m];  s_m : compliance of its flanks [m/N], s_m >= 0, off at 0
 c_m : damping of what fills it [N s/m]: grease, oil that is squeezed out, rubber
 After a reversal the flanks unload; then the play is crossed, in which c_m de/dt alone is borne: the
@@ -52,7 +52,7 @@ EFFECT = Effect(
     stage=Stage.MOTION,
     slot=SeriesSlot(damped_backlash, damping=damping, free_play=free_play),
     title="joint with free play whose filling damps, and whose flanks are elastic",
-    equation="c_m de/dt = F - e_g / s_m, e_g = e beyond -g/2..g/2, x_p = x - e, "
+    equation="c_m de/dt = F - e_g / s_m, e_g = e - sign(e) min(|e|, g/2), x_p = x - e, "
     "xdot_p = xdot - de/dt",
     said="{g} of free play, which {c_m} of damping crosses, between flanks of {s_m}",
     alters=(("x", "x_p"), ("xdot", "xdot_p")),

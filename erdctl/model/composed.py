@@ -36,7 +36,7 @@ from erdctl.model.slots import (
     SignSlot,
     Values,
     ViscousSlot,
-    free_play_of,
+    number_of,
 )
 
 _AMPLITUDE_OF = dict(zip(GROUPS, ("k_nom", "c_vis", "sigma"), strict=True))
@@ -114,7 +114,7 @@ class Model:
         jointed, gap = self._jointed(values), 0.0
         for effect, motion in self.of(MotionSlot):
             if jointed and motion.free_play is not None:
-                gap += free_play_of(motion, effect.local(values))
+                gap += number_of(motion.free_play, effect.local(values))
             else:
                 s = motion(s, effect.local(values))
         for effect, control in self.of(ControlSlot):

@@ -23,8 +23,7 @@ from erdctl.model.slots import (
     SeriesSlot,
     Values,
     YieldSlot,
-    damping_of,
-    free_play_of,
+    number_of,
 )
 
 Factors = Mapping[str, Array]
@@ -217,7 +216,12 @@ class Prepared:
         """The compliance in series, if there is one."""
         all_ = [(slot, e.local(values)) for e, slot in in_slot(self.effects, SeriesSlot)]
         springs = [
-            _Spring(slot.carries is None, slot(p), damping_of(slot, p), free_play_of(slot, p))
+            _Spring(
+                slot.carries is None,
+                slot(p),
+                number_of(slot.damping, p),
+                number_of(slot.free_play, p),
+            )
             for slot, p in all_
         ]
         springs = [spring for spring in springs if spring.compliance > 0.0]

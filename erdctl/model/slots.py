@@ -270,8 +270,7 @@ class DrivenSlot(FunctionSlot[DrivenFunction]):
 class SeriesSlot(FunctionSlot[NumberFunction]):
     """Compliance [m/N] in series with some groups, or with the whole damper (`carries` None).
 
-    damping : (p) -> what damps it [N s/m], across a play as well; None: nothing
-    free_play : (p) -> play [m] of its own, beside that of joints which it takes over; None: none
+    damping, free_play : (p) -> what damps it, across a play as well [N s/m]; play of its own [m]
     """
 
     def __init__(
@@ -316,11 +315,6 @@ Slot = (
 )  # fmt: skip
 
 
-def free_play_of(slot: MotionSlot | SeriesSlot, p: Values) -> float:
-    """Play in a joint [m]; 0 for a motion, or a spring, that has none."""
-    return 0.0 if slot.free_play is None else number(slot.free_play, called(slot.free_play, p))
-
-
-def damping_of(slot: SeriesSlot, p: Values) -> float:
-    """What damps a spring [N s/m]; 0 where nothing does."""
-    return 0.0 if slot.damping is None else number(slot.damping, called(slot.damping, p))
+def number_of(function: NumberFunction | None, p: Values) -> float:
+    """What a slot's further function gives; 0 where it has none."""
+    return 0.0 if function is None else number(function, called(function, p))
