@@ -41,6 +41,7 @@ from erdctl.diagnose.slight_lag import (
 )
 from erdctl.diagnose.thin import thinned
 from erdctl.diagnose.unseen import Unseen, kept_aside, on_unseen
+from erdctl.diagnose.withdrawal import that_hold
 from erdctl.estimate.covariance import Fit
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
@@ -167,19 +168,16 @@ def diagnose(
         if 0 < len(settled.named) < len(searched.named):
             searched = named_again(thin, searched, settled.best, testable, workers, untested)
             chosen = refit(seen, searched, workers)
+        unfitted, withdrawn = problem.of(aside) if aside else None, tuple[Effect, ...]()
         while chosen is not None:
-            selection = chosen
-            unseen = on_unseen(problem.of(aside) if aside else None, chosen.base, chosen.best)
-            withdrawn = chosen.named if unseen[0].never_seen and unseen[0].worse else ()
-            if withdrawn:
-                selection = chosen.nothing
-                unseen = on_unseen(problem.of(aside), selection.base, selection.best)
+            selection, gone, unseen = that_hold(chosen, unfitted, seen, workers)
+            withdrawn += gone
             found, kept = findings(seen, selection), selection
             if aside:
                 selection = on_all(problem, selection, workers)
             fit, record_effects = fit_errors(problem, selection.best)
             idle = next((e for e in selection.named if _idle(e, fit, workers)), None)
-            chosen = refit(seen, chosen, workers, idle) if idle else None
+            chosen = refit(seen, kept, workers, idle) if idle else None
         progress("lack of fit", part_of("regression of the residual", 1, 1))
         lack_of_fit, taken = lack_of_fit_of(selection.best, seed), None
         if selection.named and _matters(problem, selection, lack_of_fit):
@@ -188,7 +186,7 @@ def diagnose(
                 withdrawn, found, taken = selection.named, (), part
                 selection, kept = selection.nothing, kept.nothing
                 base = selection.base
-                unseen = on_unseen(problem.of(aside) if aside else None, base, base)
+                unseen = on_unseen(unfitted, base, base)
                 lack_of_fit = lack_of_fit_of(selection.best, seed)
                 fit, record_effects = fit_errors(problem, selection.best)
         left = _matters(problem, selection, lack_of_fit)
@@ -196,7 +194,6 @@ def diagnose(
         more: Learned | None = None
         if learning and left and not (rig.blocking or untold):
             start = searched.base, _on_thin(thin, searched.best, selection.best)
-            unfitted = problem.of(aside) if aside else None
             more = learned(
                 (thin, seen, problem), unfitted, kept, start, testable, lack_of_fit, workers, seed
             )

@@ -280,6 +280,12 @@ LONGEST_LAG = 0.3
 # Origin: budget.
 LITTLE_BUT_NOISE = 1.0
 
+# Error on records kept aside over that of the model without effects, below which some of the chosen
+# effects hold, where all together do not.
+# Decides: whether they keep their names; what some records choose among asks for more than a sign.
+# Origin: none.
+HOLDS = 0.9
+
 # Part of what a plain form of an effect promises to leave, below which a richer one is fitted too.
 # Decides: whether it is looked at before the plain one is found, in whose place it is tried anyway.
 # Origin: budget; behind a spring every fit is a march.

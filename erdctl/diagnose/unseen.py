@@ -108,9 +108,14 @@ def on_unseen(aside: Problem | None, base: Hypothesis, best: Hypothesis) -> tupl
     """
     found = list(_left_out(base, best))
     if aside is not None:
-        pair = (_on(aside, h) for h in (base, best))
-        found.insert(0, _unseen(Left.ASIDE, 1, aside.recording.names, *pair))
+        found.insert(0, on_kept(aside, base, best))
     return tuple(found)
+
+
+def on_kept(aside: Problem, base: Hypothesis, best: Hypothesis) -> Unseen:
+    """Errors of two models on records that neither the fits nor the search has seen."""
+    pair = (_on(aside, h) for h in (base, best))
+    return _unseen(Left.ASIDE, 1, aside.recording.names, *pair)
 
 
 def _on(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
