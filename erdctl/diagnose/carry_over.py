@@ -85,7 +85,8 @@ def to_other_motions(x: Exploration, best: Hypothesis, *, or_records: bool = Fal
     while x.added(best):
         x.executor.progress("other motions", part_of("fits without a kind of motion", 1, 1))
         best = min(without_each(x, best), key=error)
-        if error(best) <= error(least):
+        dear = best.score > thresholds.DEAR * least.score  # too much for a hair's breadth elsewhere
+        if error(best) * (thresholds.CLEARLY if dear else 1.0) <= error(least):
             least = best
     return least
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from erdctl.diagnose import thresholds
+from erdctl.diagnose.carry_over import carries_over_as_well
 from erdctl.diagnose.comparison import compare_alike
 from erdctl.diagnose.executor import Task
 from erdctl.diagnose.forward_step import Exploration, related
@@ -20,7 +21,7 @@ def in_the_place_of_plain(
     x: Exploration, best: Hypothesis, candidates: Sequence[Effect]
 ) -> Hypothesis:
     """A hypothesis with a richer form in place of all its plain ones, where that is better by more
-    than chance."""
+    than chance, and carries over to other motions as well."""
     for effect in candidates:
         plain = tuple(e for e in x.added(best) if related(effect, e))
         if effect.richer_than and plain and effect not in best.effects:
@@ -64,6 +65,7 @@ def _changed(
         return best
     if earned:
         takes = compare_alike(x.problem, best, other).significant
+        takes = takes and carries_over_as_well(x, other, best)
     else:
         takes = not compare_alike(x.problem, other, best).significant
     if takes:

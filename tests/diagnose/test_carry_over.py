@@ -10,7 +10,7 @@ import trajectories
 from rig import noisy, recording
 
 from erdctl.core.recording import Recording, concatenate
-from erdctl.diagnose import carry_over
+from erdctl.diagnose import carry_over, thresholds
 from erdctl.diagnose.carry_over import (
     carries_over_as_well,
     left_out_exactly,
@@ -80,6 +80,20 @@ def test_nor_does_it_come_back_in_the_place_of_another(problem: Problem) -> None
         assert not carries_over_as_well(x, rival, best)
         assert carries_over_as_well(x, best, rival)
         assert carries_over_as_well(x, best, best)
+
+
+@pytest.mark.parametrize(("elsewhere", "kept"), [(0.97, True), (0.7, False)])
+def test_much_is_not_given_for_a_little_elsewhere(
+    problem: Problem, monkeypatch: pytest.MonkeyPatch, elsewhere: float, kept: bool
+) -> None:
+    """Of a real damper with two motions what took half of the error went for 3 % at the other."""
+    base, best = fit(problem), fit(problem, "coulomb_friction")
+    monkeypatch.setattr(thresholds, "DEAR", 1.05)
+    assert base.score > thresholds.DEAR * best.score
+    monkeypatch.setattr(carry_over, "_error", lambda few, kinds, h: 1.0 if h.effects else elsewhere)
+    with executor((problem,), 1, lambda stage, what: None) as here:
+        x = Exploration(problem, base, Explored([base, best]), here)
+        assert bool(to_other_motions(x, best).effects) == kept
 
 
 def test_each_kind_is_predicted_by_a_fit_to_the_others_alone(problem: Problem) -> None:
