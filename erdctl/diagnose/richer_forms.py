@@ -13,6 +13,7 @@ from erdctl.diagnose.comparison import compare_alike
 from erdctl.diagnose.executor import Task
 from erdctl.diagnose.forward_step import Exploration, related
 from erdctl.diagnose.hypothesis import Hypothesis
+from erdctl.diagnose.residual.predictability import misfit_is_left
 from erdctl.diagnose.screening import starts
 from erdctl.model.effect import Effect
 
@@ -20,8 +21,8 @@ from erdctl.model.effect import Effect
 def in_the_place_of_plain(
     x: Exploration, best: Hypothesis, candidates: Sequence[Effect]
 ) -> Hypothesis:
-    """A hypothesis with a richer form in place of all its plain ones, where that is better by more
-    than chance, and carries over to other motions as well."""
+    """A hypothesis with a richer form in place of all its plain ones, where it earns that, and
+    carries over to other motions as well."""
     for effect in candidates:
         plain = tuple(e for e in x.added(best) if related(effect, e))
         if effect.richer_than and plain and effect not in best.effects:
@@ -34,8 +35,8 @@ def in_the_place_of_plain(
 def plain_where_as_good(
     x: Exploration, best: Hypothesis, candidates: Sequence[Effect]
 ) -> Hypothesis:
-    """A hypothesis with the plain forms together in place of each richer one, unless that does
-    better by more than chance."""
+    """A hypothesis with the plain forms together in place of each richer one that does not earn its
+    name."""
     for effect in x.added(best):
         plain = tuple(e for e in candidates if e.name in effect.richer_than)
         if plain:
@@ -43,6 +44,14 @@ def plain_where_as_good(
             point = {e.key(q.symbol): own[q.symbol] for e in plain for q in e.quantities}
             best = _changed(x, best, (effect,), plain, [point], earned=False)
     return best
+
+
+def earns_it(x: Exploration, plain: Hypothesis, richer: Hypothesis) -> bool:
+    """Whether a richer form is better by more than chance, and where a misfit is left by more than
+    a little of it: of what is left of physics some speaks for either form."""
+    found = compare_alike(x.problem, plain, richer)
+    much = 1.0 - found.gain < thresholds.RICHER
+    return found.significant and (much or not misfit_is_left(richer))
 
 
 def _changed(
@@ -64,10 +73,9 @@ def _changed(
     if other is None:
         return best
     if earned:
-        takes = compare_alike(x.problem, best, other).significant
-        takes = takes and carries_over_as_well(x, other, best)
+        takes = earns_it(x, best, other) and carries_over_as_well(x, other, best)
     else:
-        takes = not compare_alike(x.problem, other, best).significant
+        takes = not earns_it(x, other, best)
     if takes:
         x.explored.keep(other)
     return other if takes else best

@@ -29,7 +29,11 @@ from erdctl.diagnose.look_alikes import is_preferred, look_alikes
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.predictability import misfit_is_left, search_is_worthwhile
 from erdctl.diagnose.resolved import resolved
-from erdctl.diagnose.richer_forms import in_the_place_of_plain, plain_where_as_good
+from erdctl.diagnose.richer_forms import (
+    earns_it,
+    in_the_place_of_plain,
+    plain_where_as_good,
+)
 from erdctl.estimate.starts import fresh_start
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
@@ -161,6 +165,7 @@ def _named(
     for effect in x.added(best):
         found = look_alikes(x, best, effect, candidates, singles, untested)
         name = effect.name
+        richer = {c.name for c in candidates if c.richer_than and related(c, effect)}
         rest = x.explored[key_of(best.effects) - {name}]
         # It must be worth a name itself, or the next elimination leaves neither of the two.
         preferred = [
@@ -169,6 +174,7 @@ def _named(
             and f[0] not in key_of(untested) and is_preferred(problem, f[1], best)
             and compare_alike(problem, rest, f[1]).significant
             and carries_over_as_well(x, f[1], best) and not is_only_form(x, best, f[1])
+            and (f[0] not in richer or earns_it(x, best, f[1]))
         ]  # fmt: skip
         if preferred:
             name, first = preferred[0]

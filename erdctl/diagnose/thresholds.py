@@ -294,8 +294,9 @@ LITTLE_BUT_NOISE = 1.0
 HOLDS = 0.9
 
 # Part of what a plain form of an effect promises to leave, below which a richer one is fitted too.
-# Decides: whether it is looked at before the plain one is found, in whose place it is tried anyway.
-# Origin: budget; behind a spring every fit is a march.
+# Decides: whether it is looked at before the plain one is found, in whose place it is tried anyway;
+# and of what is left, where more than noise is, whether it has the name.
+# Origin: budget, behind a spring every fit is a march; none for the name.
 RICHER = 0.9
 
 # Starts of each companion that are combined, and combinations that are searched to the end.
