@@ -24,7 +24,8 @@ def is_preferred(problem: Problem, other: Hypothesis, best: Hypothesis) -> bool:
     """
     extra = len(other.model.quantities) - len(best.model.quantities)
     if extra < 0:
-        return not compare(problem, other, best).significant
+        loss = compare(problem, other, best)
+        return not loss.significant and loss.gain < thresholds.AS_GOOD
     gain = compare(problem, best, other)
     return gain.gain > 0.0 and not gain.pays if extra == 0 else gain.significant
 

@@ -100,11 +100,13 @@ def search(
             best, _ = _forward_selection(x, best, candidates, more, seed)
     if misfit_is_left(best, seed):
         best = in_the_place_of_plain(x, best, candidates)
-    best = plain_where_as_good(x, best, candidates)
     best = eliminate(x, best)
     best = second_pass(x, best, most)
     best = as_good_as_explored(x, best)
     best = to_other_motions(x, best)
+    # Beside what is needless others would hide what the richer form takes.
+    plain = plain_where_as_good(x, best, candidates)
+    best = best if plain is best else eliminate(x, plain)
     best = beyond_form_error(x, best, candidates)
     found = _named(x, best, candidates, singles, untested)
     return replace(found, simpler=_simpler(x, found.best))
