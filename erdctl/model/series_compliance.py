@@ -76,7 +76,7 @@ def _excess(
     way, k = (1.0, i.k_c) if branch == 0 else (-1.0, i.k_r)
     at = e - way * u * span
     viscous, plastic, friction = d.viscous[branch, j], d.sign[branch, j], d.friction[branch, j]
-    if w > 0.0:
+    if w != 0.0:
         viscous += (d.viscous[branch, j + 1] - viscous) * w
         friction += (d.friction[branch, j + 1] - friction) * w
         plastic += (d.sign[branch, j + 1] - plastic) * w
@@ -151,6 +151,9 @@ def _speed(
     if high == m - 1:
         b = _excess(d.grid[high], high, 0.0, branch, span, e, i, d, o)
     slow, fast = d.grid[low], d.grid[high]
+    if low == 0 and a * way >= 0.0:  # below the first node, where the spring may bend as well
+        fast, b, slow = slow, a, 0.0
+        a = _excess(0.0, 0, -d.grid[0] / (d.grid[1] - d.grid[0]), branch, span, e, i, d, o)
     if i.half > 0.0 and span > 0.0:
         # The spring bends where it loses or takes up its play, and is far stiffer than the
         # damper beyond: H is straight on either side, not across.

@@ -245,6 +245,13 @@ static real speed_on(const State *st, const Spring *b, const Joint *to, const Le
     at_high = excess(st, b, to, leg, st->grid[high], low, K(1.0), branch, span, e);
     slow = st->grid[low];
     fast = st->grid[high];
+    if (low == 0 && at_low * way >= K(0.0)) { /* below the first node, where it may bend as well */
+        fast = slow;
+        at_high = at_low;
+        slow = K(0.0);
+        at_low = excess(st, b, to, leg, slow, 0, -st->grid[0] / (st->grid[1] - st->grid[0]), branch,
+                        span, e);
+    }
     /* The spring bends where it loses or takes up its play: straight on either side. */
     for (side = 0; to->half > K(0.0) && span > K(0.0) && side < 2; side++) {
         u = way * (e - (side == 0 ? to->half : -to->half)) / span;
