@@ -81,8 +81,10 @@ def test_bounded_by_what_the_damper_can_give(
     def largest(symbol: str) -> float:
         return max(abs(values[f"{d}.{symbol}"]) for d in ("compression", "release"))
 
+    # Half of a play may lie between rod and piston, and a thick film keeps it there.
+    play = sum(v for k, v in values.items() if k.endswith("backlash.g"))
     bound = (
-        largest("k_nom") * np.abs(s.x).max() + largest("c_vis") * np.abs(s.xdot).max()
+        largest("k_nom") * (np.abs(s.x).max() + play / 2) + largest("c_vis") * np.abs(s.xdot).max()
         + largest("sigma")
     )  # fmt: skip
     assert np.abs(force).max() <= 1.001 * bound
