@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import partial
 
@@ -223,6 +223,8 @@ def diagnose(
         again = {f.effect.name for f in found}  # what a law leaves of the misfit, they take
         withdrawn = tuple(e for e in withdrawn if e.name not in again)
         taken = taken if withdrawn else None
+    if aside and withdrawn and found:
+        unseen = (replace(unseen[0], decided=True), *unseen[1:])
     refitted = scores.of(problem, base.model, base.values)
     corrected = scores.of(problem, fit.model, fit.values)
     undetected: tuple[Detectable, ...] = ()

@@ -44,6 +44,7 @@ class Unseen:
     left : what;  parts : number of fits, each without one of them
     names : of the records that were kept aside, otherwise none
     before, after : NRMSE over the range of the force, of the model to answer for and corrected
+    decided : whether these records have said which of the effects stay
     """
 
     left: Left
@@ -51,11 +52,12 @@ class Unseen:
     names: tuple[str, ...]
     before: float
     after: float
+    decided: bool = False
 
     @property
     def never_seen(self) -> bool:
         """Whether the choice of effects does not rest on these data, either."""
-        return self.left is Left.ASIDE
+        return self.left is Left.ASIDE and not self.decided
 
     @property
     def worse(self) -> bool:
@@ -155,5 +157,5 @@ def _unseen(
 ) -> Unseen:
     found = compare(after.problem, before, after)
     scale = float(np.ptp(after.problem.block.force))
-    errors = (float(np.sqrt(square)) / scale for square in (found.before, found.after))
-    return Unseen(left, parts, names, *errors)
+    before, after = (float(np.sqrt(square)) / scale for square in (found.before, found.after))
+    return Unseen(left, parts, names, before, after)

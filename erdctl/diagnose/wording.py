@@ -44,7 +44,9 @@ def unseen_text(u: Unseen) -> str:
     fell = f"NRMSE {u.before:.4f}, corrected {u.after:.4f}"
     match u.left:
         case Left.ASIDE:
-            which = f"{len(u.names)} records like others, that neither fit nor search has seen"
+            kept = "neither fit nor search has seen"
+            kept = "no fit has seen, but which decided what effects stay" if u.decided else kept
+            which = f"{len(u.names)} records like others, that {kept}"
             return f"on {which} ({', '.join(u.names)}): {fell}"
         case Left.MOTIONS:
             which = f"each of {u.parts} kinds of motion"

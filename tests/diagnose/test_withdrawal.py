@@ -25,3 +25,5 @@ def test_what_does_not_hold_takes_no_other_with_it(tmp_path: Path) -> None:
     assert [f.effect.name for f in said.findings] == ["input_delay"]
     assert [e.name for e in said.withdrawn] == ["field_threshold"]
     assert said.unseen[0].after < 0.8 * said.unseen[0].before
+    assert said.unseen[0].names
+    assert not said.unseen[0].never_seen  # it has decided

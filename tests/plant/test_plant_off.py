@@ -29,21 +29,9 @@ def test_defaults_are_off_bit_for_bit() -> None:
 def test_switches_that_change_nothing() -> None:
     """Parameters beside the one that is off do not matter."""
     idle = DAMPER.with_physics(
-        stop_high=0.001,
-        thin=0.02,
-        weaken=0.01,
-        polytropic=1.2,
-        v_ref=0.3,
-        v_s=0.2,
-        x_p=1e-3,
-        onset=1.0,
-        F_k=3.0,
-        lead=4.0,
-        void_growth=0.3,
-        bubbles=0.3,
-        cooling=0.1,
-    ).with_outside(bump_pitch=0.01, swings=2.0, memory_short=0.1, wear_travel=0.1)
-    idle = idle.with_physics(film=50.0)  # fmt: skip
+        stop_high=0.001, thin=0.02, weaken=0.01, polytropic=1.2, v_ref=0.3, v_s=0.2, x_p=1e-3,
+        onset=1.0, F_k=3.0, lead=4.0, void_growth=0.3, bubbles=0.3, cooling=0.1, film=50.0,
+    ).with_outside(bump_pitch=0.01, swings=2.0, memory_short=0.1, wear_travel=0.1)  # fmt: skip
     assert np.array_equal(forces(idle, over()), plain())
 
 
