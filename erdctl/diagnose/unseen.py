@@ -157,5 +157,5 @@ def _unseen(
 ) -> Unseen:
     found = compare(after.problem, before, after)
     scale = float(np.ptp(after.problem.block.force))
-    before, after = (float(np.sqrt(square)) / scale for square in (found.before, found.after))
-    return Unseen(left, parts, names, before, after)
+    first, last = (float(np.sqrt(square)) / scale for square in (found.before, found.after))
+    return Unseen(left, parts, names, first, last)
