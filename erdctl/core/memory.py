@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 
-from erdctl.core.errors import InputProblem
+from erdctl.core.errors import ComputationProblem, InputProblem
 
 # The columns, those derived from them by a model, and one more while something is computed.
 COPIES = 3
@@ -43,6 +45,15 @@ def check_claim(
             f" more than {DENSEST} times its file; it is damaged, or made to fill the memory",
             file=file,
         )
+
+
+@contextmanager
+def while_reading(name: str) -> Iterator[None]:
+    """Raise ComputationProblem where memory does not suffice to open or read a file."""
+    try:
+        yield
+    except MemoryError:
+        raise ComputationProblem(f"out of memory while reading {name}; split it") from None
 
 
 def gigabytes(size: int) -> str:

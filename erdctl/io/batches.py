@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator, Sequence
 
 import pyarrow as pa
 
-from erdctl.core.errors import ComputationProblem
+from erdctl.core.memory import while_reading
 from erdctl.io.formats import Format, by_content
 from erdctl.io.sources import STDIN, TableSource, guarded, native, open_source
 
@@ -27,12 +27,8 @@ def read_batches(
     with native(source.data) as file:
         tables = _tables(source, file, names, labels)
         while True:
-            try:
+            with while_reading(source.name):
                 table = guarded(source.name, source.format, lambda: next(tables, None))
-            except MemoryError:
-                raise ComputationProblem(
-                    f"out of memory while reading {source.name}; split it"
-                ) from None
             if table is None:
                 return
             if table.num_rows:

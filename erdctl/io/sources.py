@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 import pyarrow as pa
 
-from erdctl.core.errors import ComputationProblem, InputProblem, UsageProblem
+from erdctl.core.errors import InputProblem, UsageProblem
+from erdctl.core.memory import while_reading
 from erdctl.io.formats import CONTAINERS, Format, by_content
 from erdctl.io.stored import units_of
 from erdctl.io.urls import fetch, is_url
@@ -88,10 +89,22 @@ def open_source(
     text : what is given of how a text file is written
     assumed : the same where it is not written as the contract has it
     whole : whether it will be read at once
-    Raises UsageProblem if it cannot be opened, InputProblem if it is no table.
+    Raises UsageProblem if it cannot be opened, InputProblem if it is no table, ComputationProblem
+    if memory does not suffice.
     """
     name = "stdin" if path == STDIN else path
-    data = _data(path) if held is None else held
+    with while_reading(name):  # what a format needs is imported here as well
+        return _opened(path, name, _data(path) if held is None else held, text, assumed, whole)
+
+
+def _opened(
+    path: str,
+    name: str,
+    data: Data,
+    text: TextOptions | None,
+    assumed: TextOptions | None,
+    whole: bool,
+) -> TableSource:
     if isinstance(data, str):
         with open(data, "rb") as file:
             head = file.read(64)
@@ -191,7 +204,7 @@ def read_source(
         with native(source.data) as file:
             return arrow_in.read(file, source.size, source.columns, names, source.name)
 
-    try:
+    with while_reading(source.name):
         if not want_hash:
             return guarded(source.name, source.format, read), ""
         from concurrent.futures import ThreadPoolExecutor
@@ -200,8 +213,6 @@ def read_source(
             # Next to the parsing, hashing takes hardly any time.
             digest = pool.submit(sha256_of, source.data)
             return guarded(source.name, source.format, read), digest.result()
-    except MemoryError:
-        raise ComputationProblem(f"out of memory while reading {source.name}; split it") from None
 
 
 def read_table(

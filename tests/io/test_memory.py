@@ -55,24 +55,51 @@ def test_nothing_is_refused_where_the_system_does_not_tell(
     memory.check_fits(open_source(log(".csv")), 1000)
 
 
-def test_a_limit_of_the_process_counts(log: Callable[[str], str]) -> None:
+@pytest.mark.parametrize("suffix", [".csv", ".parquet", ".arrow"])
+def test_a_limit_of_the_process_counts(log: Callable[[str], str], suffix: str) -> None:
+    free, message = _read_within(log(suffix), 2_000_000, imported=True)
+    assert 0 <= int(free) <= 2_000_000
+    assert message.startswith("InputProblem")
+    assert "too large" in message
+
+
+@pytest.mark.parametrize("imported", [True, False])
+@pytest.mark.parametrize("bytes", [0, 100_000, 400_000])
+def test_a_limit_that_is_reached_before_the_samples(
+    log: Callable[[str], str], bytes: int, imported: bool
+) -> None:
+    _, message = _read_within(log(".parquet"), bytes, imported=imported)
+    assert message.startswith("ComputationProblem out of memory while reading") or (
+        "too large" in message
+    )
+
+
+def _read_within(path: str, bytes: int, *, imported: bool) -> list[str]:
+    """What a process says that may take so many bytes more: what is free, and of the log.
+
+    imported : whether all that reading needs was imported before
+    """
     program = (
-        "import resource, sys\n"
+        "import contextlib, resource, sys\n"
+        "from erdctl.core.errors import InputProblem\n"
         "from erdctl.core.memory import available\n"
         "from erdctl.io.logs import read_logs\n"
         "import pyarrow.parquet\n"
+        "path, more, imported = sys.argv[1:]\n"
+        "if imported == 'True':\n"
+        "    with contextlib.suppress(InputProblem):\n"
+        "        read_logs([path], need_force=False, report=lambda text: None)\n"
         "pages = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize()\n"
-        "resource.setrlimit(resource.RLIMIT_AS, (pages + 2_000_000,) * 2)\n"
+        "resource.setrlimit(resource.RLIMIT_AS, (pages + int(more),) * 2)\n"
         "print(available())\n"
         "try:\n"
-        "    read_logs([sys.argv[1]], need_force=False, report=print)\n"
+        "    read_logs([path], need_force=False, report=print)\n"
         "except Exception as error:\n"
         "    print(type(error).__name__, error)\n"
     )
     done = subprocess.run(
-        [sys.executable, "-c", program, log(".parquet")], capture_output=True, text=True
+        [sys.executable, "-c", program, path, str(bytes), str(imported)],
+        capture_output=True,
+        text=True,
     )
-    free, message = done.stdout.splitlines()
-    assert 0 <= int(free) <= 2_000_000
-    assert message.startswith("InputProblem")
-    assert "too large" in message
+    return done.stdout.splitlines()
