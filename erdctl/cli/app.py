@@ -87,6 +87,10 @@ def quiet_option() -> TyperOption:
     )
 
 
+# What the loader of a compiled library says where a limit of memory leaves no room for it.
+_UNMAPPED = ("failed to map segment", "cannot allocate memory")
+
+
 class Guarded(TyperGroup):
     """Turns every foreseen error into one line on stderr and the documented exit code."""
 
@@ -126,6 +130,10 @@ class Guarded(TyperGroup):
         except ErdctlError as error:
             raise _end(str(error), error.exit_code) from None
         except MemoryError:
+            raise _end("out of memory", ExitCode.NOT_COMPLETED) from None
+        except ImportError as error:
+            if not any(reason in str(error).lower() for reason in _UNMAPPED):
+                raise
             raise _end("out of memory", ExitCode.NOT_COMPLETED) from None
         except OSError as error:
             raise _full(error) from None

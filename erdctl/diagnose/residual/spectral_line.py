@@ -75,8 +75,25 @@ def _line(problem: Problem, values: Array) -> tuple[SpectralLine, float]:
     size, lowest = 2 * thresholds.LINE_AROUND, thresholds.LINE_LOWEST
     if len(spectrum) <= lowest:  # records of some ten samples have no spectrum to speak of
         return SpectralLine(0.0, 0.0), 0.0
-    around = np.maximum(median_filter(spectrum, size=size, mode="nearest"), 1e-300)
+    # A spectrum is even about its ends: a line at the last of it, as the mains are at twice their
+    # frequency, is not what is around.
+    around = np.maximum(median_filter(spectrum, size=size, mode="mirror"), 1e-300)
     at = lowest + int(np.argmax(spectrum[lowest:]))
-    total = max(float(np.dot(weighted, values)), 1e-300)
     frequency = at / (bins * s.typical_step) if s.typical_step else 0.0
-    return SpectralLine(frequency, float(spectrum[at]) / total), float(spectrum[at] / around[at])
+    line = SpectralLine(frequency, _share(problem, values, at / bins))
+    return line, float(spectrum[at] / around[at])
+
+
+def _share(problem: Problem, values: Array, frequency: float) -> float:
+    """What a sine of each record takes of the square of (n,) values; frequency per sample.
+
+    Fitted, as sine and cosine are one near half the samples' rate, where a spectrum counts both.
+    """
+    s, root = problem.block.signals, np.sqrt(problem.block.weight)
+    weighted, taken = root * values, 0.0
+    for a, b in pairwise(s.starts.tolist()):
+        angle = 2.0 * np.pi * frequency * np.arange(b - a)
+        sines = root[a:b, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+        found = sines @ np.linalg.lstsq(sines, weighted[a:b], rcond=1e-6)[0]
+        taken += float(np.dot(found, found))
+    return taken / max(float(np.dot(weighted, weighted)), 1e-300)
