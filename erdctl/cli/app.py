@@ -23,6 +23,7 @@ from erdctl.cli.options import EXIT_CODES
 from erdctl.cli.streams import open_streams
 from erdctl.core.errors import ErdctlError, ExitCode, InputProblem
 from erdctl.core.leftovers import end_cleanly
+from erdctl.core.memory import check_room
 from erdctl.core.messages import CELL, shown, tell
 from erdctl.core.version import __version__
 from erdctl.report.text import QUIET
@@ -44,6 +45,7 @@ class Command(TyperCommand):
         from erdctl.cli import files
         from erdctl.io.atomic import together
 
+        check_room()
         project = _project(ctx)
         names = files.names(self.params, ctx.params)
         with in_force.force(project), together([*in_force.names(project), *names]):

@@ -13,6 +13,9 @@ COPIES = 3
 SMALL = 1 << 31  # bytes that are granted whatever the file looks like
 # Measured channels have noise in every sample; no compression makes less than half a bit of 64.
 DENSEST = 200
+LIBRARIES = 760_000_000  # bytes of address space from which `validate` works, with two cores
+# What pyarrow and Python say where a process may have no more threads, or no memory for one.
+_NO_THREAD = ("launch worker", "start new thread")
 _CGROUP = "/sys/fs/cgroup"
 
 
@@ -49,11 +52,37 @@ def check_claim(
 
 @contextmanager
 def while_reading(name: str) -> Iterator[None]:
-    """Raise ComputationProblem where memory does not suffice to open or read a file."""
+    """Raise ComputationProblem where memory or threads do not suffice to open or read a file."""
     try:
         yield
     except MemoryError:
         raise ComputationProblem(f"out of memory while reading {name}; split it") from None
+    except RuntimeError as error:
+        check_threads(error, name)
+        raise
+
+
+def check_threads(error: Exception, name: str) -> None:
+    """Raise ComputationProblem if an error is that no thread could be started to read a file."""
+    if any(said in str(error) for said in _NO_THREAD):
+        raise ComputationProblem(
+            f"no thread can be started to read {name}: a limit of memory or processes is reached"
+            " (ulimit -v, -u)"
+        ) from None
+
+
+def check_room() -> None:
+    """Raise ComputationProblem where this process may have less memory than its libraries take.
+
+    Their linear algebra would try again for ever, deaf to signals, or end the process with the exit
+    code of a check that failed.
+    """
+    limit = _limit()
+    if limit is not None and limit < LIBRARIES:
+        raise ComputationProblem(
+            f"out of memory: this process may have {gigabytes(limit)} of address space (ulimit -v),"
+            f" and its libraries take {gigabytes(LIBRARIES)}"
+        )
 
 
 def gigabytes(size: int) -> str:
@@ -90,14 +119,19 @@ def _of_the_container() -> int | None:
     return int(limit[0]) - int(used[0]) + int(statistics.get("inactive_file", 0))
 
 
-def _of_the_process() -> int | None:
+def _limit() -> int | None:
+    """Bytes of address space that this process may have at most, None if as many as it likes."""
     try:
         import resource
     except ImportError:
         return None
     limit = resource.getrlimit(resource.RLIMIT_AS)[0]
-    pages = _lines("/proc/self/statm")
-    if limit == resource.RLIM_INFINITY or not pages:
+    return None if limit == resource.RLIM_INFINITY else limit
+
+
+def _of_the_process() -> int | None:
+    limit = _limit()
+    if limit is None or not (pages := _lines("/proc/self/statm")):
         return None
     return limit - int(pages[0].split()[0]) * os.sysconf("SC_PAGE_SIZE")
 

@@ -12,6 +12,7 @@ from contextlib import contextmanager
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem
+from erdctl.core.memory import check_threads
 from erdctl.io.csv_out import as_csv_text
 from erdctl.io.plain import NUMBER
 from erdctl.io.problems import Wrong, problem_of
@@ -77,6 +78,7 @@ def read(
     except MemoryError:
         raise
     except _FAILURES as error:
+        check_threads(error, file)
         start, line = _first_bad_block(data, names, columns, numbers)
         rows = _rows(data, file, start, line)
         raise _explained(rows, file, names, columns, numbers, error, first=start == 0) from None

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem, UsageProblem
-from erdctl.core.memory import while_reading
+from erdctl.core.memory import check_threads, while_reading
 from erdctl.io.formats import CONTAINERS, Format, by_content
 from erdctl.io.stored import units_of
 from erdctl.io.urls import fetch, is_url
@@ -279,6 +279,7 @@ def guarded(name: str, format: Format, read: Callable[[], T]) -> T:
     except MemoryError:
         raise
     except (pa.ArrowException, OSError, UnicodeDecodeError) as error:
+        check_threads(error, name)
         reason = str(error).splitlines()[0][:200]
         raise InputProblem(
             f"damaged or cut off {format.value} ({reason}); write or copy it again", file=name

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import resource
 import subprocess
 import sys
 from collections.abc import Callable
@@ -11,9 +12,9 @@ import numpy as np
 import pyarrow as pa
 import pytest
 
-from erdctl.core.errors import InputProblem
+from erdctl.core.errors import ComputationProblem, ExitCode, InputProblem
 from erdctl.io import memory
-from erdctl.io.sources import open_source
+from erdctl.io.sources import open_source, read_source
 from erdctl.io.tables import write_table
 
 
@@ -103,3 +104,41 @@ def _read_within(path: str, bytes: int, *, imported: bool) -> list[str]:
         text=True,
     )
     return done.stdout.splitlines()
+
+
+@pytest.mark.parametrize("megabytes", [120, 300, 480, 560, 700])
+@pytest.mark.parametrize("command", ["inspect", "identify", "diagnose"])
+def test_less_than_the_libraries_take(
+    log: Callable[[str], str], command: str, megabytes: int
+) -> None:
+    """Linear algebra waited for ever, or ended with the exit code of a check that failed."""
+    size = 1_000_000 * megabytes
+    done = subprocess.run(
+        [sys.executable, "-m", "erdctl", command, log(".parquet")],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (size, size)),
+    )
+    assert done.returncode == ExitCode.NOT_COMPLETED
+    assert done.stderr.startswith(
+        f"erdctl: error: out of memory: this process may have 0.{megabytes // 100}"
+    )
+    assert done.stderr.count("\n") == 1
+
+
+def test_no_thread_is_no_damage(log: Callable[[str], str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """A file was called damaged, to be written again, where a limit left no thread to read it."""
+
+    def exhausted(*_: object, **__: object) -> None:
+        raise pa.ArrowException("Unknown error: Failed to launch worker thread")
+
+    for suffix, reader in (
+        (".csv", "pyarrow.csv.read_csv"),
+        (".parquet", "pyarrow.parquet.ParquetFile"),
+    ):
+        path = log(suffix)
+        with monkeypatch.context() as patch:
+            patch.setattr(reader, exhausted)
+            with pytest.raises(ComputationProblem, match="no thread can be started to read"):
+                read_source(open_source(path))

@@ -10,6 +10,7 @@ import numpy as np
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem
+from erdctl.core.memory import check_threads
 from erdctl.io.csv_out import as_csv_text
 from erdctl.io.text.cells import NUMBER, between_thousands, cells_of
 from erdctl.io.text.encoding import UTF8, decoded
@@ -54,6 +55,7 @@ def read_text(
     except MemoryError:
         raise
     except (*_FAILURES, _Unlike) as error:
+        check_threads(error, file)
         raise explained(data, layout, file, columns, numbers, error) from None
     if not table.num_rows and raw:
         raise InputProblem("a header but no samples", file=file)
