@@ -10,7 +10,7 @@ import numpy as np
 
 from erdctl.core.progress import part_of
 from erdctl.diagnose import thresholds
-from erdctl.diagnose.comparison import is_better
+from erdctl.diagnose.comparison import compare, is_better, ranked
 from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
@@ -86,6 +86,34 @@ def forward_step(
             if hypothesis is not None or not waiting[key]:
                 del waiting[key]
     return found
+
+
+def of_equivalents(
+    x: Exploration, best: Hypothesis, candidates: Sequence[Effect], stage: str
+) -> Hypothesis:
+    """A hypothesis with the equivalent in place of its last effect, where that does better.
+
+    Only one of the two was fitted. No force tells them apart but by a little, and what the wrong
+    one leaves of it, a strong effect's, would be given names before the look-alikes are compared.
+    """
+    *others, effect = best.effects
+    parent = x.explored[key_of(others)]
+    equivalents = [e for e in candidates if e.name in effect.equivalents]
+    fresh = [e for e in equivalents if key_of((*others, e)) not in x.explored]
+    if fresh:
+        screen = Screen(x.problem, parent, x.executor.most)
+        promises = [c for e in fresh if (c := screen.candidate(e)) is not None]
+        for hypothesis in x.executor.fit(
+            x.problem, [with_effect(stage, parent, c) for c in promises]
+        ):
+            if hypothesis is not None:
+                x.explored.keep(hypothesis)
+    keys = [key_of((*others, e)) for e in equivalents]
+    for other in ranked(x.explored[key] for key in keys if key in x.explored):
+        gain = compare(x.problem, best, other)
+        if gain.gain > 0.0 and not gain.tied and not gain.pays:
+            return other
+    return best
 
 
 def with_effect(stage: str, parent: Hypothesis, candidate: Candidate) -> Task:

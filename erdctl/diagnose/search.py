@@ -22,7 +22,7 @@ from erdctl.diagnose.companion_effects import companion_sets, joint_task
 from erdctl.diagnose.comparison import compare_alike, critical_of, ranked
 from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.form_error import beyond_form_error, is_only_form
-from erdctl.diagnose.forward_step import Exploration, Explored, forward_step, key_of, related
+from erdctl.diagnose.forward_step import Exploration, Explored, forward_step, key_of, of_equivalents, related
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.levels_of_records import not_of_records
 from erdctl.diagnose.look_alikes import is_preferred, look_alikes
@@ -274,7 +274,7 @@ def _forward_selection(
         critical = critical_of(x.problem, best, more)
         better = [h for h in more if compare_alike(x.problem, best, h).beyond(critical)]
         if better:
-            best = better[0]
+            best = better[0] = of_equivalents(x, better[0], candidates, stage)
         elif depth:
             break
         # Also hypotheses that gain nothing alone: together with another one may.
