@@ -22,7 +22,14 @@ from erdctl.diagnose.companion_effects import companion_sets, joint_task
 from erdctl.diagnose.comparison import compare_alike, critical_of, ranked
 from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.form_error import beyond_form_error, is_only_form
-from erdctl.diagnose.forward_step import Exploration, Explored, forward_step, key_of, of_equivalents, related
+from erdctl.diagnose.forward_step import (
+    Exploration,
+    Explored,
+    forward_step,
+    key_of,
+    of_equivalents,
+    related,
+)
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.levels_of_records import not_of_records
 from erdctl.diagnose.look_alikes import is_preferred, look_alikes
