@@ -97,43 +97,67 @@ def to_every_kind(x: Exploration, best: Hypothesis) -> Hypothesis:
     What an effect of the catalogue says holds wherever it is valid; a curve was seen at some
     strokes and speeds. What it gains on each kind that is left out, as the logarithm of the mean
     square, has a mean and a scatter over the kinds: a law stays where another kind that lies by as
-    much from the mean would still gain.
+    much from the mean would still gain. Each kind counts by the force that the law has there: one
+    that acts on a single kind, and there says nothing once it is left out, still helps the others,
+    whose fit is rid of that kind.
     """
     few = thinned(x.problem, thresholds.CARRY_SAMPLES)
     kinds = kinds_of_motion(few.recording, coarse=True)
     while True:
-        names = {e.name for e in best.effects if isinstance(e, LearnedEffect)}
-        fewer = [rest for rest in without_each(x, best) if names - key_of(rest.effects)]
+        fewer = [
+            (gone, rest) for rest in without_each(x, best) for gone in best.effects
+            if isinstance(gone, LearnedEffect) and gone.name not in key_of(rest.effects)
+        ]  # fmt: skip
         if not fewer:
             return best
         if kinds is None:
-            changes = [np.log([1.0 - compare(x.problem, rest, best).gain]) for rest in fewer]
+            gains = [compare(x.problem, rest, best).gain for _, rest in fewer]
+            unlikely = [_at_another(np.log([1.0 - gain]), np.ones(1)) for gain in gains]
         else:
             of_best = _by_kind(few, kinds, best)
-            changes = [_changes(of_best, _by_kind(few, kinds, rest)) for rest in fewer]
-        unlikely = [_at_another(change) for change in changes]
+            unlikely = [
+                _at_another(
+                    _changes(of_best, _by_kind(few, kinds, rest)), _acts(few, kinds, best, gone)
+                )
+                for gone, rest in fewer
+            ]
         worst = int(np.argmax(unlikely))
         if unlikely[worst] < 0.0:
             return best
-        best = fewer[worst]
+        best = fewer[worst][1]
+
+
+def _acts(problem: Problem, kinds: Index, hypothesis: Hypothesis, law: LearnedEffect) -> Array:
+    """(k,) sum of squares of the force of a law in each kind [N^2]."""
+    s = problem.block.signals
+    force, without = (
+        hypothesis.model.force(s, values)
+        for values in (hypothesis.values, {**hypothesis.values, **law.off})
+    )
+    return np.asarray(
+        np.bincount(kinds, problem.block.weight * (force - without) ** 2), dtype=float
+    )
 
 
 def _changes(best: Array, rest: Array) -> Array:
-    """(k,) logarithms of the ratio of mean squares, of the kinds that have samples with weight."""
+    """(k,) logarithms of the ratio of mean squares; 0 of a kind that has no samples with weight."""
     told = (best > 0.0) & (rest > 0.0)
-    return np.log(best[told] / rest[told]) if told.any() else np.zeros(1)
+    return np.log(np.where(told, best, 1.0) / np.where(told, rest, 1.0))
 
 
-def _at_another(changes: Array) -> float:
+def _at_another(changes: Array, acts: Array) -> float:
     """What the mean square of one kind more may change by: a logarithm, of (k,) of kinds left out.
 
+    acts : (k,) how much the law acts in each
     Check: three kinds of which 0.8 is left say too little of a fourth, ln 0.8 + 0.3 = 0.08; 0.6 is
-    enough, -0.51 + 0.3 = -0.21.
-    >>> [round(_at_another(np.log(np.full(3, left))), 2) for left in (0.8, 0.6)]
-    [0.08, -0.21]
+    enough, -0.51 + 0.3 = -0.21. Nor do kinds say anything where it does not act.
+    >>> left = np.log([[0.8, 0.8, 0.8], [0.6, 0.6, 0.6], [0.2, 0.2, 1.0]])
+    >>> [round(_at_another(of, acts), 2) for of, acts in zip(left, [[1, 1, 1]] * 2 + [[0, 0, 1]])]
+    [0.08, -0.21, 0.93]
     """
     scatter = float(np.std(changes, ddof=1)) if len(changes) > 1 else 0.0
-    return float(np.mean(changes)) + max(scatter, thresholds.NEW_KIND)
+    mean = float(np.average(changes, weights=acts)) if np.any(acts) else 0.0
+    return mean + max(scatter, thresholds.NEW_KIND)
 
 
 def _by_kind(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> Array:
