@@ -69,7 +69,8 @@ def kept_aside(recording: Recording, candidates: Sequence[Effect]) -> tuple[int,
     """Numbers of records that neither fit nor search is to see; none where there are too few.
 
     The ones most like another record, so that the rest still holds every kind of excitation; none
-    of the slowest, widest, longest or else extreme, and none if the rest could show less.
+    of the slowest, widest, longest or else extreme, none with duties between those of all others,
+    and none if the rest could show less.
     """
     count = len(recording.names)
     if count < thresholds.ASIDE_FROM:
@@ -78,13 +79,15 @@ def kept_aside(recording: Recording, candidates: Sequence[Effect]) -> tuple[int,
     apart = np.abs(at[:, None] - at[None]).max(axis=2)
     np.fill_diagonal(apart, np.inf)
     extreme = _extreme(recording, at)
+    duties = _duties(recording)
     chosen: list[int] = []
     for r in np.argsort(apart.min(axis=1), kind="stable").tolist():
         others = apart[r].copy()
         others[chosen] = np.inf
         if r not in extreme and np.isfinite(others).any() and len(chosen) < most:
             alone = others.min() > apart[r].min()  # what it is most like is aside already
-            chosen += [] if alone else [r]
+            held = [d for k, d in enumerate(duties) if k != r and k not in chosen]
+            chosen += [] if alone or not _within(duties[r], held) else [r]
     rest = recording.select([r for r in range(count) if r not in chosen])
     shows = [
         (set(unmet(log)), set(untestable(Survey.of(log), candidates))) for log in (recording, rest)
@@ -101,6 +104,29 @@ def _extreme(recording: Recording, at: Array) -> set[int]:
         ends += [np.array([float(c[s].max()) for s in recording.slices])]
         ends += [np.array([-float(c[s].min()) for s in recording.slices])]
     return {int(np.argmax(e)) for e in ends if np.ptp(e) > 0.0}
+
+
+def _duties(recording: Recording) -> list[Array]:
+    """Duties that each record holds, over the largest of all, by thousandths."""
+    most = max(float(recording.duty.max()), 1e-12)
+    return [np.unique(np.round(recording.duty[s] / most, 3)) for s in recording.slices]
+
+
+def _within(duties: Array, others: Sequence[Array]) -> bool:
+    """Whether most of some duties are near such as others hold.
+
+    Levels far from those of all others tell what no other record does, where a yield stress levels
+    off between them, say; a law is not to be judged by what its fit could not see.
+    >>> _within(np.array([0.0, 0.3]), [np.array([0.0, 0.5]), np.array([0.28, 1.0])])
+    True
+    >>> _within(np.array([0.0, 0.3]), [np.array([0.0, 0.5, 1.0])])
+    False
+    """
+    known = np.unique(np.concatenate(others))
+    after = np.clip(np.searchsorted(known, duties), 1, max(len(known) - 1, 1))
+    near = known[np.minimum(np.stack([after - 1, after]), len(known) - 1)]
+    apart = np.abs(near - duties).min(axis=0)
+    return float(np.mean(apart > thresholds.ASIDE_NEAR)) < thresholds.ASIDE_FAR
 
 
 def on_unseen(aside: Problem | None, base: Hypothesis, best: Hypothesis) -> tuple[Unseen, ...]:

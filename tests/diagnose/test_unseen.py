@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 
 import numpy as np
+import pyarrow.parquet as pq
 import pytest
 import trajectories
 from rig import campaign, noisy, recording
@@ -15,8 +17,11 @@ from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
 from erdctl.diagnose.kinds_of_excitation import kinds_of_motion, levels_of_duty
 from erdctl.diagnose.unseen import Left, kept_aside
 from erdctl.diagnose.wording import remaining_text
-from erdctl.effects import get
+from erdctl.effects import get, names
 from erdctl.io.diagnosis import to_json
+from erdctl.io.logs import read_logs
+from erdctl.plant import draw
+from erdctl.plant import log as log_of
 
 FRICTION = get("coulomb_friction")
 MOTIONS = ((0.7, 0.02), (1.9, 0.01), (3.1, 0.006), (1.2, 0.014))
@@ -73,6 +78,33 @@ def test_records_kept_aside_have_their_like_among_the_rest() -> None:
     assert kinds is not None
     first = kinds[log.starts[:-1]]
     assert set(first[list(aside)]) <= set(np.delete(first, aside))
+
+
+def test_a_record_whose_duties_no_other_has_is_not_kept_aside() -> None:
+    """However much its motion and the mean and spread of its duty are those of another."""
+    log, late = many().select(list(range(12))), np.arange(600) % 200 < 100
+    alike = log.select([10, 10])
+    duty = np.concatenate([np.where(late, 0.075, 0.225), np.where(late, 0.0, 0.3)])
+    held = replace(alike, duty=duty, names=("between", "ends"))
+    aside = kept_aside(concatenate([log, held]), [FRICTION])
+    assert len(aside) == 2
+    assert 12 not in aside
+    more = replace(held.select([0, 1]), duty=np.tile(duty[:600], 2), names=("again", "too"))
+    assert 12 in kept_aside(concatenate([log, held, more]), [FRICTION])
+
+
+def test_a_yield_stress_that_levels_off_between_the_levels_of_others_is_named(
+    tmp_path: Path,
+) -> None:
+    """The two records that tell where were kept aside, and what the others left open spoke
+    against the right name there."""
+    case = draw(1572073, known=names())
+    assert [t.name for t in case.truth] == ["field_saturation"]
+    pq.write_table(log_of(case), tmp_path / "log.parquet")
+    log = read_logs([str(tmp_path / "log.parquet")], need_force=True, report=print).recording
+    found = diagnose(log, [get("field_saturation")], limits=False, learning=False)
+    assert [f.effect.name for f in found.findings] == ["field_saturation"]
+    assert found.verdict is Verdict.EXPLAINED
 
 
 def test_neither_fit_nor_search_sees_what_is_kept_aside() -> None:
