@@ -97,9 +97,9 @@ def to_every_kind(x: Exploration, best: Hypothesis) -> Hypothesis:
     What an effect of the catalogue says holds wherever it is valid; a curve was seen at some
     strokes and speeds. What it gains on each kind that is left out, as the logarithm of the mean
     square, has a mean and a scatter over the kinds: a law stays where another kind that lies by as
-    much from the mean would still gain. Each kind counts by the force that the law has there: one
-    that acts on a single kind, and there says nothing once it is left out, still helps the others,
-    whose fit is rid of that kind.
+    much from the mean would still gain, and where it gains on the kinds on which it acts: one that
+    acts on a single kind, and there says nothing once it is left out, still helps the others, whose
+    fit is rid of that kind.
     """
     few = thinned(x.problem, thresholds.CARRY_SAMPLES)
     kinds = kinds_of_motion(few.recording, coarse=True)
@@ -148,16 +148,18 @@ def _changes(best: Array, rest: Array) -> Array:
 def _at_another(changes: Array, acts: Array) -> float:
     """What the mean square of one kind more may change by: a logarithm, of (k,) of kinds left out.
 
-    acts : (k,) how much the law acts in each
+    acts : (k,) how much the law acts in each; the mean over the kinds, each counted by that, must
+        be a gain as well, if only by the least scatter
     Check: three kinds of which 0.8 is left say too little of a fourth, ln 0.8 + 0.3 = 0.08; 0.6 is
     enough, -0.51 + 0.3 = -0.21. Nor do kinds say anything where it does not act.
-    >>> left = np.log([[0.8, 0.8, 0.8], [0.6, 0.6, 0.6], [0.2, 0.2, 1.0]])
+    >>> left = np.log([[0.8, 0.8, 0.8], [0.6, 0.6, 0.6], [0.2, 0.3, 1.0]])
     >>> [round(_at_another(of, acts), 2) for of, acts in zip(left, [[1, 1, 1]] * 2 + [[0, 0, 1]])]
-    [0.08, -0.21, 0.93]
+    [0.08, -0.21, 0.3]
     """
     scatter = float(np.std(changes, ddof=1)) if len(changes) > 1 else 0.0
-    mean = float(np.average(changes, weights=acts)) if np.any(acts) else 0.0
-    return mean + max(scatter, thresholds.NEW_KIND)
+    another = float(np.mean(changes)) + max(scatter, thresholds.NEW_KIND)
+    where = float(np.average(changes, weights=acts)) if np.any(acts) else 0.0
+    return max(another, where + thresholds.NEW_KIND)
 
 
 def _by_kind(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> Array:
