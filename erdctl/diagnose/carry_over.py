@@ -112,13 +112,11 @@ def to_every_kind(x: Exploration, best: Hypothesis) -> Hypothesis:
             return best
         if kinds is None:
             gains = [compare(x.problem, rest, best).gain for _, rest in fewer]
-            unlikely = [_at_another(np.log([1.0 - gain]), np.ones(1)) for gain in gains]
+            unlikely = [_at_another(np.array([1.0 - g]), np.ones(1), np.ones(1)) for g in gains]
         else:
             of_best = _by_kind(few, kinds, best)
             unlikely = [
-                _at_another(
-                    _changes(of_best, _by_kind(few, kinds, rest)), _acts(few, kinds, best, gone)
-                )
+                _at_another(of_best, _by_kind(few, kinds, rest), _acts(few, kinds, best, gone))
                 for gone, rest in fewer
             ]
         worst = int(np.argmax(unlikely))
@@ -139,23 +137,26 @@ def _acts(problem: Problem, kinds: Index, hypothesis: Hypothesis, law: LearnedEf
     )
 
 
-def _changes(best: Array, rest: Array) -> Array:
-    """(k,) logarithms of the ratio of mean squares; 0 of a kind that has no samples with weight."""
-    told = (best > 0.0) & (rest > 0.0)
-    return np.log(np.where(told, best, 1.0) / np.where(told, rest, 1.0))
+def _at_another(best: Array, rest: Array, acts: Array) -> float:
+    """What the mean square of one kind more may change by, as a logarithm.
 
-
-def _at_another(changes: Array, acts: Array) -> float:
-    """What the mean square of one kind more may change by: a logarithm, of (k,) of kinds left out.
-
+    best, rest : (k,) of each kind left out, with the law and without; 0 of one without weight,
+        which says nothing
     acts : (k,) how much the law acts in each; the mean over the kinds, each counted by that, must
         be a gain as well, if only by the least scatter
     Check: three kinds of which 0.8 is left say too little of a fourth, ln 0.8 + 0.3 = 0.08; 0.6 is
-    enough, -0.51 + 0.3 = -0.21. Nor do kinds say anything where it does not act.
-    >>> left = np.log([[0.8, 0.8, 0.8], [0.6, 0.6, 0.6], [0.2, 0.3, 1.0]])
-    >>> [round(_at_another(of, acts), 2) for of, acts in zip(left, [[1, 1, 1]] * 2 + [[0, 0, 1]])]
+    enough, -0.51 + 0.3 = -0.21, beside a kind without weight as well. Nor do kinds say anything
+    where it does not act.
+    >>> left = [0.8, 0.8, 0.8, 0], [0.6, 0.6, 0.6, 0], [0.2, 0.3, 1.0, 0]
+    >>> acts = [1, 1, 1, 0], [1, 1, 1, 1], [0, 0, 1, 0]
+    >>> rest = np.array([1, 1, 1, 0])
+    >>> [round(_at_another(np.array(b), rest, np.array(a)), 2) for b, a in zip(left, acts)]
     [0.08, -0.21, 0.3]
     """
+    told = (best > 0.0) & (rest > 0.0)
+    if not np.any(told):
+        return thresholds.NEW_KIND
+    changes, acts = np.log(best[told] / rest[told]), acts[told]
     scatter = float(np.std(changes, ddof=1)) if len(changes) > 1 else 0.0
     another = float(np.mean(changes)) + max(scatter, thresholds.NEW_KIND)
     where = float(np.average(changes, weights=acts)) if np.any(acts) else 0.0
