@@ -26,7 +26,10 @@ from erdctl.diagnose.learning.promising import (
     promising,
     promising_laws,
 )
-from erdctl.diagnose.learning.replaced_terms import takes_the_place_of_a_term
+from erdctl.diagnose.learning.replaced_terms import (
+    takes_the_place_of_a_term,
+    takes_the_place_of_names,
+)
 from erdctl.diagnose.learning.unseen_corners import goes_beyond_what_was_seen
 from erdctl.diagnose.levels_of_records import beyond_levels
 from erdctl.diagnose.look_alikes import is_preferred
@@ -96,7 +99,8 @@ def _laws(
         found, others = _beside(x, best, likely, line, stage, least)
         if wide and number == 1 and x.added(named) and _leaves_much(named, found, seed):
             anew, instead = _in_place_of_names(x, named, line, stage)
-            if anew and is_preferred(x.problem, anew, found or named):
+            hidden = anew and is_preferred(x.problem, anew, found or named)
+            if anew and hidden and not takes_the_place_of_names(named, anew):
                 found, others = anew, instead
         if found is None:
             break

@@ -1,18 +1,25 @@
-"""Whether a law corrects a term of the paper's model, or takes its place.
+"""Whether a law corrects a term of the paper's model, or a name, or takes its place.
 
 Beyond the range seen a curve stays at its end value; the yield force goes on with the duty cycle,
 the viscous force with the speed, the gas force with the stroke. A force over the duty of late fits
 as well as the yield force with its lag, which then falls to nothing, and misses the first higher
 duty.
+
+A curve fits better than an effect whose form is a little off, and does the same. The effect is what
+is there, and has a name; the rest of its form is what is to be learned.
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 
 from erdctl.core.recording import Array
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
+from erdctl.model.effect import Effect
+from erdctl.model.learned.law import LearnedEffect
 
 GROUPS = ("gas", "viscous", "yield")
 
@@ -22,6 +29,24 @@ def takes_the_place_of_a_term(parent: Hypothesis, found: Hypothesis) -> bool:
     before, after = _sizes(parent), _sizes(found)
     telling = before > float(np.sqrt(np.mean(parent.residual**2)))
     return bool((telling & (after < thresholds.TERM_LEFT * before)).any())
+
+
+def takes_the_place_of_names(named: Hypothesis, found: Hypothesis) -> bool:
+    """Whether what the laws of a hypothesis do to the force is what names did that it lacks."""
+    known = {e.name for e in found.effects}
+    gone = [e for e in named.effects if e.name not in known]
+    laws = [e for e in found.effects if isinstance(e, LearnedEffect)]
+    names, instead = _done_by(named, gone), _done_by(found, laws)
+    weight = found.problem.block.weight
+    other = float(np.dot(weight, (names - instead) ** 2))
+    return bool(gone) and other <= thresholds.NAME_LEFT * float(np.dot(weight, instead**2))
+
+
+def _done_by(hypothesis: Hypothesis, effects: Sequence[Effect]) -> Array:
+    """(n,) what some of its effects do to the force [N]."""
+    s, model, values = hypothesis.problem.block.signals, hypothesis.model, hypothesis.values
+    off = {name: value for e in effects for name, value in e.off.items()}
+    return model.force(s, values) - model.force(s, {**values, **off})
 
 
 def _sizes(hypothesis: Hypothesis) -> Array:

@@ -1,4 +1,4 @@
-"""A law corrects a term of the model; one that takes its place is none."""
+"""A law corrects a term of the model, or a name; it does not take the place of either."""
 
 from __future__ import annotations
 
@@ -7,9 +7,15 @@ from dataclasses import replace
 import pytest
 from rig import TRUTH, campaign, noisy
 
+from erdctl.core.signals import Signals
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
-from erdctl.diagnose.learning.replaced_terms import takes_the_place_of_a_term
+from erdctl.diagnose.learning.replaced_terms import (
+    takes_the_place_of_a_term,
+    takes_the_place_of_names,
+)
 from erdctl.diagnose.problem import prepare
+from erdctl.effects import get
+from erdctl.model.composed import Model
 from erdctl.model.learned.curve import Curve
 from erdctl.model.learned.law import Law, LawSlot
 
@@ -43,3 +49,23 @@ def test_a_factor_of_the_yield_force_corrects_it(paper: Hypothesis) -> None:
     effect = Law(LawSlot.YIELD, Curve("duty", duties)).effect
     factor = fit_hypothesis(paper.problem, (effect,), [TRUTH], 30)
     assert not takes_the_place_of_a_term(paper, factor)
+
+
+def test_what_does_the_same_as_a_name_does_not_take_its_place() -> None:
+    """A factor over the travel since a turn is a yield force that rebuilds, and no friction."""
+    clean, rebuilds, rubs = (
+        campaign(100.0, 4.0),
+        get("preyield_elasticity"),
+        get("coulomb_friction"),
+    )
+    force = Model((rebuilds,)).force(Signals.of(clean), {**TRUTH, rebuilds.key("x_d"): 1e-3})
+    problem = prepare(noisy(replace(clean, force=force), seed=8))
+    effect = Law(LawSlot.YIELD, Curve("unsettled_way", (0.0, 0.25, 0.5, 1.0))).effect
+    law = fit_hypothesis(problem, (effect,), [{**TRUTH, effect.key("tau"): 1e-3}], 40)
+    named = fit_hypothesis(problem, (rebuilds,), [{**TRUTH, rebuilds.key("x_d"): 1e-3}], 20)
+    assert takes_the_place_of_names(named, law)
+    assert not takes_the_place_of_names(law, law)  # which lacks nothing
+    both = fit_hypothesis(problem, (rebuilds, effect), [{**law.values, **named.values}], 5)
+    assert not takes_the_place_of_names(named, both)
+    other = fit_hypothesis(problem, (rubs,), [TRUTH], 20)
+    assert not takes_the_place_of_names(other, law)

@@ -1,0 +1,27 @@
+"""A law that does the same as a name, and fits better, leaves the name what it is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pyarrow.parquet as pq
+
+from erdctl.diagnose.diagnosis import Verdict, diagnose
+from erdctl.effects import get, names
+from erdctl.io.logs import read_logs
+from erdctl.plant import draw, log
+
+
+def test_chains_of_many_lengths_are_still_a_pre_yield_elasticity(tmp_path: Path) -> None:
+    """They break one after the other, and the effect of the catalogue all alike: 95 % of what the
+    paper's model misses. A curve over the travel since a turn fits better, and the name was gone:
+    `no effect of the catalogue explains the misfit`."""
+    case = draw(1580209, known=names())
+    assert [t.name for t in case.truth] == ["preyield_elasticity"]
+    pq.write_table(log(case), tmp_path / "log.parquet")
+    recording = read_logs([str(tmp_path / "log.parquet")], need_force=True, report=print).recording
+    found = diagnose(recording, [get("preyield_elasticity")], limits=False)
+    assert [f.effect.name for f in found.findings] == ["preyield_elasticity"]
+    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.learned is not None
+    assert found.corrected.overall.nrmse < 0.35 * found.baseline.overall.nrmse
