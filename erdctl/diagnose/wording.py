@@ -189,7 +189,8 @@ def _laws(found: Diagnosis) -> str:
     """That laws were learned, which are no names."""
     assert found.learned is not None
     said = "; ".join(law_words(law.law, law.tau) for law in found.learned.laws)
-    return f"no effect of the catalogue explains the misfit, and the data say: {said}"
+    rest = "what those named leave" if found.findings else "the misfit"
+    return f"no effect of the catalogue explains {rest}, and the data say: {said}"
 
 
 def _withdrawn(found: Diagnosis) -> str:

@@ -7,6 +7,7 @@ from pathlib import Path
 import pyarrow.parquet as pq
 
 from erdctl.diagnose.diagnosis import Verdict, diagnose
+from erdctl.diagnose.wording import remaining_text
 from erdctl.effects import get, names
 from erdctl.io.logs import read_logs
 from erdctl.plant import draw, log
@@ -24,4 +25,5 @@ def test_chains_of_many_lengths_are_still_a_pre_yield_elasticity(tmp_path: Path)
     assert [f.effect.name for f in found.findings] == ["preyield_elasticity"]
     assert found.verdict is Verdict.UNEXPLAINED
     assert found.learned is not None
+    assert "no effect of the catalogue explains what those named leave" in remaining_text(found)
     assert found.corrected.overall.nrmse < 0.35 * found.baseline.overall.nrmse
