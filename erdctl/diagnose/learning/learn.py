@@ -27,8 +27,9 @@ from erdctl.diagnose.learning.promising import (
     promising_laws,
 )
 from erdctl.diagnose.learning.replaced_terms import (
+    said_again,
+    still_act,
     takes_the_place_of_a_term,
-    takes_the_place_of_names,
 )
 from erdctl.diagnose.learning.unseen_corners import goes_beyond_what_was_seen
 from erdctl.diagnose.levels_of_records import beyond_levels
@@ -52,7 +53,9 @@ def learn(
     """The laws that a model lacks, if there are any, beside the effects that it still needs.
 
     An effect that had stood in for what a law says goes. What an effect says as well, once another
-    law takes its part of the misfit, is no law.
+    law takes its part of the misfit, is no law. Nor does a law take the place of a name whose part
+    of the force it makes again, however much better it fits: the name stays, in the base of what is
+    selected, and what is learned is the rest of its form.
 
     base : the model to answer for;  named : with the effects that were found
     candidates : the effects that the log can show
@@ -60,6 +63,29 @@ def learn(
         far apart to show it
     """
     x = Exploration(problem, base, Explored([base, named]), executor)
+    best, rivals = _learned(x, named, candidates, line, seed)
+    if again := said_again(named, best):
+        start, free = (named.values,), named.record_effects
+        task = Task("names", (*base.effects, *again), start, record_effects=free)
+        (with_names,) = executor.fit_compatible(problem, [task])
+        x.explored.keep(with_names)
+        y = x._replace(base=with_names)
+        beside, others = _learned(y, named, candidates, line, seed)
+        if learned_in(beside.effects) and still_act(again, with_names, beside):
+            x, best, rivals = y, beside, others
+    names = [e.name for e in x.added(best)]
+    without = dict(zip(names, without_each(x, best), strict=True))
+    alike = {n: tuple((h.effects[-1].name, h) for h in rivals.get(n, ())) for n in names}
+    return Selection(x.explored[key_of(x.base.effects)], best, (), without, alike)
+
+
+def _learned(
+    x: Exploration, named: Hypothesis, candidates: Sequence[Effect], line: float | None, seed: int
+) -> tuple[Hypothesis, dict[str, list[Hypothesis]]]:
+    """A hypothesis with the laws that carry over, and what does as well in the place of each.
+
+    The effects of the base stay; of the others those that are needed beside the laws.
+    """
     best, rivals = named, dict[str, list[Hypothesis]]()
     first = promising_laws(x, named, wide=True)
     if line is not None or not first.halved_by_two:
@@ -67,16 +93,13 @@ def learn(
     if search_is_worthwhile(best, seed):
         # A law over two coordinates can be an effect and a law at once: it comes where these fail.
         wide, others = _laws(x, named, first, line, seed, wide=True)
-        if wide is not named and is_preferred(problem, wide, best):
+        if wide is not named and is_preferred(x.problem, wide, best):
             best, rivals = wide, others
     if best is not named:
         best = _catalogued(x, best, candidates)
         best = to_other_motions(x, eliminate(x, best), or_records=True)
         best = to_every_kind(x, best)
-    names = [e.name for e in x.added(best)]
-    without = dict(zip(names, without_each(x, best), strict=True))
-    alike = {n: tuple((h.effects[-1].name, h) for h in rivals.get(n, ())) for n in names}
-    return Selection(x.explored[key_of(base.effects)], best, (), without, alike)
+    return best, rivals
 
 
 def _laws(
@@ -99,8 +122,7 @@ def _laws(
         found, others = _beside(x, best, likely, line, stage, least)
         if wide and number == 1 and x.added(named) and _leaves_much(named, found, seed):
             anew, instead = _in_place_of_names(x, named, line, stage)
-            hidden = anew and is_preferred(x.problem, anew, found or named)
-            if anew and hidden and not takes_the_place_of_names(named, anew):
+            if anew and is_preferred(x.problem, anew, found or named):
                 found, others = anew, instead
         if found is None:
             break

@@ -11,7 +11,7 @@ is there, and has a name; the rest of its form is what is to be learned.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -31,15 +31,26 @@ def takes_the_place_of_a_term(parent: Hypothesis, found: Hypothesis) -> bool:
     return bool((telling & (after < thresholds.TERM_LEFT * before)).any())
 
 
-def takes_the_place_of_names(named: Hypothesis, found: Hypothesis) -> bool:
-    """Whether what the laws of a hypothesis do to the force is what names did that it lacks."""
+def said_again(named: Hypothesis, found: Hypothesis) -> tuple[Effect, ...]:
+    """The names that a hypothesis lacks, and whose part of the force its laws make again."""
     known = {e.name for e in found.effects}
-    gone = [e for e in named.effects if e.name not in known]
     laws = [e for e in found.effects if isinstance(e, LearnedEffect)]
-    names, instead = _done_by(named, gone), _done_by(found, laws)
-    weight = found.problem.block.weight
-    other = float(np.dot(weight, (names - instead) ** 2))
-    return bool(gone) and other <= thresholds.NAME_LEFT * float(np.dot(weight, instead**2))
+    instead, weight = _done_by(found, laws), found.problem.block.weight
+    most = thresholds.NAME_LEFT * float(np.dot(weight, instead**2))
+    return tuple(
+        e for e in named.effects
+        if e.name not in known
+        and float(np.dot(weight, (_done_by(named, [e]) - instead) ** 2)) <= most
+    )  # fmt: skip
+
+
+def still_act(names: Iterable[Effect], alone: Hypothesis, beside: Hypothesis) -> bool:
+    """Whether beside laws more is left of each name than of a term whose place is taken."""
+    return all(
+        float(np.linalg.norm(_done_by(beside, [e])))
+        > thresholds.TERM_LEFT * float(np.linalg.norm(_done_by(alone, [e])))
+        for e in names
+    )
 
 
 def _done_by(hypothesis: Hypothesis, effects: Sequence[Effect]) -> Array:

@@ -12,6 +12,7 @@ from erdctl.diagnose import scores, thresholds
 from erdctl.diagnose.executor import Executor
 from erdctl.diagnose.findings import Finding, findings
 from erdctl.diagnose.fit_errors import fit_errors
+from erdctl.diagnose.forward_step import key_of
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.learning.learn import learn
 from erdctl.diagnose.learning.promising import learned_in
@@ -95,8 +96,9 @@ def learned(
         return None
     if goes_beyond_what_was_seen(found.best):
         return None
-    said = findings(seen, found)
-    unseen = on_unseen(aside, found.base, found.best)
+    stay = key_of(found.base.effects)  # which their own part of the misfit speaks for
+    said = (*(f for f in findings(seen, named) if f.effect.name in stay), *findings(seen, found))
+    unseen = on_unseen(aside, named.base, found.best)
     if aside is not None:
         found = on_all(problem, found, executor)
     fit, record_effects = fit_errors(problem, found.best)

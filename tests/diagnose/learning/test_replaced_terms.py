@@ -10,8 +10,9 @@ from rig import TRUTH, campaign, noisy
 from erdctl.core.signals import Signals
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.learning.replaced_terms import (
+    said_again,
+    still_act,
     takes_the_place_of_a_term,
-    takes_the_place_of_names,
 )
 from erdctl.diagnose.problem import prepare
 from erdctl.effects import get
@@ -63,9 +64,12 @@ def test_what_does_the_same_as_a_name_does_not_take_its_place() -> None:
     effect = Law(LawSlot.YIELD, Curve("unsettled_way", (0.0, 0.25, 0.5, 1.0))).effect
     law = fit_hypothesis(problem, (effect,), [{**TRUTH, effect.key("tau"): 1e-3}], 40)
     named = fit_hypothesis(problem, (rebuilds,), [{**TRUTH, rebuilds.key("x_d"): 1e-3}], 20)
-    assert takes_the_place_of_names(named, law)
-    assert not takes_the_place_of_names(law, law)  # which lacks nothing
+    assert said_again(named, law) == (rebuilds,)
+    assert not said_again(law, law)  # which lacks nothing
     both = fit_hypothesis(problem, (rebuilds, effect), [{**law.values, **named.values}], 5)
-    assert not takes_the_place_of_names(named, both)
+    assert not said_again(named, both)
+    gone = left(both, 0.0, rebuilds.key("x_d"))
+    assert still_act((rebuilds,), named, left(named, 0.5, rebuilds.key("x_d")))
+    assert not still_act((rebuilds,), named, gone)
     other = fit_hypothesis(problem, (rubs,), [TRUTH], 20)
-    assert not takes_the_place_of_names(other, law)
+    assert not said_again(other, law)
