@@ -393,7 +393,8 @@ HIDDEN, HALVED = 0.1, 0.55
 # Part of the square of what a law in the place of names does to the force in which it may differ
 # from what they did, and still be the same in another form.
 # Decides: whether names stay, and what is learned comes beside them.
-# Origin: none; of chains of many lengths for those of one (1552002, 1580209, 1580297) 0.02 to 0.08.
+# Origin: none; of chains of many lengths for those of one (1552002, 1580209, 1580297, 1580399)
+# 0.001 to 0.08, of names that stood in for other physics 0.11 to 1.4.
 NAME_LEFT = 0.1
 
 # Part of the range of its values at samples by which a surface may leave that where none lies.
