@@ -14,6 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 
 from erdctl.core.progress import part_of
 from erdctl.core.recording import Array, Index
@@ -23,7 +24,7 @@ from erdctl.diagnose.backward_step import without_each
 from erdctl.diagnose.comparison import compare
 from erdctl.diagnose.forward_step import Exploration, key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fitted_from, over_records
-from erdctl.diagnose.kinds_of_excitation import kinds_of_motion
+from erdctl.diagnose.kinds_of_excitation import duties_known, kinds_of_motion
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.thin import thinned
 from erdctl.estimate.linearisation import jacobian
@@ -37,25 +38,36 @@ def to_other_records(x: Exploration, best: Hypothesis) -> Hypothesis:
     Left-out stretches have neighbours of the same motion in the fit, and so may speak for what only
     holds there. A correction that carries over to no other record is none. One Gauss-Newton step
     can go astray where a law is far from straight, as a void is: what it speaks against is judged
-    by fits anew.
+    by fits anew. Records with duties that no other holds say nothing: what is missed there is how
+    the force goes on beyond the levels of a fit.
     """
-    if len(x.problem.recording.names) < thresholds.LEAST_RECORDS:
+    known = duties_known(x.problem.recording)
+    if np.count_nonzero(known) < thresholds.LEAST_RECORDS:
         return best
     few = thinned(x.problem, thresholds.CARRY_SAMPLES)
     of_record = _of_record(few)
+    says, few_say = (np.repeat(known, np.diff(p.block.signals.starts)) for p in (x.problem, few))
     while x.added(best):
-        whole = over_records(best)
+        whole = _counted(over_records(best), says)
         fewer = [h for h in without_each(x, best) if x.executor.possible(h.values)]
         smaller = [*fewer, x.explored[key_of(x.base.effects)]]
-        gains = [compare(x.problem, over_records(h), whole).gain for h in smaller]
+        gains = [compare(x.problem, _counted(over_records(h), says), whole).gain for h in smaller]
         worst = min(range(len(gains)), key=lambda i: (gains[i], i))
         if gains[worst] > 0.0:
             break
         x.executor.progress("other records", part_of("fits without some records", 1, 1))
-        if _error(few, of_record, best) < _error(few, of_record, smaller[worst]):
+        one, other = (_error(few, of_record, h, few_say) for h in (best, smaller[worst]))
+        if one < other:
             break
         best = smaller[worst]
     return best
+
+
+def _counted(hypothesis: Hypothesis, says: npt.NDArray[np.bool_]) -> Hypothesis:
+    """The same fit, of which only some samples (n,) are counted."""
+    problem = hypothesis.problem
+    block = problem.block._replace(weight=np.where(says, problem.block.weight, 0.0))
+    return replace(hypothesis, problem=replace(problem, block=block))
 
 
 def to_other_motions(x: Exploration, best: Hypothesis, *, or_records: bool = False) -> Hypothesis:
@@ -262,10 +274,15 @@ def _told_by(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> _Told:
     return _Told(names, frozenset(Model().quantities), gram)
 
 
-def _error(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> float:
-    """Mean square of `left_out_exactly` [N^2]."""
+def _error(
+    problem: Problem,
+    kinds: Index,
+    hypothesis: Hypothesis,
+    says: npt.NDArray[np.bool_] | None = None,
+) -> float:
+    """Mean square of `left_out_exactly` [N^2], of some samples (n,) or of all."""
     missed, weight = _missed(problem, kinds, hypothesis)
-    return float(np.average(missed**2, weights=weight))
+    return float(np.average(missed**2, weights=weight if says is None else weight * says))
 
 
 def _missed(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> tuple[Array, Array]:

@@ -6,7 +6,10 @@ fails at the next stroke, frequency or level of control. What is left out togeth
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
+import numpy.typing as npt
 
 from erdctl.core.recording import Array, Index, Recording
 from erdctl.diagnose import thresholds
@@ -40,6 +43,38 @@ def kinds_of_motion(recording: Recording, *, coarse: bool = False) -> Index | No
     if coarse and found.max() == len(at):
         found = _of_most(at, thresholds.COARSE_KINDS)
     return _along(recording, found - 1, thresholds.MOTION_KINDS)
+
+
+def duties_of_records(recording: Recording) -> list[Array]:
+    """Duties that each record holds, over the largest of all, by thousandths."""
+    most = max(float(recording.duty.max()), 1e-12)
+    return [np.unique(np.round(recording.duty[s] / most, 3)) for s in recording.slices]
+
+
+def duties_known(recording: Recording) -> npt.NDArray[np.bool_]:
+    """(r,) whether the other records hold most of a record's duties, see `held_by_others`."""
+    duties = duties_of_records(recording)
+    if len(duties) < 2:
+        return np.zeros(len(duties), dtype=bool)
+    others = (duties[:r] + duties[r + 1 :] for r in range(len(duties)))
+    return np.array([held_by_others(d, o) for d, o in zip(duties, others, strict=True)])
+
+
+def held_by_others(duties: Array, others: Sequence[Array]) -> bool:
+    """Whether most of some duties are near such as others hold.
+
+    Levels far from those of all others tell what no other record does, where a yield stress levels
+    off between them, say; a law is not to be judged by what its fit could not see.
+    >>> held_by_others(np.array([0.0, 0.3]), [np.array([0.0, 0.5]), np.array([0.28, 1.0])])
+    True
+    >>> held_by_others(np.array([0.0, 0.3]), [np.array([0.0, 0.5, 1.0])])
+    False
+    """
+    known = np.unique(np.concatenate(others))
+    after = np.clip(np.searchsorted(known, duties), 1, max(len(known) - 1, 1))
+    near = known[np.minimum(np.stack([after - 1, after]), len(known) - 1)]
+    apart = np.abs(near - duties).min(axis=0)
+    return float(np.mean(apart > thresholds.DUTY_NEAR)) < thresholds.DUTY_FAR
 
 
 def motions(recording: Recording) -> int:

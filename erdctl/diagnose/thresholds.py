@@ -39,9 +39,11 @@ ASIDE_FROM, ASIDE_OF = 12, 6
 
 # Distance of a duty from those of other records, over the largest duty, from which on it is far,
 # and the part of the duties of a record that may be.
-# Decides: whether a record tells what the others do not, and is not kept aside.
+# Decides: whether a record tells what the others do not, and neither is kept aside nor left out
+# whole. Of a real damper with one level a record the one at no current, left out, spoke against all
+# laws of the speed: the others do not tell what is viscous and what yields.
 # Origin: none; levels a tenth and more from the others', two of five and more of a record, are far.
-ASIDE_NEAR, ASIDE_FAR = 0.05, 0.2
+DUTY_NEAR, DUTY_FAR = 0.05, 0.2
 
 # Samples and steps of the fits without a kind of motion or some records, kinds at most, and how
 # often records are left out so.

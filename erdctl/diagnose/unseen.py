@@ -22,7 +22,13 @@ from erdctl.diagnose.as_taken import as_taken
 from erdctl.diagnose.carry_over import left_out_exactly
 from erdctl.diagnose.comparison import compare
 from erdctl.diagnose.hypothesis import Hypothesis
-from erdctl.diagnose.kinds_of_excitation import excitation, kinds_of_motion, levels_of_duty
+from erdctl.diagnose.kinds_of_excitation import (
+    duties_of_records,
+    excitation,
+    held_by_others,
+    kinds_of_motion,
+    levels_of_duty,
+)
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.thin import thinned
 from erdctl.model.effect import Effect
@@ -79,7 +85,7 @@ def kept_aside(recording: Recording, candidates: Sequence[Effect]) -> tuple[int,
     apart = np.abs(at[:, None] - at[None]).max(axis=2)
     np.fill_diagonal(apart, np.inf)
     extreme = _extreme(recording, at)
-    duties = _duties(recording)
+    duties = duties_of_records(recording)
     chosen: list[int] = []
     for r in np.argsort(apart.min(axis=1), kind="stable").tolist():
         others = apart[r].copy()
@@ -87,7 +93,7 @@ def kept_aside(recording: Recording, candidates: Sequence[Effect]) -> tuple[int,
         if r not in extreme and np.isfinite(others).any() and len(chosen) < most:
             alone = others.min() > apart[r].min()  # what it is most like is aside already
             held = [d for k, d in enumerate(duties) if k != r and k not in chosen]
-            chosen += [] if alone or not _within(duties[r], held) else [r]
+            chosen += [] if alone or not held_by_others(duties[r], held) else [r]
     rest = recording.select([r for r in range(count) if r not in chosen])
     shows = [
         (set(unmet(log)), set(untestable(Survey.of(log), candidates))) for log in (recording, rest)
@@ -104,29 +110,6 @@ def _extreme(recording: Recording, at: Array) -> set[int]:
         ends += [np.array([float(c[s].max()) for s in recording.slices])]
         ends += [np.array([-float(c[s].min()) for s in recording.slices])]
     return {int(np.argmax(e)) for e in ends if np.ptp(e) > 0.0}
-
-
-def _duties(recording: Recording) -> list[Array]:
-    """Duties that each record holds, over the largest of all, by thousandths."""
-    most = max(float(recording.duty.max()), 1e-12)
-    return [np.unique(np.round(recording.duty[s] / most, 3)) for s in recording.slices]
-
-
-def _within(duties: Array, others: Sequence[Array]) -> bool:
-    """Whether most of some duties are near such as others hold.
-
-    Levels far from those of all others tell what no other record does, where a yield stress levels
-    off between them, say; a law is not to be judged by what its fit could not see.
-    >>> _within(np.array([0.0, 0.3]), [np.array([0.0, 0.5]), np.array([0.28, 1.0])])
-    True
-    >>> _within(np.array([0.0, 0.3]), [np.array([0.0, 0.5, 1.0])])
-    False
-    """
-    known = np.unique(np.concatenate(others))
-    after = np.clip(np.searchsorted(known, duties), 1, max(len(known) - 1, 1))
-    near = known[np.minimum(np.stack([after - 1, after]), len(known) - 1)]
-    apart = np.abs(near - duties).min(axis=0)
-    return float(np.mean(apart > thresholds.ASIDE_NEAR)) < thresholds.ASIDE_FAR
 
 
 def on_unseen(aside: Problem | None, base: Hypothesis, best: Hypothesis) -> tuple[Unseen, ...]:
