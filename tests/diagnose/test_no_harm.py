@@ -80,7 +80,7 @@ def test_one_step_that_goes_astray_takes_nothing_away(
     module = sys.modules[to_other_records.__module__]
     monkeypatch.setattr(module, "over_records", astray)
     assert to_other_records(exploration(problem, base, friction), friction) is friction
-    monkeypatch.setattr(module, "_error", lambda problem, parts, h: float(bool(h.effects)))
+    monkeypatch.setattr(module, "_error", lambda problem, parts, h, says: float(bool(h.effects)))
     assert to_other_records(exploration(problem, base, friction), friction).effects == ()
 
 
