@@ -98,6 +98,9 @@ def search(
     if misfit_is_left(best, seed):
         alone = best
         joint = [joint_task(problem, base, effects) for effects in companion_sets(candidates)]
+        if best is not base:
+            beside = [e for e in candidates if _can_join(e, best)]
+            joint += [joint_task(problem, best, effects) for effects in companion_sets(beside)]
         for hypothesis in executor.fit(problem, joint):
             if hypothesis is not None and _replaces(problem, best, hypothesis):
                 best = hypothesis
@@ -303,6 +306,11 @@ def base_starts(given: Mapping[str, float]) -> list[dict[str, float]]:
     """Where the fits of a model with given values begin before any effect is added."""
     fresh = fresh_start(*thresholds.FRESH), fresh_start(*thresholds.FRESH_SECOND)
     return [*({**given, **f} for f in fresh), dict(given)]
+
+
+def _can_join(effect: Effect, best: Hypothesis) -> bool:
+    """Whether a hypothesis has neither an effect nor another form of it."""
+    return all(effect.name != e.name and not related(effect, e) for e in best.effects)
 
 
 def _replaces(problem: Problem, best: Hypothesis, joint: Hypothesis) -> bool:

@@ -53,6 +53,7 @@ EFFECT = Effect(
         ),
     ),
     of_speed=True,
+    companions=("shear_thinning",),  # one fluid: with the field and without
     c=CLaw(
         code="f->yield *= POW(FABS(s->xdot) / K(0.1), p->n);",
     ),
