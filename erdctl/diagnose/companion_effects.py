@@ -7,6 +7,7 @@ from itertools import product
 
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.executor import Task
+from erdctl.diagnose.forward_step import Exploration, related
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.screening import starts
@@ -22,7 +23,27 @@ def companion_sets(candidates: Sequence[Effect]) -> Iterator[tuple[Effect, ...]]
             yield (effect, *others)
 
 
-def joint_task(problem: Problem, base: Hypothesis, effects: tuple[Effect, ...]) -> Task:
+def joint_tasks(
+    x: Exploration, parents: Sequence[Hypothesis], candidates: Sequence[Effect], most: int
+) -> list[Task]:
+    """The fits of effects that commonly come together, beside those of each of some hypotheses.
+
+    most : effects of one model
+    """
+    return [
+        _joint_task(x.problem, parent, effects)
+        for parent in parents
+        for effects in companion_sets([e for e in candidates if _can_join(e, parent)])
+        if len(x.added(parent)) + len(effects) <= most
+    ]
+
+
+def _can_join(effect: Effect, parent: Hypothesis) -> bool:
+    """Whether a hypothesis has neither an effect nor another form of it."""
+    return all(effect.name != e.name and not related(effect, e) for e in parent.effects)
+
+
+def _joint_task(problem: Problem, base: Hypothesis, effects: tuple[Effect, ...]) -> Task:
     """The fit of effects that may be worth nothing one by one, from the best of many starts."""
     grids = []
     for effect in effects:

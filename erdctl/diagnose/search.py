@@ -18,7 +18,7 @@ from erdctl.diagnose.backward_step import (
     without_each,
 )
 from erdctl.diagnose.carry_over import carries_over_as_well, to_other_motions, to_other_records
-from erdctl.diagnose.companion_effects import companion_sets, joint_task
+from erdctl.diagnose.companion_effects import joint_tasks
 from erdctl.diagnose.comparison import compare_alike, critical_of, ranked
 from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.form_error import beyond_form_error, is_only_form
@@ -97,11 +97,8 @@ def search(
     best, singles = _forward_selection(x, base, candidates, most, seed)
     if misfit_is_left(best, seed):
         alone = best
-        joint = [joint_task(problem, base, effects) for effects in companion_sets(candidates)]
-        if best is not base:
-            beside = [e for e in candidates if _can_join(e, best)]
-            joint += [joint_task(problem, best, effects) for effects in companion_sets(beside)]
-        for hypothesis in executor.fit(problem, joint):
+        parents = [base] if best is base else [base, best]
+        for hypothesis in executor.fit(problem, joint_tasks(x, parents, candidates, most)):
             if hypothesis is not None and _replaces(problem, best, hypothesis):
                 best = hypothesis
                 x.explored.keep(hypothesis)
@@ -306,11 +303,6 @@ def base_starts(given: Mapping[str, float]) -> list[dict[str, float]]:
     """Where the fits of a model with given values begin before any effect is added."""
     fresh = fresh_start(*thresholds.FRESH), fresh_start(*thresholds.FRESH_SECOND)
     return [*({**given, **f} for f in fresh), dict(given)]
-
-
-def _can_join(effect: Effect, best: Hypothesis) -> bool:
-    """Whether a hypothesis has neither an effect nor another form of it."""
-    return all(effect.name != e.name and not related(effect, e) for e in best.effects)
 
 
 def _replaces(problem: Problem, best: Hypothesis, joint: Hypothesis) -> bool:

@@ -10,12 +10,17 @@ from __future__ import annotations
 import pytest
 from peers import error, of_model
 from places import SHARED
-from rig import real
+from rig import campaign, noisy, real
 
 from erdctl.core.blocks import thinned
-from erdctl.diagnose.companion_effects import companion_sets
+from erdctl.diagnose.companion_effects import companion_sets, joint_tasks
 from erdctl.diagnose.diagnosis import diagnose
+from erdctl.diagnose.executor import executor
+from erdctl.diagnose.forward_step import Exploration, Explored
+from erdctl.diagnose.hypothesis import fit_hypothesis
+from erdctl.diagnose.problem import prepare
 from erdctl.effects import get
+from erdctl.estimate.starts import fresh_start
 from erdctl.io.logs import read_logs
 
 CANDIDATES = (
@@ -29,6 +34,24 @@ TOGETHER = {"power_law_yield", "shear_thinning"}
 def test_one_fluid_has_both_laws() -> None:
     sets = [{e.name for e in found} for found in companion_sets([get(n) for n in CANDIDATES])]
     assert TOGETHER in sets
+
+
+def test_no_more_together_than_a_model_may_have() -> None:
+    """Nor what is there already."""
+    problem = prepare(noisy(campaign(100.0, 4.0), seed=5))
+    base, thinning = (
+        fit_hypothesis(problem, [get(n) for n in names], [fresh_start(0.05, 0.4)])
+        for names in ((), ("shear_thinning",))
+    )
+    with executor((problem,), 1, lambda stage, what: None) as here:
+        x = Exploration(problem, base, Explored([base, thinning]), here)
+    tried = [get(n) for n in CANDIDATES]
+    for most in (1, 2, 3):
+        tasks = joint_tasks(x, [base, thinning], tried, most)
+        assert max((len(t.effects) for t in tasks), default=0) == (most if most > 1 else 0)
+    names = [{e.name for e in t.effects} for t in tasks]
+    assert names.count(TOGETHER) == 1
+    assert {"shear_thinning", "preyield_viscosity", "mount_compliance"} in names
 
 
 @pytest.mark.real_data
