@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
 from erdctl.core.errors import InputProblem
-from erdctl.model.learned.coordinates import KINDS
-from erdctl.model.learned.curve import Curve
-from erdctl.model.learned.forms import FORMS
-from erdctl.model.learned.law import Law, LawSlot
-from erdctl.model.learned.surface import Surface
+
+if TYPE_CHECKING:  # most parameter files have no law
+    from erdctl.model.learned.law import Law
 
 NAME = "learned"  # of the effect that a law is, in a parameter file
 
@@ -47,6 +45,11 @@ class LawDocument(msgspec.Struct, omit_defaults=True, kw_only=True):
 
 def to_law(document: LawDocument, where: str, file: str) -> Law:
     """The law of a document; `where` it stands there is for messages."""
+    from erdctl.model.learned.coordinates import KINDS
+    from erdctl.model.learned.curve import Curve
+    from erdctl.model.learned.forms import FORMS
+    from erdctl.model.learned.law import Law, LawSlot
+    from erdctl.model.learned.surface import Surface
 
     def known(name: str, names: Any, what: str) -> str:
         if name not in names:

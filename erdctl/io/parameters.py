@@ -14,7 +14,6 @@ from erdctl.io import documents
 from erdctl.io.learned import NAME, LawDocument, to_law, to_law_document
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
-from erdctl.model.learned.law import LearnedEffect
 from erdctl.model.paper import QUANTITIES
 from erdctl.model.parameters import Estimate, Parameters
 
@@ -138,6 +137,8 @@ def _effect(extra: ExtraEffect, where: str, file: str) -> Effect:
 
 
 def _extra(effect: Effect, parameters: dict[str, Value | float]) -> ExtraEffect:
+    from erdctl.model.learned.law import LearnedEffect  # only where there are effects
+
     if isinstance(effect, LearnedEffect):
         return ExtraEffect(NAME, parameters, to_law_document(effect.law))
     return ExtraEffect(effect.name, parameters)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import inf
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,10 +17,11 @@ from erdctl.core.stretches import Stretch, cut_at, stretches
 from erdctl.model.composed import Model
 from erdctl.model.divergence import Watch
 from erdctl.model.faults import Fault, factors, parse_fault
-from erdctl.model.learned.curve import Curve
-from erdctl.model.learned.law import LearnedEffect
 from erdctl.model.parameters import Parameters
 from erdctl.model.slots import ScaleSlot, TermSlot, ViscousSlot
+
+if TYPE_CHECKING:
+    from erdctl.model.learned.curve import Curve
 
 UNITS = {"x": "m", "xdot": "m/s", "duty": ""}
 BEYOND = 0.05  # of a range: how far a drive may leave it before that is worth a remark
@@ -168,6 +170,8 @@ class Remarks:
 
     def _curves(self) -> Iterator[tuple[tuple[int, int], Curve, dict[str, float]]]:
         for i, effect in enumerate(self.parameters.model.effects):
+            from erdctl.model.learned.law import LearnedEffect  # only where there are effects
+
             if isinstance(effect, LearnedEffect):
                 for k, curve in enumerate(effect.law.curve.axes):
                     yield (i, k), curve, effect.local(self.parameters.values)
