@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from erdctl.core.progress import Progress
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
@@ -16,7 +17,9 @@ from erdctl.estimate.onsets import onset_intervals, placed
 from erdctl.model.effect import Effect
 
 
-def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEffects | None]:
+def fit_errors(
+    problem: Problem, hypothesis: Hypothesis, progress: Progress = lambda stage, what: None
+) -> tuple[Fit, RecordEffects | None]:
     """The last step on all samples and the errors of a hypothesis, and of its record effects."""
     model = hypothesis.model
     block, record_effects = hypothesis.problem.block, hypothesis.record_effects
@@ -27,7 +30,7 @@ def fit_errors(problem: Problem, hypothesis: Hypothesis) -> tuple[Fit, RecordEff
     levels = None if record_effects is None else record_effects.levels(problem.free)
     fit = assess(
         model, [shared], hypothesis.values, fixed=held | onsets,
-        bounded=sorted(bounded), levels=levels, threads=1,
+        bounded=sorted(bounded), levels=levels, threads=1, progress=progress,
     )  # fmt: skip
     part = thinned(hypothesis.problem, thresholds.SEARCH_SAMPLES)
     slight = [n for n, need in part.needs.items() if need.slight and n in part.held]

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from erdctl.core.blocks import Block
+from erdctl.core.progress import Progress, told
 from erdctl.core.recording import DIRECTIONS, Array
 from erdctl.estimate.carried import along, beyond, is_wide, reached
 from erdctl.estimate.covariance import Fit
@@ -21,6 +22,7 @@ from erdctl.model.slots import Values
 OUTLYING = 2.0  # standard deviations of the noise: no single sample rises beyond 1.96^2
 ROUNDING = 1e-4  # of the force, below which nothing is told apart
 REFITS = 12  # evaluations of a search for all other parameters
+SETTLED = 1e-4  # of the rise that ends an interval: a step that gains less ends such a search
 # Part of all samples that may be farther off where the others leave less: next to turns. Where a
 # misfit is left, a sixth of them lies beyond the limit, and is no single samples.
 SINGLE = 0.01
@@ -34,6 +36,7 @@ def with_intervals(
     plain: Array,
     bounded: Sequence[str] = (),
     fixed: Iterable[str] = (),
+    progress: Progress = lambda stage, what: None,
 ) -> Fit:
     """The fit with intervals of effects' parameters that the cost is no parabola of.
 
@@ -59,7 +62,7 @@ def with_intervals(
     robust = np.diag(found.covariance)
     usual = _noise(robust, plain)
     carried: list[_Refitted] = []
-    for name in [*asked, *bounded]:
+    for name in told([*asked, *bounded], progress, "intervals"):
         q, at = model.quantities[name], [i for i, n in enumerate(free) if n == name]
         rest, own = others(rows, free, name), _noise(robust[at], plain[at])
         phi = max(own, usual) if np.isfinite(own) else usual
@@ -251,8 +254,12 @@ class _Refitted:
         start = {**(self.values if near is None else self.solved[near][1]), self.name: value}
         held = {*self.fixed, self.name}
         model = self.data.found.model
-        found = fit(model, self.block, start=start, fixed=held, max_evaluations=REFITS)
         followed = self.data.left({**self.values, self.name: value}, self.rest)
+        tolerance = SETTLED * NORMAL_95**2 * self.phi / max(followed, self.phi)
+        found = fit(
+            model, self.block, start=start, fixed=held,
+            max_evaluations=REFITS, tolerance=tolerance,
+        )  # fmt: skip
         left = self.data.left({**found.values, self.name: value}, self.rest)
         self.solved[value] = left / self.phi, dict(found.values)
         return min(followed, left) / self.phi

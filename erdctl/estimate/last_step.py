@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from erdctl.core.blocks import Block
+from erdctl.core.progress import Progress
 from erdctl.core.recording import Array
 from erdctl.estimate import jumps, own_levels
 from erdctl.estimate.autoregressive import ColouredNoise
@@ -40,12 +41,14 @@ def assess(
     robust: bool = False,
     levels: OwnLevels | None = None,
     threads: int = 2,
+    progress: Progress = lambda stage, what: None,
 ) -> Fit:
     """One Gauss-Newton step over all data from a good start, then errors of the estimates.
 
     fixed : parameters that keep their value;  bounded : the same, as they lie at a bound, so that
         one side is left to say something of
     levels : what each record has of its own, which the blocks are already without
+    progress : called with the parameter whose interval is looked for
 
     The start may come from a part of the data: one step from there is as good as the full search
     to the order of the standard errors (one-step estimator, Le Cam). The covariance is the
@@ -133,7 +136,7 @@ def assess(
         jumps=jumps.REASON if jumps.slips(model, blocks, finer, values, free) else None,
     )
     return (
-        with_intervals(found, blocks, finer, np.diag(inverse) * rough**2, ends, held)
+        with_intervals(found, blocks, finer, np.diag(inverse) * rough**2, ends, held, progress)
         if has_effects and found.jumps is None
         else found
     )
