@@ -114,7 +114,7 @@ def search(
     # Beside what is needless others would hide what the richer form takes.
     plain = plain_where_as_good(x, best, candidates)
     best = best if plain is best else eliminate(x, plain)
-    best = not_of_records(x, beyond_form_error(x, best, candidates))
+    best = beyond_form_error(x, best, candidates)
     found = _named(x, best, candidates, singles, untested)
     return replace(found, simpler=_simpler(x, found.best))
 

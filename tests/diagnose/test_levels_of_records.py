@@ -13,11 +13,9 @@ from erdctl.core.recording import Array, Recording, concatenate
 from erdctl.diagnose.carry_over import left_out_exactly
 from erdctl.diagnose.comparison import compare_alike
 from erdctl.diagnose.diagnosis import Verdict, diagnose
-from erdctl.diagnose.executor import executor
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.levels_of_records import beyond_levels
 from erdctl.diagnose.problem import Problem, prepare
-from erdctl.diagnose.search import search
 from erdctl.diagnose.told import as_told
 from erdctl.diagnose.wording import remaining_text
 from erdctl.effects import get
@@ -57,19 +55,6 @@ def test_records_whose_gains_differ_have_no_fade() -> None:
     assert r.force is not None
     gains = 1.0 + 0.06 * np.random.default_rng(1).standard_normal(6)
     assert names(r, r.force * np.repeat(gains, np.diff(r.starts)), "thermal_fade") == []
-
-
-def test_the_search_ends_without_what_only_tells_records_apart() -> None:
-    """On a whole real log look-alikes were sought for eight effects, of which four were dropped."""
-    r = swept(STROKES)
-    assert r.force is not None
-    gains = 1.0 + 0.06 * np.random.default_rng(7).standard_normal(6)
-    log = noisy(replace(r, force=r.force * np.repeat(gains, np.diff(r.starts))), seed=21)
-    problem = prepare(log)
-    with executor((problem,), 1, lambda stage, what: None) as workers:
-        found = search(problem, [get("thermal_fade")], 8, workers)
-    assert found.singles
-    assert found.named == ()
 
 
 @pytest.mark.parametrize("scatter", [0.0, 0.06])
