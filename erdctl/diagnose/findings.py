@@ -9,10 +9,12 @@ import numpy as np
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import Comparison, compare
 from erdctl.diagnose.discriminating_drive import DiscriminatingDrive, discriminating_drive
+from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.localisation import Region
 from erdctl.diagnose.residual.places import acting
 from erdctl.diagnose.residual.predictability import LackOfFit
+from erdctl.diagnose.resolved import away_from_turns
 from erdctl.diagnose.search import Selection
 from erdctl.model.effect import Effect
 
@@ -80,9 +82,23 @@ def _share(selection: Selection, finding: Finding) -> float:
     Theory of Games 2 (1953) 307-317), of which these are the two ends.
     """
     names = {finding.effect.name, *finding.effect.equivalents}
-    alone = [h.score for h in selection.singles if h.effects[-1].name in names]
-    first = max(selection.base.score - min(alone), 0.0) if alone else 0.0
-    return first + finding.gain.before - finding.gain.after
+    alone = [_left(h) for h in selection.singles if h.effects[-1].name in names]
+    first = max(_left(selection.base) - min(alone), 0.0) if alone else 0.0
+    without = selection.without[finding.effect.name]
+    return first + _left(without) - _left(selection.best)
+
+
+def _left(hypothesis: Hypothesis) -> float:
+    """Mean square error on groups left out, but for the samples next to turns [N^2].
+
+    A direction that is wrong in one of them is an error of twice the yield force: a velocity that
+    is a little noisy would come before what is ten times as strong everywhere else.
+    """
+    block = hypothesis.problem.block
+    weight = block.weight * away_from_turns(block.signals)
+    if not weight.any():
+        return hypothesis.score
+    return float(np.average(hypothesis.cross_validated**2, weights=weight))
 
 
 def part_taken(selection: Selection, left: LackOfFit) -> float:

@@ -9,6 +9,7 @@ from rig import campaign, noisy
 
 from erdctl.diagnose.diagnosis import diagnose
 from erdctl.diagnose.findings import findings
+from erdctl.diagnose.resolved import away_from_turns
 from erdctl.effects import get
 
 
@@ -33,4 +34,27 @@ def test_what_faint_effects_can_stand_in_for_still_goes_first() -> None:
     )
     again = findings(found.problem, stood_in)
     assert [f.effect.name for f in again] == names
+    assert again[0].gain.gain < again[1].gain.gain
+
+
+def test_what_takes_its_part_next_to_turns_goes_after_what_is_strong_elsewhere() -> None:
+    """A velocity that is a little noisy has the wrong sign there: twice the yield force at once."""
+    r = campaign()
+    assert r.force is not None
+    force = r.force + 3.0 * np.sign(r.xdot) + 40.0 * r.xdot * np.abs(r.xdot)
+    found = diagnose(
+        noisy(replace(r, force=force), seed=4, rms=0.3),
+        [get("quadratic_damping"), get("coulomb_friction")],
+        limits=False,
+    )
+    best = found.selection.best
+    turns = away_from_turns(best.problem.block.signals) == 0.0
+    assert 0 < np.count_nonzero(turns) < 0.2 * len(turns)
+    # As if without quadratic damping the error were large next to turns, and no other.
+    off = np.where(turns, 1e3, best.cross_validated)
+    there = replace(best, cross_validated=off)
+    without = {**found.selection.without, "quadratic_damping": there}
+    singles = tuple(h for h in found.selection.singles if h.effects[-1].name == "coulomb_friction")
+    again = findings(found.problem, replace(found.selection, without=without, singles=singles))
+    assert [f.effect.name for f in again] == ["coulomb_friction", "quadratic_damping"]
     assert again[0].gain.gain < again[1].gain.gain
