@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from rig import campaign, noisy
 
+from erdctl.core.progress import Progress
 from erdctl.diagnose.backward_step import as_good_as_explored, eliminate
 from erdctl.diagnose.carry_over import to_other_records
 from erdctl.diagnose.comparison import compare
@@ -130,8 +131,10 @@ def test_an_effect_of_which_nothing_is_left_between_samples_is_no_finding(
     }  # fmt: skip
     module = sys.modules[diagnose.__module__]
 
-    def none_left(problem: Problem, h: Hypothesis) -> tuple[Fit, RecordEffects | None]:
-        last, effects = fit_errors(problem, h)
+    def none_left(
+        problem: Problem, h: Hypothesis, progress: Progress
+    ) -> tuple[Fit, RecordEffects | None]:
+        last, effects = fit_errors(problem, h, progress)
         off = get("quadratic_damping").off if "quadratic_damping" in key_of(h.effects) else {}
         return replace(last, values={**last.values, **off}), effects
 
