@@ -7,22 +7,26 @@ from dataclasses import replace
 import numpy as np
 from rig import campaign, noisy
 
-from erdctl.diagnose.diagnosis import diagnose
+from erdctl.diagnose.diagnosis import Diagnosis, diagnose
 from erdctl.diagnose.findings import findings
 from erdctl.diagnose.resolved import away_from_turns
 from erdctl.effects import get
 
 
-def test_what_faint_effects_can_stand_in_for_still_goes_first() -> None:
-    """With friction away the rest may fit nearly as well; alone it takes the most by far."""
+def rubbing_and_turbulent() -> Diagnosis:
     r = campaign()
     assert r.force is not None
     force = r.force + 3.0 * np.sign(r.xdot) + 40.0 * r.xdot * np.abs(r.xdot)
-    found = diagnose(
+    return diagnose(
         noisy(replace(r, force=force), seed=4, rms=0.3),
         [get("quadratic_damping"), get("coulomb_friction")],
         limits=False,
     )
+
+
+def test_what_faint_effects_can_stand_in_for_still_goes_first() -> None:
+    """With friction away the rest may fit nearly as well; alone it takes the most by far."""
+    found = rubbing_and_turbulent()
     names = [f.effect.name for f in found.findings]
     assert names == ["coulomb_friction", "quadratic_damping"]
     # As if without friction little were lost: a model that has hardly more than the best.
@@ -39,14 +43,7 @@ def test_what_faint_effects_can_stand_in_for_still_goes_first() -> None:
 
 def test_what_takes_its_part_next_to_turns_goes_after_what_is_strong_elsewhere() -> None:
     """A velocity that is a little noisy has the wrong sign there: twice the yield force at once."""
-    r = campaign()
-    assert r.force is not None
-    force = r.force + 3.0 * np.sign(r.xdot) + 40.0 * r.xdot * np.abs(r.xdot)
-    found = diagnose(
-        noisy(replace(r, force=force), seed=4, rms=0.3),
-        [get("quadratic_damping"), get("coulomb_friction")],
-        limits=False,
-    )
+    found = rubbing_and_turbulent()
     best = found.selection.best
     turns = away_from_turns(best.problem.block.signals) == 0.0
     assert 0 < np.count_nonzero(turns) < 0.2 * len(turns)
