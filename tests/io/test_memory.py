@@ -91,11 +91,14 @@ def _read_within(path: str, bytes: int, *, imported: bool) -> list[str]:
         "    with contextlib.suppress(InputProblem):\n"
         "        read_logs([path], need_force=False, report=lambda text: None)\n"
         "pages = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize()\n"
-        "resource.setrlimit(resource.RLIMIT_AS, (pages + int(more),) * 2)\n"
+        "whole = resource.getrlimit(resource.RLIMIT_AS)\n"
+        "resource.setrlimit(resource.RLIMIT_AS, (pages + int(more), whole[1]))\n"
         "print(available())\n"
         "try:\n"
         "    read_logs([path], need_force=False, report=print)\n"
         "except Exception as error:\n"
+        # To print it takes memory, too, which is not what is looked at.
+        "    resource.setrlimit(resource.RLIMIT_AS, whole)\n"
         "    print(type(error).__name__, error)\n"
     )
     done = subprocess.run(
@@ -103,6 +106,7 @@ def _read_within(path: str, bytes: int, *, imported: bool) -> list[str]:
         capture_output=True,
         text=True,
     )
+    assert done.returncode == 0, done.stderr
     return done.stdout.splitlines()
 
 
