@@ -44,7 +44,7 @@ class Finding:
 
 
 def findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
-    """The chosen effects, the one that takes most of the misfit first."""
+    """The chosen effects, the one that takes most of the misfit away from turns first."""
     best = selection.best
     scale = float(np.ptp(problem.block.force))
     found = []
@@ -92,7 +92,7 @@ def _left(hypothesis: Hypothesis) -> float:
     """Mean square error on groups left out, but for the samples next to turns [N^2].
 
     A direction that is wrong in one of them is an error of twice the yield force: a velocity that
-    is a little noisy would come before what is ten times as strong everywhere else.
+    is a little noisy would come before what is several times as strong everywhere else.
     """
     block = hypothesis.problem.block
     weight = block.weight * away_from_turns(block.signals)
