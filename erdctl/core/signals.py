@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, wraps
 from itertools import pairwise
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +22,21 @@ SLOW = 0.05  # of the highest speed in a record: at less it may be at rest, if i
 LONG = 4.0  # times as long as at a turning point, and
 STILL = 3  # samples
 NEARLY = 0.02  # of its stroke, travels no further, as a slow motion would
+
+T = TypeVar("T")
+
+
+def _of_motion(derived: Callable[[Signals], T]) -> cached_property[T]:
+    """A cached property of the motion alone, the same under any control."""
+
+    @wraps(derived)
+    def once(s: Signals) -> T:
+        if s.first is None:
+            return derived(s)
+        known: T = getattr(s.first, derived.__name__)
+        return known
+
+    return cached_property(once)
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +54,7 @@ class Signals:
     begun : (r,) F_ER as each record begins [N], where that goes on from elsewhere; None for steady
     logged_step : step of the log between whose samples these were made up [s], 0 where none was
     sharp : whether a sample is engaged or not, and never in part
+    first : signals of the same motion under another control, which have what is derived from it
     """
 
     t: Array
@@ -51,6 +69,7 @@ class Signals:
     begun: Array | None = None
     logged_step: float = 0.0
     sharp: bool = False
+    first: Signals | None = None
 
     @classmethod
     def of(cls, recording: Recording) -> Signals:
@@ -71,26 +90,31 @@ class Signals:
 
     def with_duty(self, duty: Array) -> Signals:
         """The same motion under another control."""
-        return replace(self, duty=duty)
+        return replace(self, duty=duty, first=self.motion)
 
     def with_motion(self, x: Array, xdot: Array, engaged: Array | None = None) -> Signals:
         """The same control under another motion."""
-        return replace(self, x=x, xdot=xdot, engaged=engaged)
+        return replace(self, x=x, xdot=xdot, engaged=engaged, first=None)
 
-    @cached_property
+    @property
+    def motion(self) -> Signals:
+        """The same object for all signals of one motion: a key to what is derived from it."""
+        return self if self.first is None else self.first
+
+    @_of_motion
     def step_before(self) -> Array:
         """(n,) time since the sample before [s], 0 at the first of a record."""
         before = np.concatenate([[0.0], self.step[:-1]])[: len(self)]
         before[self.starts[:-1]] = 0.0
         return before
 
-    @cached_property
+    @_of_motion
     def sign(self) -> Array:
         """(n,) sign(xdot) of Eq. 18, 0 at rest; a part of it where play runs out."""
         sign: Array = np.sign(self.xdot)
         return sign if self.engaged is None else sign * self.engaged
 
-    @cached_property
+    @_of_motion
     def compressing(self) -> npt.NDArray[np.bool_]:
         """(n,) direction whose parameters apply.
 
@@ -110,7 +134,7 @@ class Signals:
         never = (last < first) & (ahead >= end)
         return np.where(never, True, up[np.minimum(to, len(self) - 1)])
 
-    @cached_property
+    @_of_motion
     def rests(self) -> npt.NDArray[np.bool_]:
         """(r,) records that begin at rest; not those that begin as a motion turns, or slowly."""
         out = np.ones(len(self.starts) - 1, dtype=np.bool_)
@@ -128,7 +152,7 @@ class Signals:
             out[r] = first > STILL and waited > LONG * turning and way < NEARLY * stroke
         return out
 
-    @cached_property
+    @_of_motion
     def turns(self) -> tuple[Index, Array]:
         """Steps in which the direction changes, and the part of each that passes before it does.
 
@@ -150,7 +174,7 @@ class Signals:
             part = np.where(before == 0, np.minimum(1.5 - self.engaged[i + 1], 1.0), part)
         return i, part
 
-    @cached_property
+    @_of_motion
     def path(self) -> tuple[Array, Array]:
         """Distance travelled in each step (n,), and after the turn in each of `turns` (k,) [m].
 
@@ -164,7 +188,7 @@ class Signals:
         path[i] = 0.5 * speed[i] * part * self.step[i] + after
         return path, after
 
-    @cached_property
+    @_of_motion
     def path_since_reversal(self) -> Array:
         """(n,) distance since the direction last changed in this record [m]; inf before that."""
         path, after = self.path
@@ -179,7 +203,7 @@ class Signals:
         distance: Array = np.where(last >= first, total - origin[last], np.inf)
         return distance
 
-    @cached_property
+    @_of_motion
     def xddot(self) -> Array:
         """(n,) acceleration [m/s^2]: slope of the cubic through xdot within 20 ms each way.
 
@@ -238,7 +262,7 @@ class Signals:
         slope: Array = (count * suv - su * sv) / np.where(spread > 0, spread, 1.0)
         return slope
 
-    @cached_property
+    @_of_motion
     def common_step(self) -> float | None:
         """The step of the whole log [s] if it is the same everywhere, else None."""
         inner = self.step[self.step > 0] if len(self.starts) > 2 else self.step[:-1]
@@ -251,7 +275,7 @@ class Signals:
         a, b = int(self.starts[0]), int(self.starts[1]) - 1
         return float(self.t[b] - self.t[a]) / (b - a) if b > a else high
 
-    @cached_property
+    @_of_motion
     def typical_step(self) -> float:
         """The step of most of the log [s]; 0 if no record has two samples."""
         if self.common_step is not None:
@@ -259,7 +283,7 @@ class Signals:
         inner = self.step[self.step > 0]
         return float(np.median(inner)) if inner.size else 0.0
 
-    @cached_property
+    @_of_motion
     def finest_step(self) -> float:
         """The step where a log is dense [s], a tenth of it or more; 0 if no record has two samples.
 
@@ -278,7 +302,7 @@ class Signals:
         changed[self.starts[:-1]] = False
         return self._since(changed)
 
-    @cached_property
+    @_of_motion
     def since_reversal(self) -> Array:
         """(n,) time since the direction last changed in this record [s]; inf before that."""
         changed = np.zeros(len(self), dtype=bool)
@@ -309,7 +333,7 @@ class Signals:
             return np.where(self.compressing, column, 0.0), np.where(self.compressing, 0.0, column)
         return column * self._share, column * (1.0 - self._share)
 
-    @cached_property
+    @_of_motion
     def _share(self) -> Array:
         """(n,) part of each sample that belongs to compression, where `engaged` is given."""
         up = self.compressing.astype(float)

@@ -44,7 +44,7 @@ def force_smoothing(column: Array, s: Signals, p: Values) -> Array:
     """(n,) the column as the smoothed force channel shows it."""
     if p["w"] == 0.0:
         return column
-    lines, windows = _lines(s), _windows(s, p["w"])
+    lines, windows = _lines(s.motion), _windows(s.motion, p["w"])
     y = lines.values(column)
     until = np.concatenate([[0.0], np.cumsum(0.5 * (y[1:] + y[:-1]) * np.diff(lines.clock))])
     low, high = (until[i] + a * y[i] + b * y[i + 1] for i, a, b in (windows.low, windows.high))

@@ -110,12 +110,9 @@ class Model:
 
     def prepare(self, signals: Signals, values: Values) -> Prepared:
         """All that does not depend on the amplitudes, computed once."""
-        s = signals
-        jointed, gap = self._jointed(values), 0.0
+        s, jointed = signals, self._jointed(values)
         for effect, motion in self.of(MotionSlot):
-            if jointed and motion.free_play is not None:
-                gap += number_of(motion.free_play, effect.local(values))
-            else:
+            if not (jointed and motion.free_play is not None):
                 s = motion(s, effect.local(values))
         for effect, control in self.of(ControlSlot):
             s = s.with_duty(control(s, effect.local(values)))
@@ -130,7 +127,7 @@ class Model:
             lags=self._lags(s, values),
             scale=scale,
             of_speed=of_speed,
-            gap=gap,
+            gap=self.gap(values),
             values=values,
         )
 
@@ -148,6 +145,13 @@ class Model:
         if (rises == 1.0).all() and (falls == 1.0).all():
             return None  # off takes the same path as absent
         return np.broadcast_to(rises, len(s)).copy(), np.broadcast_to(falls, len(s)).copy()
+
+    def gap(self, values: Values) -> float:
+        """Free play [m] in the joint of a compliance in series; 0 where there is none."""
+        if not self._jointed(values):
+            return 0.0
+        plays = [(motion.free_play, e.local(values)) for e, motion in self.of(MotionSlot)]
+        return sum((number_of(play, p) for play, p in plays if play is not None), 0.0)
 
     def _jointed(self, values: Values) -> bool:
         """Whether a compliance in series with the whole damper acts, whose joint may have play."""

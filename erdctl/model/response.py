@@ -212,6 +212,10 @@ class Prepared:
             column = channel(column, self.signals, effect.local(self.values))
         return column
 
+    def has_spring(self, values: Values) -> bool:
+        """Whether a compliance in series acts; raises IncompatibleEffects if several do."""
+        return bool(self._springs(values))
+
     def _springs(self, values: Values) -> list[_Spring]:
         """The compliance in series, if there is one."""
         all_ = [(slot, e.local(values)) for e, slot in in_slot(self.effects, SeriesSlot)]

@@ -40,6 +40,7 @@ from erdctl.model.at_speed import Leg, Other, SpeedLaws, followed, slid, value
 F = TypeVar("F", bound=Callable[..., object])
 BEGUN = 0.16  # s that a record's first force has acted before: as in a motion of 1 Hz
 LONGEST = 4.0  # of the mean speed in a step over the last one
+GONE = 746.0  # times T_d, from which on nothing is left: to compute that 0 costs a fifth of a step
 NEARLY = 1e-12  # of the spring's force, by which a piston must be driven to move: above rounding
 
 
@@ -299,7 +300,7 @@ def march(
                 T = (T_c if up else T_r) * (falls if abs(u) < abs(y) else rises)[i - 1]
                 decay = span / T
                 if decay != last:
-                    last, fade = decay, np.exp(-decay)
+                    last, fade = decay, np.exp(-decay) if decay < GONE else 0.0
                 y_0, y = y, u + (y - u) * fade
                 pull, level = mass / max(span, 1e-9), end + v - begun
                 now = Leg(

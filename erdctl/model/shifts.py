@@ -20,7 +20,9 @@ from erdctl.model.slots import (
     FeedbackSlot,
     FieldSlot,
     GasSlot,
+    MotionSlot,
     ScaleSlot,
+    SeriesSlot,
     SignSlot,
     TermSlot,
     Values,
@@ -62,8 +64,10 @@ class Shifts:
         """(n,) force with one parameter at another value."""
         values = {**self.values, name: value}
         owner = self._owner.get(name)
-        if owner is not None and self._scales_alone(owner):
+        if owner is not None and isinstance(owner.slot, ScaleSlot) and not owner.amplitudes:
             return self._scaled(owner, values)
+        if owner is not None and self._joint_alone(owner, values):
+            return replace(self._at(values, owner), gap=self.model.gap(values)).force(values)
         reached = self._reached(name, owner)
         if reached is None:
             return self.model.force(self.signals, values)
@@ -73,18 +77,30 @@ class Shifts:
         bare = {**self.bare, **{group: prepared.group(group, values) for group in reached}}
         return prepared.total(bare, values)
 
-    def _scales_alone(self, owner: Effect) -> bool:
-        """Whether an effect does nothing but scale bare forces."""
-        scales = isinstance(owner.slot, ScaleSlot) and not owner.amplitudes
-        return scales and "spring" not in self.bare
+    def _at(self, values: Values, owner: Effect | None) -> Prepared:
+        """The model at other values of one effect or of the paper's model, with what is known."""
+        moved = replace(self.prepared, values=values)
+        if owner is None or not owner.amplitudes:
+            moved.__dict__["terms"] = self.prepared.terms
+        return moved
 
     def _scaled(self, owner: Effect, values: Values) -> Array:
         """(n,) force with the factors of one effect at other values."""
         assert isinstance(owner.slot, ScaleSlot)
         moved = owner.slot(self.prepared.signals, owner.local(values))
         scale, of_speed = product((e, moved if e is owner else f) for e, f in self._scales)
-        prepared = replace(self.prepared, scale=scale, of_speed=of_speed, values=values)
+        prepared = replace(self._at(values, owner), scale=scale, of_speed=of_speed)
+        if "spring" in self.bare:
+            return prepared.force(values)
         return prepared.total(self.bare, values)
+
+    def _joint_alone(self, owner: Effect, values: Values) -> bool:
+        """Whether an effect is a spring, or play in its joint, of which there is one all along."""
+        if "spring" not in self.bare or owner.amplitudes:
+            return False
+        if isinstance(owner.slot, MotionSlot):
+            return owner.slot.free_play is not None and "gas" not in self.bare
+        return isinstance(owner.slot, SeriesSlot) and self.prepared.has_spring(values)
 
     @cached_property
     def _scales(self) -> list[tuple[Effect, Factors]]:
@@ -112,7 +128,7 @@ class Shifts:
 
     def _moved(self, values: Values, name: str, owner: Effect | None) -> Prepared:
         """The model at the new values, with what they change of what is there."""
-        p, s = replace(self.prepared, values=values), self.prepared.signals
+        p, s = self._at(values, owner), self.prepared.signals
         slot = None if owner is None else owner.slot
         if isinstance(slot, FieldSlot) or (owner is None and name.endswith(".beta")):
             return replace(p, fields=self.model.fields(s, values))

@@ -46,3 +46,15 @@ def test_every_parameter_of_every_model(effects: tuple[Effect, ...]) -> None:
         expected = model.force(s, {**values, name: moved})
         error = np.abs(near.at(name, moved) - expected).max()
         assert error < 1e-9 * np.abs(expected).max(), name
+
+
+def test_a_spring_that_is_switched_off_is_gone_with_its_joint() -> None:
+    r = campaign(200.0, 2.0)
+    s = Signals.of(r.select([0]))
+    model = Model(tuple(e for e in CATALOGUE if e.name in ("backlash", "mount_compliance")))
+    values = values_of(model)
+    near = Shifts(model, s, values)
+    for name, moved in (("mount_compliance.s_m", 0.0), ("backlash.g", 0.0)):
+        expected = model.force(s, {**values, name: moved})
+        assert not np.array_equal(expected, near.force)
+        assert np.array_equal(near.at(name, moved), expected), name
