@@ -11,13 +11,11 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
+from erdctl.core.acceleration import acceleration
 from erdctl.core.recording import Array, Index, Recording
 
 # Steps that differ by less than this part of themselves are one sampling rate with rounded times.
 JITTER = 1e-6
-HALF_WINDOW = 0.010  # s, of the straight line whose slope is the acceleration
-HALF_CUBIC = 0.020  # s, of the cubic in its place, at most
-NOISE_OF_SLOPE = 0.01  # of the acceleration that may be noise in a narrower window
 SLOW = 0.05  # of the highest speed in a record: at less it may be at rest, if it
 LONG = 4.0  # times as long as at a turning point, and
 STILL = 3  # samples
@@ -205,62 +203,13 @@ class Signals:
 
     @_of_motion
     def xddot(self) -> Array:
-        """(n,) acceleration [m/s^2]: slope of the cubic through xdot within 20 ms each way.
-
-        It averages the noise of xdot a little more than a straight line over 10 ms would, and
-        passes what a damper test moves at: of a sine of 7 Hz it loses 0.12 %, where the line loses
-        2 %. A stroke that turns within 20 ms has a sixth less in it: the narrowest window is taken
-        that differs from it, in half of a record, by less than a hundredth of the acceleration,
-        where noise differs all along. A line stands where samples are not even in time, within the
-        window of the ends of a record, and where a step is longer than 10 ms: then through the
-        neighbours of a sample. 0 in a record of one sample.
-        Source: A. Savitzky, M. J. E. Golay, Analytical Chemistry 36 (1964) 1627-1639.
-        """
+        """(n,) acceleration [m/s^2], see `erdctl.core.acceleration`."""
         if self.sampled and np.array_equal(self.xdot, self.sampled[0].xdot[self.sampled[1]]):
             return self.sampled[0].xddot[self.sampled[1]]  # not of what lies farther apart
-        slope, step = self._slope_of_lines(), self.common_step
-        if step is None or round(HALF_CUBIC / step) < 2:
-            return slope
-        most = round(HALF_CUBIC / step)
-        least = max(2, round(2.0 * self.logged_step / step))  # a cubic through logged samples
-        reaches = range(min(least, most), most + 1)
-        from scipy.signal import savgol_coeffs
-
-        cubics = [savgol_coeffs(2 * r + 1, 3, deriv=1, delta=step) for r in reaches]
-        for a, b in pairwise(self.starts.tolist()):
-            if b - a <= 2 * reaches[-1]:
-                continue
-            v, wide = self.xdot[a:b], reaches[-1]
-            whole = np.convolve(v, cubics[-1], mode="valid")
-            noise = NOISE_OF_SLOPE * float(np.sqrt(np.mean(whole**2)))
-            for r, weights in zip(reaches, cubics, strict=True):
-                inner = np.convolve(v, weights, mode="valid")
-                apart = inner[wide - r : len(inner) - (wide - r)] - whole
-                if r == wide or np.median(np.abs(apart)) < noise:
-                    slope[a + r : b - r] = inner
-                    break
-        return slope
-
-    def _slope_of_lines(self) -> Array:
-        """(n,) slope of the straight line through xdot within 10 ms each way [m/s^2]."""
-        reach = max(1, round(HALF_WINDOW / self.finest_step)) if self.finest_step > 0 else 0
-        record = np.repeat(np.arange(len(self.starts) - 1), np.diff(self.starts))
-        count = np.ones(len(self))
-        su, sv, suu, suv = np.zeros((4, len(self)))
-        for k in range(1, min(reach, len(self) - 1) + 1):
-            u, v = self.t[k:] - self.t[:-k], self.xdot[k:] - self.xdot[:-k]
-            near = (record[k:] == record[:-k]) & ((u <= 1.5 * HALF_WINDOW) | (k == 1))
-            u, v = np.where(near, u, 0.0), np.where(near, v, 0.0)
-            # Each pair serves both of its samples: u and v change sign, their products do not.
-            for centre, way in ((slice(None, -k), 1.0), (slice(k, None), -1.0)):
-                count[centre] += near
-                su[centre] += way * u
-                sv[centre] += way * v
-                suu[centre] += u * u
-                suv[centre] += u * v
-        spread = count * suu - su * su
-        slope: Array = (count * suv - su * sv) / np.where(spread > 0, spread, 1.0)
-        return slope
+        return acceleration(
+            self.t, self.xdot, self.starts,
+            common=self.common_step, finest=self.finest_step, logged=self.logged_step,
+        )  # fmt: skip
 
     @_of_motion
     def common_step(self) -> float | None:

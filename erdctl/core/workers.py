@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, ProcessPoolExecutor
+from collections.abc import Callable, Generator, Iterator, Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import get_context, parent_process
 from threading import Lock, Thread
 from typing import Any, TypeVar
 
+S = TypeVar("S")
 T = TypeVar("T")
 
 
@@ -58,6 +59,23 @@ def alone_with(work: Callable[..., T], *given: Any) -> T:
     """What a task gives; for a worker that somebody else has started, as those of a cluster."""
     with alone():
         return work(*given)
+
+
+def ahead(work: Callable[[S], T], items: Sequence[S], threads: int) -> Generator[T, None, None]:
+    """Results in order, by so many threads that are ahead of whoever takes them.
+
+    Nothing is begun before its result is asked for where there is one thread; where there are more,
+    what has not begun once nobody takes any more is dropped. For work that leaves Python's lock.
+    """
+    if threads == 1:
+        yield from map(work, items)
+        return
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            for future in [pool.submit(work, item) for item in items]:
+                yield future.result()
+        finally:
+            pool.shutdown(cancel_futures=True)
 
 
 def leave(executor: Executor) -> None:

@@ -175,7 +175,7 @@ def diagnose(
             found, kept = findings(seen, selection), selection
             if aside:
                 selection = on_all(problem, selection, workers)
-            fit, record_effects = fit_errors(problem, selection.best, progress)
+            fit, record_effects = fit_errors(problem, selection.best, progress, jobs)
             idle = next((e for e in selection.named if _idle(e, fit, workers)), None)
             chosen = refit(seen, kept, workers, idle) if idle else None
         progress("lack of fit", part_of("regression of the residual", 1, 1))
@@ -188,7 +188,7 @@ def diagnose(
                 base = selection.base
                 unseen = on_unseen(unfitted, base, base)
                 lack_of_fit = lack_of_fit_of(selection.best, seed)
-                fit, record_effects = fit_errors(problem, selection.best, progress)
+                fit, record_effects = fit_errors(problem, selection.best, progress, jobs)
         left = _matters(problem, selection, lack_of_fit)
         untold = cannot_tell(recording, selection.named)
         more: Learned | None = None

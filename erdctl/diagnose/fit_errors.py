@@ -18,7 +18,10 @@ from erdctl.model.effect import Effect
 
 
 def fit_errors(
-    problem: Problem, hypothesis: Hypothesis, progress: Progress = lambda stage, what: None
+    problem: Problem,
+    hypothesis: Hypothesis,
+    progress: Progress = lambda stage, what: None,
+    threads: int = 1,
 ) -> tuple[Fit, RecordEffects | None]:
     """The last step on all samples and the errors of a hypothesis, and of its record effects."""
     model = hypothesis.model
@@ -30,7 +33,7 @@ def fit_errors(
     levels = None if record_effects is None else record_effects.levels(problem.free)
     fit = assess(
         model, [shared], hypothesis.values, fixed=held | onsets,
-        bounded=sorted(bounded), levels=levels, threads=1, progress=progress,
+        bounded=sorted(bounded), levels=levels, threads=threads, progress=progress,
     )  # fmt: skip
     part = thinned(hypothesis.problem, thresholds.SEARCH_SAMPLES)
     slight = [n for n, need in part.needs.items() if need.slight and n in part.held]

@@ -48,6 +48,7 @@ def assess(
     fixed : parameters that keep their value;  bounded : the same, as they lie at a bound, so that
         one side is left to say something of
     levels : what each record has of its own, which the blocks are already without
+    threads : at a time, each with some of the blocks, or of the profiles
     progress : called with the parameter whose interval is looked for
 
     The start may come from a part of the data: one step from there is as good as the full search
@@ -135,11 +136,10 @@ def assess(
         flat=flat_groups(model, wide, (*free, *ends), values, known),
         jumps=jumps.REASON if jumps.slips(model, blocks, finer, values, free) else None,
     )
-    return (
-        with_intervals(found, blocks, finer, np.diag(inverse) * rough**2, ends, held, progress)
-        if has_effects and found.jumps is None
-        else found
-    )
+    if not has_effects or found.jumps is not None:
+        return found
+    plain = np.diag(inverse) * rough**2
+    return with_intervals(found, blocks, finer, plain, ends, held, progress, threads)
 
 
 def _moved(model: Model, values: Values, free: Sequence[str], step: Array) -> dict[str, float]:

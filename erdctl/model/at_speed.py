@@ -125,7 +125,7 @@ def slid(way: float, travel: float, i: Leg, o: Other) -> float:
     return float(way + (i.z - way) * np.exp(-travel / o.x_c)) if o.F_c > 0.0 else 0.0
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def along(v: Array, grid: Array, law: Array) -> Array:
     """(n,) value of a law (2, m) on a grid of speeds at the speeds v (n,); 0 at rest."""
     out = np.zeros(len(v))

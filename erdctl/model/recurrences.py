@@ -16,7 +16,7 @@ from erdctl.core.recording import Array, Index
 BLUR = 0.2
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def play(
     xdot: Array,
     step: Array,
@@ -96,7 +96,7 @@ def play(
     return lost, engaged
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def rate_limited(target: Array, step: Array, starts: Index, rate: float) -> Array:
     """Mean over each step of what follows a held target no faster than `rate`.
 
@@ -129,7 +129,7 @@ def rate_limited(target: Array, step: Array, starts: Index, rate: float) -> Arra
     return out
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def fading(
     viscous: Array, yielding: Array, xdot: Array, step: Array, starts: Index,
     a_v: float, a_y: float, tau: float,
@@ -161,7 +161,7 @@ def fading(
     return f_v, f_y
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def forming(
     u_c: Array, u_r: Array, compressing: npt.NDArray[np.bool_], before: Array, step: Array,
     starts: Index, T_c: float, T_r: float, rises: Array, falls: Array,

@@ -222,7 +222,7 @@ def _moved(
     return e, 0.0, 1, up + (down - up) * part, smooth, i.z
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def march(
     x: Array, rod: Array, xdot: Array, step: Array, rises: Array, falls: Array, starts: Index,
     compressing: npt.NDArray[np.bool_], rests: npt.NDArray[np.bool_], beside: Array, slide: Array,

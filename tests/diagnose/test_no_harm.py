@@ -132,9 +132,9 @@ def test_an_effect_of_which_nothing_is_left_between_samples_is_no_finding(
     module = sys.modules[diagnose.__module__]
 
     def none_left(
-        problem: Problem, h: Hypothesis, progress: Progress
+        problem: Problem, h: Hypothesis, progress: Progress, threads: int
     ) -> tuple[Fit, RecordEffects | None]:
-        last, effects = fit_errors(problem, h, progress)
+        last, effects = fit_errors(problem, h, progress, threads)
         off = get("quadratic_damping").off if "quadratic_damping" in key_of(h.effects) else {}
         return replace(last, values={**last.values, **off}), effects
 

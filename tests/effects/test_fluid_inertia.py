@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from made import signals, sine, unit_forces
 
+from erdctl.core.acceleration import HALF_CUBIC
 from erdctl.core.recording import Array
-from erdctl.core.signals import HALF_CUBIC, Signals
+from erdctl.core.signals import Signals
 from erdctl.effects import get
 from erdctl.effects.fluid_inertia import MEMORY
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from erdctl.core.recording import Array
-from erdctl.estimate.intervals import _Data
+from erdctl.estimate.profile_cost import ProfileData
 
 MISFIT = np.where(np.arange(1000) % 10 == 0, 5.0, 0.1)  # a tenth of all: a part of the motion
 
@@ -22,10 +22,10 @@ class Steps:
         return np.asarray(-off * np.sign(MISFIT) - single)
 
 
-def data() -> _Data:
+def data() -> ProfileData:
     found: Any = SimpleNamespace(model=None)
     finer: Any = [Steps()]
-    return _Data(found, finer, np.zeros(1000), np.ones(1000), 0.3)
+    return ProfileData(found, finer, np.zeros(1000), np.ones(1000), 0.3)
 
 
 def test_a_misfit_may_not_grow_beyond_the_limit() -> None:

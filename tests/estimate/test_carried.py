@@ -67,7 +67,7 @@ def test_what_is_told_only_together_stays_so() -> None:
     found = identify(conceal("", 9400, samples=2_000).recording).fit
     pair = ("compression.sigma", "compression.beta")
     found = replace(found, flat=(pair,), intervals={})
-    told = _carried_along(found, [cast(Any, Wide())], np.ones(len(found.free)), [])
+    told = _carried_along(found, [(cast(Any, Wide()), [])], np.ones(len(found.free)), [])
     assert told.flat == (pair,)
     assert set(told.intervals) == set(found.free) - set(pair)
     for name, ends in told.intervals.items():

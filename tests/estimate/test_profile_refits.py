@@ -11,7 +11,7 @@ from rig import campaign, noisy
 
 from erdctl.diagnose.problem import prepare
 from erdctl.effects import get
-from erdctl.estimate import intervals
+from erdctl.estimate import profile_cost
 from erdctl.estimate.covariance import Fit
 from erdctl.estimate.last_step import assess
 from erdctl.estimate.least_squares import Fitted, fit
@@ -20,7 +20,7 @@ from erdctl.model.composed import Model
 NAMES = ("force_smoothing", "preyield_viscosity")
 
 
-def assessed(progress: Any) -> Fit:
+def assessed(progress: Any, threads: int = 1) -> Fit:
     """A model of the wrong form: what is left is a force of its own, many times the noise."""
     r = noisy(campaign(250.0, 6.0), seed=11)
     noise = 0.3 * np.random.default_rng(2).standard_normal(len(r.x))
@@ -32,7 +32,7 @@ def assessed(progress: Any) -> Fit:
     start |= {"force_smoothing.w": 0.008, "preyield_viscosity.v_y": 0.01}
     block = prepare(replace(r, force=force)).block
     values = fit(model, block, start=start, max_evaluations=25).values
-    return assess(model, [block], values, threads=1, progress=progress)
+    return assess(model, [block], values, threads=threads, progress=progress)
 
 
 def test_refits_end_where_a_step_gains_nothing_that_an_interval_would_show(
@@ -47,11 +47,11 @@ def test_refits_end_where_a_step_gains_nothing_that_an_interval_would_show(
         counted.append(found.evaluations)
         return found
 
-    monkeypatch.setattr(intervals, "fit", search)
+    monkeypatch.setattr(profile_cost, "fit", search)
     found = assessed(lambda stage, what: told.append((stage, what)))
     few = sum(counted)
     counted.clear()
-    monkeypatch.setattr(intervals, "SETTLED", 1e-8)
+    monkeypatch.setattr(profile_cost, "SETTLED", 1e-8)
     finely = assessed(lambda stage, what: None)
     assert 0 < few < 0.9 * sum(counted)
     assert found.intervals.keys() == finely.intervals.keys()
@@ -59,3 +59,16 @@ def test_refits_end_where_a_step_gains_nothing_that_an_interval_would_show(
         assert found.intervals[name] == pytest.approx(ends, rel=0.02), name
     assert {stage for stage, _ in told} == {"intervals"}
     assert any(what.startswith("force_smoothing.w, ") for _, what in told)
+
+
+def test_intervals_are_the_same_by_any_number_of_threads() -> None:
+    """Also where a profile finds a better value, from which what comes after it begins."""
+    told: list[str] = []
+    alone = assessed(lambda stage, what: told.append(what))
+    names = list(told)
+    told.clear()
+    together = assessed(lambda stage, what: told.append(what), threads=3)
+    assert told == names
+    assert alone.intervals
+    assert together.intervals == alone.intervals
+    assert together.values == alone.values

@@ -101,7 +101,7 @@ def learned(
     unseen = on_unseen(aside, named.base, found.best)
     if aside is not None:
         found = on_all(problem, found, executor)
-    fit, record_effects = fit_errors(problem, found.best, executor.progress)
+    fit, record_effects = fit_errors(problem, found.best, executor.progress, executor.jobs)
     # Nor what pays where records settle, which no fit weighs.
     pair = (scores.of(problem, fit.model, fit.values), scores.of(problem, *_of(named.best)))
     if pair[0].overall.rms > pair[1].overall.rms:
