@@ -11,7 +11,9 @@ shows is not held against it.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -85,20 +87,23 @@ def to_other_motions(x: Exploration, best: Hypothesis, *, or_records: bool = Fal
         return best
     errors: dict[frozenset[str], float] = {}
 
-    def error(h: Hypothesis) -> float:
-        key = frozenset(e.name for e in h.effects)
-        if key not in errors:
-            allowed = x.executor.possible(h.values)
-            errors[key] = _error(few, kinds, h) if allowed else float("inf")
-        return errors[key]
+    def found(hypotheses: Sequence[Hypothesis]) -> list[float]:
+        new = [h for h in hypotheses if key_of(h.effects) not in errors]
+        errors.update((key_of(h.effects), float("inf")) for h in new)
+        new = [h for h in new if x.executor.possible(h.values)]
+        missed = x.executor.each(x.problem, partial(_error_without, kinds=kinds), new)
+        errors.update(zip((key_of(h.effects) for h in new), missed, strict=True))
+        return [errors[key_of(h.effects)] for h in hypotheses]
 
     # All the way down: of effects that stand in for one another none alone may be the one too many.
     least = best
     while x.added(best):
         x.executor.progress("other motions", part_of("fits without a kind of motion", 1, 1))
-        best = min(without_each(x, best), key=error)
+        fewer = without_each(x, best)
+        of_least, *of_fewer = found([least, *fewer])
+        best = fewer[int(np.argmin(of_fewer))]
         dear = best.score > thresholds.DEAR * least.score  # too much for a hair's breadth elsewhere
-        if error(best) * (thresholds.CLEARLY if dear else 1.0) <= error(least):
+        if min(of_fewer) * (thresholds.CLEARLY if dear else 1.0) <= of_least:
             least = best
     return least
 
@@ -126,10 +131,11 @@ def to_every_kind(x: Exploration, best: Hypothesis) -> Hypothesis:
             gains = [compare(x.problem, rest, best).gain for _, rest in fewer]
             unlikely = [_at_another(np.array([1.0 - g]), np.ones(1), np.ones(1)) for g in gains]
         else:
-            of_best = _by_kind(few, kinds, best)
+            of_kind = partial(_by_kind_without, kinds=kinds)
+            of_best, *of_rests = x.executor.each(x.problem, of_kind, [best, *(r for _, r in fewer)])
             unlikely = [
-                _at_another(of_best, _by_kind(few, kinds, rest), _acts(few, kinds, best, gone))
-                for gone, rest in fewer
+                _at_another(of_best, of_rest, _acts(few, kinds, best, gone))
+                for (gone, _), of_rest in zip(fewer, of_rests, strict=True)
             ]
         worst = int(np.argmax(unlikely))
         if unlikely[worst] < 0.0:
@@ -175,9 +181,9 @@ def _at_another(best: Array, rest: Array, acts: Array) -> float:
     return max(another, where + thresholds.NEW_KIND)
 
 
-def _by_kind(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> Array:
-    """Mean square error of each kind that is left out [N^2]."""
-    missed, weight = _missed(problem, kinds, hypothesis)
+def _by_kind_without(problem: Problem, hypothesis: Hypothesis, kinds: Index) -> Array:
+    """Mean square error of each kind that is left out, on fewer samples [N^2]."""
+    missed, weight = _missed(thinned(problem, thresholds.CARRY_SAMPLES), kinds, hypothesis)
     total, count = (np.bincount(kinds, w) for w in (weight * missed**2, weight))
     return np.asarray(total / np.maximum(count, 1e-300))
 
@@ -189,7 +195,10 @@ def carries_over_as_well(x: Exploration, rival: Hypothesis, best: Hypothesis) ->
     """
     few = thinned(x.problem, thresholds.CARRY_SAMPLES)
     kinds = kinds_of_motion(few.recording)
-    return kinds is None or _error(few, kinds, rival) <= _error(few, kinds, best)
+    if kinds is None:
+        return True
+    theirs, own = x.executor.each(x.problem, partial(_error_without, kinds=kinds), [rival, best])
+    return theirs <= own
 
 
 def _of_record(problem: Problem) -> Index:
@@ -272,6 +281,11 @@ def _told_by(problem: Problem, kinds: Index, hypothesis: Hypothesis) -> _Told:
     count = int(kinds.max()) + 1
     gram = np.array([J[:, kinds == k] @ J[:, kinds == k].T for k in range(count)])
     return _Told(names, frozenset(Model().quantities), gram)
+
+
+def _error_without(problem: Problem, hypothesis: Hypothesis, kinds: Index) -> float:
+    """`_error` on fewer samples of a problem, in whichever process."""
+    return _error(thinned(problem, thresholds.CARRY_SAMPLES), kinds, hypothesis)
 
 
 def _error(

@@ -9,7 +9,7 @@ from concurrent.futures import Future, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from erdctl.core.cluster import Cluster
 from erdctl.core.errors import ComputationProblem, EffectFailed, IncompatibleEffects
@@ -24,6 +24,8 @@ from erdctl.estimate.least_squares import Fitted
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 from erdctl.model.slots import Values
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +52,7 @@ class Task:
 
 
 class Answer(NamedTuple):
-    """What a worker sends of a hypothesis: what it was asked is known, and the problem is long.
+    """What processes send of a hypothesis: its effects are known there, and the problem is long.
 
     weight : (n,) of the samples, where the hypothesis's channel makes some of them doubtful
     told : what the problem holds and the hypothesis does not
@@ -77,7 +79,7 @@ class Executor:
         self.problems, self.jobs, self.progress = tuple(problems), jobs, progress
         self.cluster = cluster
         self.most = most or {}
-        self._submit: Callable[[int, Task], Future[Answer | None]] | None = None
+        self._submit: Callable[..., Future[Any]] | None = None
         self._pool: PoolExecutor | None = None
         self._sendable: set[str] = set()
 
@@ -92,25 +94,58 @@ class Executor:
 
     def _fits(self, problem: Problem, tasks: Sequence[Task]) -> list[Hypothesis | None]:
         """A hypothesis for each task; None for effects that no model can hold together."""
-        if (self.jobs == 1 and self.cluster is None) or len(tasks) < 2:
+        if self._alone or len(tasks) < 2:
             return [
                 self._here(problem, task, number, len(tasks))
                 for number, task in enumerate(tasks, start=1)
             ]
         for task in tasks:
-            self._check_sendable(task)
-        lost = () if self.cluster is None else self.cluster.lost
-        submit = self._submit = self._submit or self._begun()
-        number = next(i for i, p in enumerate(self.problems) if p is problem)
-        futures = [submit(number, task) for task in tasks]
-        of = dict(zip(futures, tasks, strict=True))
-        self.progress(tasks[0].stage, part_of(tasks[0].name, 1, len(tasks)))
-        try:
+            self._check_sendable(task.effects)
+        with self._told_of_loss():
+            futures = [self._there(problem, _answer_to, task) for task in tasks]
+            of = dict(zip(futures, tasks, strict=True))
+            self.progress(tasks[0].stage, part_of(tasks[0].name, 1, len(tasks)))
             for number, done in enumerate(as_completed(futures), start=1):
                 # Of those that are computed at a time the one that ended; the next has its number.
                 begun = min(number + 1, len(tasks))
                 self.progress(of[done].stage, part_of(of[done].name, begun, len(tasks)))
-            return [_hypothesis(problem, t, f) for t, f in zip(tasks, futures, strict=True)]
+            answers = [f.result() for f in futures]
+        return [
+            None if a is None else _as_here(problem, t.effects, a)
+            for t, a in zip(tasks, answers, strict=True)
+        ]
+
+    def each(
+        self,
+        problem: Problem,
+        work: Callable[[Problem, Hypothesis], T],
+        hypotheses: Sequence[Hypothesis],
+    ) -> list[T]:
+        """What a function gives of each hypothesis on a problem; workers have to find it by name.
+
+        The problem is that of the executor: all that a hypothesis does not hold back.
+        """
+        if self._alone or len(hypotheses) < 2:
+            return [work(problem, h) for h in hypotheses]
+        for h in hypotheses:
+            self._check_sendable(h.effects)
+        with self._told_of_loss():
+            futures = [
+                self._there(problem, _worked, work, h.effects, _as_sent(problem, h))
+                for h in hypotheses
+            ]
+            return [f.result() for f in futures]
+
+    @property
+    def _alone(self) -> bool:
+        return self.jobs == 1 and self.cluster is None
+
+    @contextmanager
+    def _told_of_loss(self) -> Iterator[None]:
+        """Raise ComputationProblem where workers are lost."""
+        lost = () if self.cluster is None else self.cluster.lost
+        try:
+            yield
         except BrokenProcessPool:
             raise ComputationProblem(
                 "a worker process was killed, perhaps for want of memory; try --jobs 1"
@@ -120,16 +155,22 @@ class Executor:
                 "the cluster has gone, or its workers were killed, perhaps for want of memory"
             ) from None
 
-    def _begun(self) -> Callable[[int, Task], Future[Answer | None]]:
-        """Workers that have the problems: what gives one of them a task."""
+    def _there(self, problem: Problem, work: Callable[..., T], *given: object) -> Future[T]:
+        """What a function will give, by a worker, of a problem that it has and of the rest."""
+        submit = self._submit = self._submit or self._begun()
+        number = next(i for i, p in enumerate(self.problems) if p is problem)
+        return submit(work, number, *given)
+
+    def _begun(self) -> Callable[..., Future[Any]]:
+        """Workers that have the problems: what gives one of them work on one of these."""
         # What a parameter would need is for people, and holds functions without a name.
         sent = tuple(replace(p, needs={}) for p in self.problems)
         if self.cluster is not None:
             there, shared = self.cluster.executor(), self.cluster.shared(sent)
             self._pool = there
-            return lambda number, task: there.submit(alone_with, _answer_to, shared, number, task)
+            return lambda *work: there.submit(alone_with, _on_one_of, shared, *work)
         here = self._pool = pool(self.jobs, _prepare, *sent)
-        return lambda number, task: here.submit(_answer, number, task)
+        return lambda *work: here.submit(_here, *work)
 
     def fit_compatible(self, problem: Problem, tasks: Sequence[Task]) -> list[Hypothesis]:
         """The same for effects that have been together in one model before.
@@ -147,9 +188,9 @@ class Executor:
         self.progress(task.stage, part_of(task.name, number, count))
         return fitted(problem, task)
 
-    def _check_sendable(self, task: Task) -> None:
+    def _check_sendable(self, effects: Sequence[Effect]) -> None:
         """Raise EffectFailed for an effect whose functions a worker process could not find."""
-        for effect in task.effects:
+        for effect in effects:
             if effect.name in self._sendable:
                 continue
             try:
@@ -208,14 +249,20 @@ def fitted(problem: Problem, task: Task) -> Hypothesis | None:
         return None
 
 
-def _hypothesis(problem: Problem, task: Task, future: Future[Answer | None]) -> Hypothesis | None:
-    answer = future.result()
-    if answer is None:
-        return None
+def _as_sent(problem: Problem, h: Hypothesis) -> Answer:
+    """A hypothesis on a problem for another process that has this problem."""
+    part = h.problem
+    weight = None if part.block is problem.block else part.block.weight
+    told = tuple(problem.held.keys() - part.held.keys())
+    return Answer(h.fitted, h.cross_validated, weight, told, h.record_effects)
+
+
+def _as_here(problem: Problem, effects: tuple[Effect, ...], answer: Answer) -> Hypothesis:
+    """The hypothesis again, of this process's own effects."""
     part = problem.with_free(answer.told) if answer.told else problem
     if answer.weight is not None:
         part = replace(part, block=problem.block._replace(weight=answer.weight))
-    here = replace(answer.fitted, model=Model(task.effects))  # of this process's own effects
+    here = replace(answer.fitted, model=Model(effects))
     return Hypothesis(part, here, answer.cross_validated, answer.record_effects)
 
 
@@ -229,18 +276,25 @@ def _prepare(*problems: Problem) -> None:
     _problems = problems
 
 
-def _answer(number: int, task: Task) -> Answer | None:
-    return _answer_to(_problems, number, task)
+def _here(work: Callable[..., T], number: int, *given: object) -> T:
+    return work(_problems[number], *given)
 
 
-def _answer_to(problems: Sequence[Problem], number: int, task: Task) -> Answer | None:
+def _on_one_of(problems: Sequence[Problem], work: Callable[..., T], number: int, *given: Any) -> T:
     import erdctl.model.recurrences  # noqa: F401  # see `executor`
 
-    problem = problems[number]
+    return work(problems[number], *given)
+
+
+def _answer_to(problem: Problem, task: Task) -> Answer | None:
     h = fitted(problem, task)
-    if h is None:
-        return None
-    part = h.problem
-    weight = None if part.block is problem.block else part.block.weight
-    told = tuple(problem.held.keys() - part.held.keys())
-    return Answer(h.fitted, h.cross_validated, weight, told, h.record_effects)
+    return None if h is None else _as_sent(problem, h)
+
+
+def _worked(
+    problem: Problem,
+    work: Callable[[Problem, Hypothesis], T],
+    effects: tuple[Effect, ...],
+    answer: Answer,
+) -> T:
+    return work(problem, _as_here(problem, effects, answer))
