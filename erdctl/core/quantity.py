@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import Enum
 
 NEAR = 1e-3  # of a standard error
+HARMLESS = 0.1  # of one while all others are held: a move that costs a hundredth of a variance
 
 
 class Scale(Enum):
@@ -46,21 +48,30 @@ class Quantity:
         if self.scale is Scale.LOG and self.low <= 0:
             raise ValueError(f"{self.symbol}: a logarithmic scale needs a low bound above 0")
 
-    def bound_at(self, value: float, stderr: float | None = None) -> float | None:
+    def bound_at(
+        self, value: float, stderr: float | None = None, alone: float = float("inf")
+    ) -> float | None:
         """The bound that an estimate lies at, or None.
 
         stderr : of the estimate; nearer to the bound than a thousandth of it is at the bound, since
             a search that steps towards one stops just short of it
-        Check: 4e-13 with an error of 77 is at a bound of 0, 0.5 is not.
-        >>> q = Quantity(symbol="k", unit="N/m", title="", low=0.0, high=1e9, start=1.0)
-        >>> q.bound_at(4e-13, 77.0), q.bound_at(0.5, 77.0)
-        (0.0, None)
+        alone : its error while all others are held: by a tenth of that an amplitude can be moved to
+            its bound, and the data tell nothing of it. A shape is moved by a thousandth of its
+            start, or of its range where that is logarithmic: farther off the force may be another
+        Check: 4e-13 with an error of 77 is at a bound of 0, 0.5 is not; nor is 2000 with one of
+        1e17 that others make up for.
+        >>> q = Quantity(symbol="k", unit="N/m", title="", low=0, high=1e9, start=1, linear=True)
+        >>> q.bound_at(4e-13, 77.0), q.bound_at(0.5, 77.0), q.bound_at(2000.0, 1e17, 3.0)
+        (0, None, None)
         """
-        near = NEAR * (stderr or 0.0)
-        for bound in (self.low, self.high):
-            if abs(value - bound) <= max(near, NEAR**3 * abs(bound)):
-                return bound
-        return None
+        bound = min(self.low, self.high, key=lambda b: abs(value - b))
+        near = min(NEAR * (stderr or 0.0), HARMLESS * alone)
+        if self.scale is Scale.LOG:
+            bound = self.low if value * value < self.low * self.high else self.high
+            near = min(near, NEAR * math.log(self.high / self.low) * bound)
+        elif not self.linear:
+            near = min(near, NEAR * (abs(self.start) or self.high - self.low))
+        return bound if abs(value - bound) <= max(near, NEAR**3 * abs(bound)) else None
 
     def snapped(self, value: float) -> float:
         """The value; the bound, where it lies beyond that by no more than rounding.

@@ -21,6 +21,7 @@ class Fit:
     values : every parameter of the model;  free : names of the estimated ones
     covariance : (p, p) of the free ones, valid under correlated residuals
     rms : weighted residual [N];  samples : number of samples with weight
+    alone : standard error of each free one while all others are held, in white noise
     flat : groups of free parameters along which the data do not change the cost at all
     intervals : 95 %, of parameters that the cost is no parabola of, or that lie at a bound
     level_errors : (k, r) of what each record has of its own, where a fit has that
@@ -36,6 +37,7 @@ class Fit:
     samples: int
     evaluations: int
     converged: bool
+    alone: Mapping[str, float] = field(default_factory=dict)
     flat: tuple[tuple[str, ...], ...] = ()
     intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     level_errors: Array | None = None
@@ -87,13 +89,14 @@ def estimates(found: Fit, reasons: Mapping[str, str]) -> dict[str, Estimate]:
     reasons = {**together(found), **jump, **reasons}
     for name, q in found.model.quantities.items():
         value, reason, error = found.values[name], reasons.get(name), errors.get(name)
-        bound = q.bound_at(value, error) if name in errors or name in found.intervals else None
-        within = found.intervals.get(name)
+        within, alone = found.intervals.get(name), found.alone.get(name, np.inf)
+        known = error is not None or within is not None
+        bound = q.bound_at(value, error, alone) if known else None
         if reason is not None:
             out[name] = Estimate(value=None, unit=q.unit, assumed=value, reason=reason)
         elif bound is not None:
             # A fit that presses against a bound is no bell curve around it: it holds on one side.
-            reach = NORMAL_95 * (error or 0.0)
+            reach = min(NORMAL_95 * (error or 0.0), q.high - q.low)
             sides = (bound, bound + reach) if bound == q.low else (bound - reach, bound)
             out[name] = Estimate(value=bound, unit=q.unit, at_bound=True, within=within or sides)
         elif within is not None:

@@ -121,6 +121,9 @@ def assess(
         count = p + len(ends)
         whole = np.sum([n for s in sums for n in s.normal.values()], axis=0)
         wide = Normal.of(whole[:count, :count])
+    rms = float(np.sqrt(after / max(samples - len(free), 1)))
+    squares = np.diag(np.sum([r.normal for r in records], axis=0))[:p]
+    alone = rms / np.sqrt(np.where(squares > 0.0, squares, np.nan))
     known = dict(zip(free, np.sqrt(np.maximum(np.diag(errors), 0.0)).tolist(), strict=True))
     found = Fit(
         model=model,
@@ -128,11 +131,12 @@ def assess(
         free=free,
         covariance=errors,
         level_errors=own,
-        rms=float(np.sqrt(after / max(samples - len(free), 1))),
+        rms=rms,
         noise=noise,
         samples=samples,
         evaluations=evaluations,
         converged=converged,
+        alone=dict(zip(free, np.nan_to_num(alone, nan=np.inf).tolist(), strict=True)),
         flat=flat_groups(model, wide, (*free, *ends), values, known),
         jumps=jumps.REASON if jumps.slips(model, blocks, finer, values, free) else None,
     )

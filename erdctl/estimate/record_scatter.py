@@ -15,6 +15,7 @@ F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110-114 (degrees of freedom of
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -24,7 +25,7 @@ from erdctl.model.parameters import NORMAL_95
 
 KINDS = 2  # of columns that scatter: the model's force and one
 MOST = 120  # records that the variances are estimated from, evenly chosen
-DETERMINED = 1e-6  # relative eigenvalue below which the parameters leave nothing of a scatter
+DETERMINED = 1e-6  # part, and relative eigenvalue, below which the parameters leave nothing of it
 LEAST = 1e-3  # standard deviation that is looked at, over its error by noise
 ROUNDED = 1e-6  # relative eigenvalue of the noise in these sums below which it is rounding
 NOTHING = 1e-2  # variance, over that by noise, that is none
@@ -84,20 +85,23 @@ def _variances(
     from scipy.optimize import minimize
 
     p, count = len(meat), len(records)
-    many = KINDS * count
+    kinds = [k for k in range(KINDS) if _left(records, moved, k) > DETERMINED]
+    of, many = np.add(p, kinds), len(kinds) * count
+    if not kinds:
+        return np.zeros(KINDS), np.zeros((KINDS, KINDS))
     # Indices run over kinds first: gains of all records, then zeros.
-    q = np.array([[r.score[p + k] for r in records] for k in range(KINDS)]).ravel()
-    to = moved.reshape(p, many)  # N^-1 J' B
-    across = np.stack([r.normal[:p, p:] for r in records], axis=-1).reshape(p, many)
-    noisy = np.stack([r.meat[:p, p:] for r in records], axis=-1).reshape(p, many)
+    q = np.array([[r.score[k] for r in records] for k in of]).ravel()
+    to = moved[:, kinds].reshape(p, many)  # N^-1 J' B
+    across = np.stack([r.normal[:p, of] for r in records], axis=-1).reshape(p, many)
+    noisy = np.stack([r.meat[:p, of] for r in records], axis=-1).reshape(p, many)
     left = -across.T @ to
     noise = to.T @ meat @ to - to.T @ noisy - noisy.T @ to
     at = np.arange(count)
-    for k in range(KINDS):
-        for j in range(KINDS):
+    for k, row in enumerate(of):
+        for j, column in enumerate(of):
             here = np.ix_(k * count + at, j * count + at)
-            left[here] += np.diag([r.normal[p + k, p + j] for r in records])
-            noise[here] += np.diag([r.meat[p + k, p + j] for r in records])
+            left[here] += np.diag([r.normal[row, column] for r in records])
+            noise[here] += np.diag([r.meat[row, column] for r in records])
     scale = np.sqrt(np.maximum(np.diag(left), 0.0))
     scale = np.where(scale > 0.0, scale, 1.0)
     w, v = np.linalg.eigh(left / np.outer(scale, scale))
@@ -109,7 +113,7 @@ def _variances(
     e, u = np.linalg.eigh(noise / np.outer(size, size))
     u = u * size[:, None]
     noise = (u * np.maximum(e, ROUNDED * e[-1])) @ u.T
-    shares = [v.T @ left[:, k * count : (k + 1) * count] for k in range(KINDS)]
+    shares = [v.T @ left[:, k * count : (k + 1) * count] for k in range(len(kinds))]
     spread = np.stack([s @ s.T for s in shares])
     # A standard deviation of a record's value by noise alone is the unit of the search.
     unit = np.array([np.trace(noise) / max(np.trace(s), 1e-300) for s in spread])
@@ -127,13 +131,27 @@ def _variances(
     most = 10.0 * float(q @ q) / np.array([max(np.trace(s), 1e-300) for s in spread]) / unit
     low, highs = np.log(LEAST), np.maximum(0.5 * np.log(np.maximum(most, 1.0)), 1.0)
     grids = [np.linspace(low, high, 9) for high in highs]
-    start = min(((a, b) for a in grids[0] for b in grids[1]), key=lambda u: cost(np.array(u)))
+    start = min(product(*grids), key=lambda u: cost(np.array(u)))
     found = minimize(cost, start, method="Nelder-Mead", bounds=[(low, h) for h in highs])
     variance = unit * np.exp(2.0 * np.asarray(found.x))
     seen = variance > NOTHING * unit
     certain = np.linalg.inv(noise + np.einsum("k,kij->ij", variance, spread))
     weighed = np.stack([certain @ s for s in spread])
     information = 0.5 * np.einsum("kij,lji->kl", weighed, weighed)
-    uncertain = np.zeros((KINDS, KINDS))
-    uncertain[np.ix_(seen, seen)] = np.linalg.pinv(information[np.ix_(seen, seen)], hermitian=True)
-    return np.where(seen, variance, 0.0), uncertain
+    told = [k for k, is_seen in zip(kinds, seen, strict=True) if is_seen]
+    found_of, uncertain = np.zeros(KINDS), np.zeros((KINDS, KINDS))
+    found_of[told] = variance[seen]
+    uncertain[np.ix_(told, told)] = np.linalg.pinv(information[np.ix_(seen, seen)], hermitian=True)
+    return found_of, uncertain
+
+
+def _left(records: Sequence[RecordSums], moved: Array, kind: int) -> float:
+    """Part of the columns of one kind, in all records, that no parameter makes up for.
+
+    Where they make up for all of it, as two directions with a yield force each do for the zeros of
+    two records, what is left is rounding, and says nothing of a scatter.
+    """
+    p = len(moved)
+    whole = sum(r.normal[p + kind, p + kind] for r in records)
+    made = sum(r.normal[:p, p + kind] @ moved[:, kind, i] for i, r in enumerate(records))
+    return float((whole - made) / whole) if whole > 0.0 else 0.0
