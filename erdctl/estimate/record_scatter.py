@@ -102,7 +102,8 @@ def _variances(
             here = np.ix_(k * count + at, j * count + at)
             left[here] += np.diag([r.normal[row, column] for r in records])
             noise[here] += np.diag([r.meat[row, column] for r in records])
-    scale = np.sqrt(np.maximum(np.diag(left), 0.0))
+    # By the whole columns: by what is left of each, one of which only rounding is would count, too.
+    scale = np.sqrt([max(r.normal[k, k], 0.0) for k in of for r in records])
     scale = np.where(scale > 0.0, scale, 1.0)
     w, v = np.linalg.eigh(left / np.outer(scale, scale))
     v = (v / scale[:, None])[:, w > DETERMINED * w[-1]]
