@@ -14,7 +14,7 @@ from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import DIRECTIONS, Recording
 from erdctl.estimate.covariance import Fit, estimates, together
-from erdctl.estimate.held_lags import LAGS, with_held_lags
+from erdctl.estimate.held_lags import LACKING, LAGS, tell_the_lags, with_held_lags
 from erdctl.estimate.last_step import assess
 from erdctl.estimate.least_squares import Fitted, fit
 from erdctl.estimate.measurement_noise import measurement_noise
@@ -26,9 +26,6 @@ from erdctl.model.parameters import Estimate
 SEARCH = 40_000  # samples for the search; the last step and the errors use all
 CORRELATED = 0.95
 DISAGREE_ERRORS, DISAGREE_PART = 8.0, 0.3  # standard errors, and part of the value
-# Times the noise, rms, from which on a residual is told to hold more: of 36 logs of the paper's
-# damper the most was 1.65, in AR(1) noise, of which neighbours in state hold less.
-LACKING = 2.0
 FRESH = ((0.05, 0.3), (0.01, 1.0))  # T_d [s] and beta [1] of two guesses: slow and fast
 
 
@@ -83,9 +80,12 @@ def identify(
     slight = [n for n in held if needs[n].slight]
     found, lagging = with_held_lags(last, search, slight)
     if lagging is not None:
-        held = {n: v for n, v in held.items() if n not in LAGS}
-        best = fit(model, search, start=lagging, fixed=held, robust=robust)
-        evaluations += best.evaluations
+        others = {n: v for n, v in held.items() if n not in LAGS}
+        with_lags = fit(model, search, start=lagging, fixed=others, robust=robust)
+        evaluations += with_lags.evaluations
+        lagging = lagging if tell_the_lags(last, with_lags, search) else None
+    if lagging is not None:
+        best, held = with_lags, others
         last = found = assess(
             model, blocks, best.values,
             fixed=held, evaluations=evaluations, converged=best.converged, robust=robust,

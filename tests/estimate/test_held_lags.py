@@ -8,9 +8,13 @@ import numpy as np
 import oracle
 import pytest
 import trajectories
+from rig import TRUTH as PAPER
+from rig import campaign, noisy
 
 from erdctl.core.recording import DIRECTIONS, Recording
+from erdctl.core.signals import Signals
 from erdctl.estimate.identify import identify
+from erdctl.model.composed import Model
 
 RATE, SECONDS, DUTY, YIELD = 500.0, 6.0, 0.3, 450.0
 TRUTH = {"k_nom": 8200.0, "c_vis": 500.0}
@@ -77,3 +81,22 @@ def test_what_is_no_lag_makes_none() -> None:
     assert plain.force is not None
     bent = replace(plain, force=plain.force + 30.0 * (plain.x / 0.01) ** 3)
     assert identify(bent).joint["compression.T_d"].assumed == 0.0
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+@pytest.mark.parametrize("correlation", [0.0, 0.9])
+def test_unequal_lags_that_only_reversals_show_are_found(seed: int, correlation: float) -> None:
+    """Of the paper's model alone, at one duty in each record, 279 of 500 random logs were said to
+    lack something: the lags that were looked at were too far apart for little noise."""
+    g = np.random.default_rng(seed)
+    r = campaign(100.0, 6.0)
+    r = r.select([i for i, name in enumerate(r.names) if "steps" not in name])
+    lags = {f"{d}.T_d": float(g.uniform(0.01, 0.06)) for d in ("compression", "release")}
+    sizes = {"compression.sigma": 14.0, "release.sigma": 22.0}
+    force = Model().force(Signals.of(r), PAPER | lags | sizes)
+    log = noisy(replace(r, force=force), seed, rms=1e-3 * np.ptp(force), correlation=correlation)
+    found = identify(log)
+    assert found.fit.rms < 2.0 * found.noise_rms
+    assert not any("lacks something" in line for line in found.warnings)
+    for name, lag in lags.items():
+        assert found.fit.values[name] == pytest.approx(lag, rel=0.05)
