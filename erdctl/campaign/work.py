@@ -46,7 +46,7 @@ def done(job: Job) -> Done | None:
     """
     # The field's lag rounds otherwise once a compiler is loaded (see `diagnose.executor`): loaded
     # from the beginning, a log's numbers do not depend on which logs its worker had before.
-    import erdctl.model.recurrences  # noqa: F401
+    import erdctl.model.recurrences  # noqa: F401  # only to load the compiler
 
     work = _Work(job)
     with alone():

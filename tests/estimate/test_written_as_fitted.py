@@ -63,8 +63,9 @@ def test_heat_that_is_never_lost_is_written_so() -> None:
 
 
 def test_only_a_move_that_changes_nothing_ends_at_a_bound() -> None:
-    log_scale = {"low": 1.0, "high": 1e6, "scale": Scale.LOG}
-    tau = Quantity(symbol="tau", unit="s", title="", start=100.0, **log_scale)  # type: ignore[arg-type]
+    tau = Quantity(
+        symbol="tau", unit="s", title="", low=1.0, high=1e6, start=100.0, scale=Scale.LOG
+    )
     assert tau.bound_at(1e6, 1e11) == 1e6
     assert tau.bound_at(300.0, 1e9) is None
     assert tau.bound_at(1.0005, 77.0) == 1.0
