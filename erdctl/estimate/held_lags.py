@@ -97,6 +97,7 @@ class _Line:
     found: Fit
     block: Block
     phi: float
+    lacks: bool  # more than noise is left with both at 0
     known: dict[tuple[float, float], tuple[float, Array]] = field(default_factory=dict)
 
     @classmethod
@@ -116,7 +117,9 @@ class _Line:
         phi = float(np.median(robust[told] / plain[told])) * part
         rest = block.force - here
         start = np.array([values[n] for n in free])
-        return cls(found, block, phi, {(0.0, 0.0): (float(np.dot(weight, rest**2)), start)})
+        rms = float(np.sqrt(np.average(rest**2, weights=weight)))
+        lacks = rms > LACKING * measurement_noise(block, rest)
+        return cls(found, block, phi, lacks, {(0.0, 0.0): (float(np.dot(weight, rest**2)), start)})
 
     def look(self) -> None:
         """Along equal lags, closer at the ends of what is allowed, and unequal ones at the best."""
@@ -134,10 +137,15 @@ class _Line:
             self._at(best[0], best[1] * ratio, best)
 
     def asked_for(self) -> Values | None:
-        """All values at the best lags that were looked at, if these are clear and short."""
+        """All values at the best lags that were looked at, if these are clear and short.
+
+        A misfit counts as noise in `phi`; if it is the lags' own it hides them. Where there is one
+        the fit with them free says what they take of it.
+        """
         best = min(self.known, key=lambda lags: self.known[lags][0])
         gained = self.known[0.0, 0.0][0] - self.known[best][0]
-        if gained < CLEAR**2 * self.phi or max(best) >= TIMES[-1]:
+        clear = gained >= CLEAR**2 * self.phi or self.lacks
+        if not clear or not 0.0 < max(best) < TIMES[-1]:
             return None
         return self._values(best, self.known[best][1])
 

@@ -22,6 +22,7 @@ from erdctl.estimate.starts import fresh_start
 from erdctl.estimate.two_step import two_step
 from erdctl.model.composed import Model, off_values
 from erdctl.model.parameters import Estimate
+from erdctl.model.slots import Values
 
 SEARCH = 40_000  # samples for the search; the last step and the errors use all
 CORRELATED = 0.95
@@ -109,7 +110,7 @@ def identify(
         warnings=(
             *_of_misfit(found.rms, noise),
             *_warnings(found, steps, reasons),
-            *_of_lags(moved),
+            *_of_lags(moved, None if lagging is None else found.values),
         ),
     )
 
@@ -152,8 +153,17 @@ def _of_misfit(rms: float, noise: float) -> list[str]:
     ]
 
 
-def _of_lags(names: Sequence[str]) -> list[str]:
-    """What to say of parameters that a lag held at 0 may have moved."""
+def _of_lags(names: Sequence[str], taken: Values | None) -> list[str]:
+    """What to say where no step of the duty shows the lags.
+
+    names : of parameters that lags held at 0 may have moved;  taken : all values, if with lags
+    """
+    if taken is not None:
+        lags = " and ".join(f"{1e3 * taken[n]:.3g} ms in {n.split('.')[0]}" for n in LAGS)
+        return [
+            f"lags of {lags} are taken, as with them nothing but noise is left: reversals alone"
+            " show them, where other physics may look alike, so no interval is given"
+        ]
     if not names:
         return []
     return [
