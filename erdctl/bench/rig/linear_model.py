@@ -15,6 +15,7 @@ from erdctl.core.quantiles import median
 from erdctl.core.recording import Array, Index
 
 LEAST_RECORDS = 4
+LEAST_SMOOTH = 80  # samples of a record away from reversals and duty steps, ten a parameter
 STEADY = 0.02  # of the duty in a record, below which it is a level
 SAMPLES, TRIED = 60_000, 8_000  # that the model is fitted to, and tried on
 STEPS = 2_000  # of the duty; a control that never rests shows no lag of its own
@@ -120,7 +121,9 @@ def _rows(p: Piece, T_d: float, beta: float, every: int = 1) -> Rows:
 def best_rows(found: Sequence[Piece]) -> list[Rows]:
     """Rows for the lag and the exponent that suit most records best.
 
-    By the sum of the logarithms of their misfits, so that a single record does not decide.
+    By the sum of the logarithms of their misfits, so that a single record does not decide. Without
+    records that are hardly ever away from a reversal or a step of the duty, as in a closed loop:
+    they tell the parameters by chance, of all records or of none.
     """
     if len(found) < LEAST_RECORDS:
         return []
@@ -132,7 +135,8 @@ def best_rows(found: Sequence[Piece]) -> list[Rows]:
     # One after the other: the lag shows after duty steps, the exponent between the levels.
     beta = min(EXPONENTS, key=lambda b: trial.cost(LAGS[0], b)) if field else EXPONENTS[0]
     T_d = min(LAGS, key=lambda T: trial.cost(T, beta)) if control else LAGS[0]
-    return [_rows(p, T_d, beta) for p in found]
+    rows = [_rows(p, T_d, beta) for p in found]
+    return [r for r in rows if np.count_nonzero(r.smooth) >= LEAST_SMOOTH]
 
 
 @dataclass(frozen=True, eq=False)

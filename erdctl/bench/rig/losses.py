@@ -46,9 +46,11 @@ def jumps(found: Sequence[Piece], clipped: Sequence[RigFault] = ()) -> list[RigF
     out = []
     for p in found:
         dt = np.diff(p.t)
-        beyond = np.diff(p.x) - 0.5 * (p.xdot[1:] + p.xdot[:-1]) * dt
+        beyond = p.beyond
         scale = 1.4826 * median(np.abs(beyond))
-        far = (np.abs(beyond) > max(SIGMAS * scale, STEPS * p.speed * p.step)) & (dt < GAP * p.step)
+        least = np.maximum(SIGMAS * scale, STEPS * np.maximum(p.speed * p.step, p.moved))
+        far = np.abs(beyond) > np.maximum(least, SIGMAS * p.unresolved)
+        far &= dt < GAP * p.step
         if not far.any():
             continue
         at = np.flatnonzero(far & (np.abs(beyond) > 3.0 * resolution(p.x)))

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from erdctl.bench.rig.fault import RigFault, marked
-from erdctl.bench.rig.pieces import NEAR, Piece, spread, widened
+from erdctl.bench.rig.pieces import NEAR, Piece, largest_near, spread, widened
 from erdctl.core.quantiles import median, medians, percentiles
 from erdctl.core.recording import Array, Index, Recording
 
@@ -17,6 +17,7 @@ SIGMAS = 8.0
 OVER = 3.0  # times what its surroundings vary by: noise with a memory has peaks, too
 RANGE = 0.04  # of the channel's range
 RANGE_X = 0.004  # the same of x, of which smaller ones harm
+IN_STEPS = 1.5  # of what x rises in its steepest step there; a derived velocity smears a motion
 # Samples of all spikes, and the part of the stroke that most are within.
 RECURRING, ONE_PLACE, MOSTLY = 20, 0.1, 0.95
 RARE = 0.01  # of the samples, at most
@@ -67,6 +68,9 @@ def _spikes(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault]) -
         width = spread(values)
         if width == 0.0:
             continue
+        if channel == "x":
+            # Without the motion, which may be as short as a spike.
+            values = np.concatenate([[0.0], np.cumsum(p.beyond)])
         at, height = _standing_out(values, smooth=channel == "x")
         at, height = at[(free := ~known[p.first + at])], height[free]
         if not len(at):
@@ -76,7 +80,11 @@ def _spikes(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault]) -
             # Where the piston turns, or touches rest, a sound force jumps there and back.
             away = ~(p.turning(WIDE + 1) | p.stepped(2 * NEAR))[at]
             at, height = at[away], height[away]
-        least = (RANGE if channel == "force" else RANGE_X) * width
+        least = np.full(len(at), (RANGE if channel == "force" else RANGE_X) * width)
+        if channel == "x":
+            least = np.maximum(least, SIGMAS * p.unresolved[at])
+            in_a_step = largest_near(np.abs(p.beyond), WIDE)[at]
+            least = np.where(height > IN_STEPS * in_a_step, np.inf, least)
         apart = _apart(height, round(RARE * len(p)))
         kept = (height > SIGMAS * noise) & (height > least) & (height >= apart)
         at, height = at[kept], height[kept]
