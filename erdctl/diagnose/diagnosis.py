@@ -220,6 +220,7 @@ def diagnose(
     if more is not None:
         best, fit, record_effects = more.selection.best, more.fit, more.record_effects
         unseen, lack_of_fit, found = more.unseen, more.lack_of_fit, more.findings
+        noise = lack_of_fit.noise_rms  # misfit that the law takes is none
         again = {f.effect.name for f in found}  # what a law leaves of the misfit, they take
         withdrawn = tuple(e for e in withdrawn if e.name not in again)
         taken = taken if withdrawn else None
