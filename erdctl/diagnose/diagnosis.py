@@ -18,6 +18,7 @@ from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Recording
 from erdctl.diagnose import scores, thresholds
+from erdctl.diagnose.bounds import Bounds
 from erdctl.diagnose.conditions import cannot_tell, cannot_tell_several, most_told
 from erdctl.diagnose.detectable import Detectable, detectable
 from erdctl.diagnose.executor import Executor, executor
@@ -150,11 +151,9 @@ def diagnose(
     seen = problem.of([r for r in range(len(recording.names)) if r not in aside])
     thin = thinned(seen, thresholds.SEARCH_SAMPLES)
     untested = [e for e in candidates if e.name in missing]
-    allowed: dict[str, float] = {}
-    for effect in candidates:
-        allowed |= effect.allowed(problem.block.signals, problem.block.force)
+    bounds = Bounds.of(candidates, problem.block)
     with ExitStack() as pools:
-        given_to = partial(executor, jobs=jobs, progress=progress, most=allowed, cluster=cluster)
+        given_to = partial(executor, jobs=jobs, progress=progress, bounds=bounds, cluster=cluster)
         workers = pools.enter_context(given_to((thin, seen, problem)))
         searched = search(thin, testable, most, workers, seed, given, untested)
         if given is None and to_be_searched_with_lags(thin, searched):

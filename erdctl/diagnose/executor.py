@@ -17,6 +17,7 @@ from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Array
 from erdctl.core.workers import alone_with, leave, pool
 from erdctl.diagnose import thresholds
+from erdctl.diagnose.bounds import Bounds
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis, rank_starts
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.record_effects import RecordEffects
@@ -73,12 +74,12 @@ class Executor:
         problems: Sequence[Problem],
         jobs: int = 1,
         progress: Progress = lambda stage, what: None,
-        most: Values | None = None,
+        bounds: Bounds | None = None,
         cluster: Cluster | None = None,
     ) -> None:
         self.problems, self.jobs, self.progress = tuple(problems), jobs, progress
         self.cluster = cluster
-        self.most = most or {}
+        self.bounds = bounds or Bounds({}, {})
         self._submit: Callable[..., Future[Any]] | None = None
         self._pool: PoolExecutor | None = None
         self._sendable: set[str] = set()
@@ -90,7 +91,14 @@ class Executor:
 
     def possible(self, values: Values) -> bool:
         """Whether the log allows values of parameters."""
-        return all(values.get(name, most) <= most for name, most in self.most.items())
+        least, most = self.bounds
+        within = all(values.get(name, least[name]) >= least[name] for name in least)
+        return within and all(values.get(name, most[name]) <= most[name] for name in most)
+
+    @property
+    def most(self) -> Values:
+        """Values of parameters above which a hypothesis is none, by name."""
+        return self.bounds.most
 
     def _fits(self, problem: Problem, tasks: Sequence[Task]) -> list[Hypothesis | None]:
         """A hypothesis for each task; None for effects that no model can hold together."""
@@ -214,20 +222,20 @@ def executor(
     problems: Sequence[Problem],
     jobs: int,
     progress: Progress,
-    most: Values | None = None,
+    bounds: Bounds | None = None,
     cluster: Cluster | None = None,
 ) -> Iterator[Executor]:
     """An executor with so many workers, which begin when there is work for two of them.
 
     jobs : 1 for none, all is then done in this process
-    most : values of parameters above which a hypothesis is none, by name
+    bounds : values of parameters between which a hypothesis is one
     cluster : whose workers do it, in place of this machine's
     """
     # The field's lag takes another path, which rounds otherwise, once a compiler is loaded. With it
     # loaded from the beginning results are the same in every process.
     import erdctl.model.recurrences  # noqa: F401  # only to load the compiler
 
-    found = Executor(problems, jobs, progress, most, cluster)
+    found = Executor(problems, jobs, progress, bounds, cluster)
     try:
         yield found
     finally:

@@ -171,6 +171,24 @@ def widest(s: Signals, force: Array) -> dict[str, float]:
     return {"w": float(np.arcsin(sine) / np.pi)} if sine < 1.0 else {}
 
 
+def narrowest(s: Signals, force: Array) -> dict[str, float]:
+    """The narrowest window that samples show: two steps, of the record in the middle.
+
+    Over less a sample is averaged with its neighbours alone, by a quarter each at most. That is no
+    average of a recorder: it takes of the noise that the modelled force has of the velocity, where
+    it is steep.
+    """
+    cycles, count = _cycles(s), np.diff(s.starts)
+    moving = np.flatnonzero(cycles > 0.0)
+    if not len(moving):
+        return {}
+    steps = [float(np.median(s.step[a : a + n - 1])) for a, n in zip(s.starts, count, strict=False)]
+    least = 2.0 * np.array(steps)[moving] / cycles[moving]
+    order = np.argsort(least)
+    half = np.searchsorted(np.cumsum(count[moving][order]), 0.5 * count[moving].sum())
+    return {"w": min(float(least[order][half]), 0.5)}
+
+
 def _steepest(t: Array, force: Array, turn: Index, longest: float) -> list[tuple[float, float]]:
     """Times [s] of some lags, and by how much the force changes within them at every turn [N]."""
     middle = np.concatenate([[0], (turn[1:] + turn[:-1]) // 2])
@@ -225,5 +243,6 @@ EFFECT = Effect(
         ),
     ),
     most=widest,
+    least=narrowest,
     order=1,
 )  # fmt: skip

@@ -97,6 +97,7 @@ class Effect:
         1/m^2, s and 1/J from what the recording spans, others from 0.1 to 10 times the start
     most : what a log allows at most of a parameter by the measured force alone: a hypothesis that
         asks for more is none, however well it fits
+    least : what a log resolves at least of a parameter, between one sample and the next
     companions : effects that commonly come with it, and without which it may improve no fit
     equivalents : effects that force data can hardly tell from this one, whatever the log
     includes : effects of which it has the whole in parameters of its own
@@ -124,6 +125,7 @@ class Effect:
     columns: TermFunction | None = field(default=None, repr=False)
     guesses: StartsFunction | None = field(default=None, repr=False)
     most: MostFunction | None = field(default=None, repr=False)
+    least: MostFunction | None = field(default=None, repr=False)
     of_speed: bool = False
     smooth: bool = False
     companions: tuple[str, ...] = ()
@@ -171,9 +173,16 @@ class Effect:
 
     def allowed(self, s: Signals, force: Array) -> dict[str, float]:
         """What a log with this force (n,) allows at most of its parameters, as in a whole model."""
-        if self.most is None:
+        return self._limits(self.most, s, force)
+
+    def resolved(self, s: Signals, force: Array) -> dict[str, float]:
+        """What a log with this force (n,) resolves at least of its parameters, likewise."""
+        return self._limits(self.least, s, force)
+
+    def _limits(self, said: MostFunction | None, s: Signals, force: Array) -> dict[str, float]:
+        if said is None:
             return {}
-        found = checked_most(self.most, [q.symbol for q in self.quantities], s, force)
+        found = checked_most(said, [q.symbol for q in self.quantities], s, force)
         return {self.key(symbol): value for symbol, value in found.items()}
 
     @property

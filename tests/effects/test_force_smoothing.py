@@ -11,7 +11,9 @@ from places import SHARED
 from rig import real
 from scipy.signal import lfilter
 
-from erdctl.core.blocks import whole
+from erdctl.core.blocks import Block, whole
+from erdctl.diagnose.bounds import Bounds
+from erdctl.diagnose.executor import Executor
 from erdctl.effects import get
 from erdctl.io.logs import read_logs
 
@@ -96,6 +98,19 @@ def test_a_force_that_jumps_where_the_motion_turns_was_not_averaged() -> None:
     jumping = 10.0 * np.sign(s.xdot) + 0.05 * np.random.default_rng(1).standard_normal(len(s))
     (most,) = SMOOTHING.allowed(s, jumping).values()
     assert most == pytest.approx(1.25 / (200.0 * 2.0), rel=0.05)
+
+
+def test_an_average_over_less_than_two_samples_is_none() -> None:
+    """In a car at 200 to 500 Hz (`tests/quarter_car.py`) windows of 1.3 to 2.3 samples were named:
+    what they took was of the noise of the velocity, where the force is steep."""
+    s = sine(2.0, 0.02, 20.0, 200.0)
+    (least,) = SMOOTHING.resolved(s, s.x).values()
+    assert least == pytest.approx(2.0 / 100.0, rel=0.01)  # of 100 samples in a cycle
+    tried = Executor((), bounds=Bounds.of([SMOOTHING], Block(s, s.x, np.ones(len(s)))))
+    possible = [tried.possible({"force_smoothing.w": w}) for w in (0.018, 0.022)]
+    assert possible == [False, True]
+    assert tried.possible({})
+    assert SMOOTHING.resolved(signals(np.zeros(50)), np.zeros(50)) == {}
 
 
 def test_a_log_without_turns_rules_nothing_out() -> None:
