@@ -23,7 +23,9 @@ from erdctl.model.slots import Values
 def goes_beyond_what_was_seen(found: Hypothesis) -> bool:
     """Whether any law of a hypothesis leaves, in its range, the values that it has at samples.
 
-    By more than a part of their range; 0, which is no correction, is always within it.
+    By more than a part of their range; 0, which is no correction, is always within it. Or whether
+    one moves the piston farther than the rod goes: that is another stiffness, and a velocity which
+    is taken from the deflection.
     """
     s, weight = found.problem.block.signals, found.problem.block.weight
     for effect in found.effects:
@@ -32,6 +34,8 @@ def goes_beyond_what_was_seen(found: Hypothesis) -> bool:
         curve, p = effect.law.curve, effect.local(found.values)
         sizes = np.array([p[q.symbol] for q in curve.amplitudes(effect.law.unit)])
         seen = (sizes @ curve.rows(s, p))[weight > 0.0]
+        if effect.law.unit == "m" and np.std(seen) > np.std(s.x[weight > 0.0]):
+            return True
         low, high = min(float(seen.min()), 0.0), max(float(seen.max()), 0.0)
         all_ = sizes @ _everywhere(curve, p)
         margin = thresholds.CORNERS * (high - low)

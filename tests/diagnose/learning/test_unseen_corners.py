@@ -59,3 +59,14 @@ def test_a_curve_through_two_values_of_nearly_one_level_is_beyond(paper: Hypothe
     assert not goes_beyond_what_was_seen(with_values(paper, near, [0.0, 5.0, -5.0, 0.0]))
     off = Law(LawSlot.FORCE, Curve("duty", (0.0, 0.2, 0.25, 0.3, 0.45))).effect
     assert goes_beyond_what_was_seen(with_values(paper, off, [0.0, 1.0, 20.0, 1.0, 0.0]))
+
+
+def test_the_piston_goes_no_farther_than_the_rod(paper: Hypothesis) -> None:
+    """Beside a noisy velocity column a deflection 40 times as large was learned (1492006 of
+    `velocity_noise`): with a fortieth of the stiffness, and a velocity of the deflection alone.
+    It took the place of the name."""
+    knots = tuple(np.linspace(paper.problem.block.signals.x.min(), 0.02, 3).tolist())
+    bent = Law(LawSlot.DEFLECTION, Curve("x", knots)).effect
+    size = float(np.ptp(paper.problem.block.signals.x))
+    assert not goes_beyond_what_was_seen(with_values(paper, bent, [-0.1 * size, 0.0, 0.1 * size]))
+    assert goes_beyond_what_was_seen(with_values(paper, bent, [-20.0 * size, 0.0, 20.0 * size]))
