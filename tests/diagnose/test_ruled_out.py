@@ -11,6 +11,7 @@ from rig import campaign, noisy
 from erdctl.core.errors import EffectFailed
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.diagnose.bounds import Bounds
 from erdctl.diagnose.executor import Executor, Task
 from erdctl.diagnose.hypothesis import fit_hypothesis
 from erdctl.diagnose.problem import prepare
@@ -25,7 +26,10 @@ SMOOTH = get("preyield_viscosity")
 def test_a_hypothesis_beyond_what_a_log_allows_is_none() -> None:
     problem = prepare(RECORDING)
     task = Task("", (FRICTION,), ({},))
-    free, tight = Executor([problem]), Executor([problem], most={"coulomb_friction.F_c": -1.0})
+    free, tight = (
+        Executor([problem], bounds=bounds)
+        for bounds in (None, Bounds({}, {"coulomb_friction.F_c": -1.0}))
+    )
     (found,) = free.fit(problem, [task])
     assert found is not None
     assert tight.fit(problem, [task]) == [None]
@@ -33,6 +37,14 @@ def test_a_hypothesis_beyond_what_a_log_allows_is_none() -> None:
     (refitted,) = tight.fit_compatible(problem, [task])
     assert refitted.cross_validated is problem.block.force
     assert free.fit_compatible(problem, [task])[0].score < 0.5 * refitted.score
+
+
+def test_a_hypothesis_below_what_a_log_resolves_is_none() -> None:
+    problem = prepare(RECORDING)
+    task = Task("", (FRICTION,), ({},))
+    assert Executor([problem], bounds=Bounds({"coulomb_friction.F_c": 1e3}, {})).fit(
+        problem, [task]
+    ) == [None]
 
 
 def test_an_effect_that_would_go_beyond_it_is_no_candidate() -> None:
