@@ -182,8 +182,8 @@ def narrowest(s: Signals, force: Array) -> dict[str, float]:
     moving = np.flatnonzero(cycles > 0.0)
     if not len(moving):
         return {}
-    steps = [float(np.median(s.step[a : a + n - 1])) for a, n in zip(s.starts, count, strict=False)]
-    least = 2.0 * np.array(steps)[moving] / cycles[moving]
+    steps = [float(np.median(s.step[s.starts[r] : s.starts[r + 1] - 1])) for r in moving]
+    least = 2.0 * np.array(steps) / cycles[moving]
     order = np.argsort(least)
     half = np.searchsorted(np.cumsum(count[moving][order]), 0.5 * count[moving].sum())
     return {"w": min(float(least[order][half]), 0.5)}

@@ -113,6 +113,15 @@ def test_an_average_over_less_than_two_samples_is_none() -> None:
     assert SMOOTHING.resolved(signals(np.zeros(50)), np.zeros(50)) == {}
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_record_of_one_sample_says_nothing_of_the_narrowest_window() -> None:
+    s = sine(2.0, 0.02, 20.0, 200.0)
+    n = len(s)
+    one = signals(np.append(s.xdot, 0.1), x=np.append(s.x, 0.01), step=0.005, starts=[0, n, n + 1])
+    (least,) = SMOOTHING.resolved(one, one.x).values()
+    assert least == pytest.approx(2.0 / 100.0, rel=0.01)
+
+
 def test_a_log_without_turns_rules_nothing_out() -> None:
     assert SMOOTHING.allowed(signals(np.ones(50)), np.arange(50.0)) == {}
 
