@@ -145,6 +145,12 @@ def road(g: np.random.Generator, seconds: float, kind: str) -> Array:
     return np.asarray(z * np.minimum(1.0, t))
 
 
+def damper(g: np.random.Generator) -> Array:
+    """(10,) k_nom, c_vis, T_d, sigma, beta in compression, then in release: the first of a seed."""
+    way = [(150, 250), (50, 80), (0.015, 0.06), (12, 25), (0.3, 0.8)]
+    return np.array([g.uniform(*bounds) for bounds in 2 * way])
+
+
 def log(
     seed: int,
     rate: int,
@@ -161,8 +167,7 @@ def log(
     names = list(EFFECTS)
     own = np.array([*EFFECTS[effect], 0.0, 0.0, 0.0])
     g = np.random.default_rng(seed)
-    way = [(150, 250), (50, 80), (0.015, 0.06), (12, 25), (0.3, 0.8)]
-    damper = np.array([g.uniform(*bounds) for bounds in 2 * way])
+    values = damper(g)
     parts = []
     for k in range(records):
         control = 0 if k == 0 else int(g.integers(len(CONTROLS)))
@@ -170,7 +175,7 @@ def log(
         low, high = g.choice([0.0, 0.05, 0.1]), g.choice([0.25, 0.35, 0.45])
         every = round(1 / H / rate)
         number = names.index(effect)
-        x, v, duty, force = drive(z, every, damper, control, (low, high), number, own).T
+        x, v, duty, force = drive(z, every, values, control, (low, high), number, own).T
         n = len(x)
         if effect == "time_skew":
             force = np.interp(np.arange(n) / rate - own[0], np.arange(n) / rate, force)

@@ -5,6 +5,9 @@
 v : (n,) duty cycle, held from its sample to the next [1];  u : (n,) field that the chains have
 followed [1], v^m as a record begins;  r : growth of the viscosity up to full duty [1], r >= 0, off
 at 0;  m : exponent [1], 1 in the source;  T_v : time constant of the chains [s], 0 at once
+A log tells no time far below its step, but whether the force of a sample is from before or after
+the step of the duty there. From T_v = 0, after it, to half a step, before it, the one becomes the
+other, so that a fit may come from either side.
 Valid where chains thicken the flowing fluid too, so that the slope of force over speed rises with
 the field.
 Check: r = 3, m = 1, T_v = 10 ms, duty 0 and then 0.4: 1, and 10 ms after the step 1 + 3 * 0.4 *
@@ -30,7 +33,8 @@ from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.kernels import first_order
 from erdctl.model.slots import ScaleSlot, Values
 
-AT_ONCE = 1e-9  # s
+AT_ONCE = 1e-12  # s
+SIDE = 0.05  # of a step: time constants well below that are none
 
 
 def field_viscosity(s: Signals, p: Values) -> dict[str, Array]:
@@ -38,9 +42,12 @@ def field_viscosity(s: Signals, p: Values) -> dict[str, Array]:
     if p["r"] == 0.0:
         return {}
     field = s.duty ** p["m"]
+    T = max(p["T_v"], AT_ONCE)
     step = s.step if s.common_step is None else s.common_step
-    decay = step / max(p["T_v"], AT_ONCE)
+    decay = step / T
     followed = first_order(decay, -np.expm1(-decay) * field, field[s.starts[:-1]], s.starts)
+    with np.errstate(divide="ignore"):
+        followed += np.exp(-T / (SIDE * s.step_before)) * (field - followed)
     return {"viscous": 1.0 + p["r"] * followed}
 
 
@@ -82,14 +89,18 @@ EFFECT = Effect(
         state=("field",),
         code="""
         real target = s->duty0 > K(0.0) ? POW(s->duty0, p->m) : K(0.0);
+        real next = s->duty > K(0.0) ? POW(s->duty, p->m) : K(0.0);
+        real T = FMAX(p->T_v, K(1e-12));
 
         if (!(p->r > K(0.0)))
             return;
         if (s->first)
             z->field = target;
         else
-            z->field += (target - z->field) * -EXPM1(-s->h / FMAX(p->T_v, K(1e-9)));
-        f->viscous *= K(1.0) + p->r * z->field;
+            z->field += (target - z->field) * -EXPM1(-s->h / T);
+        /* After a step of the duty or before it, where T_v is far below that of the samples. */
+        next = z->field + (next - z->field) * (s->h > K(0.0) ? EXP(-T / (K(0.05) * s->h)) : K(0.0));
+        f->viscous *= K(1.0) + p->r * next;
         """,
     ),
 )  # fmt: skip
