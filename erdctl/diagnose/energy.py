@@ -103,7 +103,7 @@ def _over_noise(problem: Problem, worse: Array, better: Array, slope: float) -> 
     weight, starts = problem.block.weight, problem.block.signals.starts
     d = worse - better
     rest = worse - slope * d
-    noise = ColouredNoise.of(rest * np.sqrt(weight), starts)
+    noise = ColouredNoise.of(rest * np.sqrt(weight), starts, used=weight > 0.0)
     flat = noise.innovation * float(np.sum(noise.colour((weight * d)[None], starts) ** 2))
     uneven = float(np.sum(np.bincount(problem.stretch, weight * d * rest) ** 2))
     return float(np.dot(weight * d, worse)) / float(np.sqrt(max(flat, uneven, 1e-300)))

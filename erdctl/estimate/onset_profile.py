@@ -64,7 +64,9 @@ class Profile:
         self.step, self.starts = signals.typical_step, signals.starts
         self.order = np.argsort(acted, kind="stable")
         self.t, self.q = acted[self.order], len(whole)
-        self.X = np.concatenate([whole, failing])[:, self.order]
+        rows = np.concatenate([whole, failing])
+        self.weighed = np.any(rows != 0.0, axis=0)  # what has no weight is 0, and no noise
+        self.X = rows[:, self.order]
         self.middle = 0.5 * float(self.t[0] + self.t[-1])
         # Times that differ by rounding are one: the sums over so short a ramp would be rounding.
         apart = np.diff(self.t, prepend=-np.inf) > ROUNDED * self.step
@@ -99,7 +101,7 @@ class Profile:
         more = other.square - best.square
         if norm <= 0.0 or more <= 0.0:
             return 0.0
-        noise = ColouredNoise.of(left, self.starts)
+        noise = ColouredNoise.of(left, self.starts, used=self.weighed)
         spread = noise.colour(g[None], self.starts)[0]
         return more * norm / max(noise.innovation * float(spread @ spread), 1e-300)
 
