@@ -3,7 +3,7 @@
     m_s z_s'' = k_s x + F,   m_u z_u'' = k_t (z_r - z_u) - k_s x - F,   x = z_u - z_s
     F = k_nom x + c_vis xdot + F_ER tanh(xdot / v_y),   T_d F_ER' + F_ER = sigma duty^beta
 
-and one effect of `EFFECTS` more, if asked for.
+and one effect of `EFFECTS` more, and one of `FAULTS` from a time on, if asked for.
 
 Masses and springs as of a car that INOVE-like benches carry (assumed). Wheels hop at 33 Hz, which
 logs at 100 or 200 Hz hold with three to six samples a cycle; the control switches the duty at
@@ -12,6 +12,8 @@ reversals of the motion.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
@@ -19,6 +21,8 @@ from numba import njit
 from scipy.signal import lfilter
 
 Array = npt.NDArray[np.float64]
+
+FAULTS = ("oil_leakage", "electrical_fault", "deformation_fault")
 
 H = 5e-5  # s; the motion and the control are integrated at 20 kHz
 SPRUNG, UNSPRUNG, SPRING, TYRE = 2.27, 0.32, 1396.0, 12270.0  # kg, kg, N/m, N/m
@@ -54,12 +58,16 @@ def drive(
     duties: tuple[float, float],
     effect: int,
     p: Array,
+    fault: int,
+    left: float,
+    onset: float,
 ) -> Array:
     """(n, 4) x, xdot, duty and force at every so many steps on a road (m,) [m].
 
     damper : k_nom, c_vis, T_d, sigma, beta in compression, then in release
     control : number in CONTROLS;  duties : low and high [1], of "none" the lower
     effect, p : number in EFFECTS and its values, of which there are at least three
+    fault, left, onset : number in FAULTS, effectiveness that is left [1], from when on [s]
     """
     out = np.zeros((len(road) // every, 4))
     z_s = v_s = z_u = v_u = F_ER = bristle = heat = 0.0
@@ -95,7 +103,9 @@ def drive(
         aim = level * sigma * u**beta
         falls = effect == 7 and aim < F_ER
         F_ER += (aim - F_ER) * (1.0 - np.exp(-H / (p[0] * T_d if falls else T_d)))
-        force = k * x + level * c * v + F_ER * np.tanh(v / v_y)
+        f = left if i * H >= onset else 1.0
+        force = (f if fault == 0 else 1.0) * k * x + f * F_ER * np.tanh(v / v_y)
+        force += (1.0 if fault == 1 else f) * level * c * v
         rubbing = np.tanh(v / 1e-4)
         if effect == 1:
             force += p[0] * rubbing
@@ -159,10 +169,14 @@ def log(
     seconds: float = 10.0,
     velocity: float = 3e-4,
     effect: str = "none",
+    fault: str = FAULTS[0],
+    left: float = 0.6,
+    onsets: Sequence[float] = (),
 ) -> pd.DataFrame:
     """A log of a damper in the car: white noise on all channels.
 
-    velocity : noise of xdot [m/s]
+    velocity : noise of xdot [m/s];  fault, left : see `drive`
+    onsets : when it sets in in each record [s], inf for never; none in any if empty
     """
     names = list(EFFECTS)
     own = np.array([*EFFECTS[effect], 0.0, 0.0, 0.0])
@@ -175,7 +189,8 @@ def log(
         low, high = g.choice([0.0, 0.05, 0.1]), g.choice([0.25, 0.35, 0.45])
         every = round(1 / H / rate)
         number = names.index(effect)
-        x, v, duty, force = drive(z, every, values, control, (low, high), number, own).T
+        wrong = FAULTS.index(fault), left, onsets[k] if onsets else np.inf
+        x, v, duty, force = drive(z, every, values, control, (low, high), number, own, *wrong).T
         n = len(x)
         if effect == "time_skew":
             force = np.interp(np.arange(n) / rate - own[0], np.arange(n) / rate, force)

@@ -19,6 +19,13 @@ def command(
     format: Annotated[
         OutputFormat | None, typer.Option(help="Format of OUT, whatever its suffix; stdout: CSV.")
     ] = None,
+    running_time: Annotated[
+        bool,
+        typer.Option(
+            "--running-time",
+            help="Let the time go on from record to record, for what happens once in a log.",
+        ),
+    ] = False,
 ) -> None:
     """Convert a log between CSV, Parquet, Arrow, MAT, HDF5, MDF4 and TDMS.
 
@@ -49,6 +56,7 @@ def command(
       erdctl convert bench.mf4 bench.parquet
       erdctl convert bench.tdms bench.csv --map "x=Defl FL" --map "force=F_fl[kN]"
       erdctl convert bench.csv bench.mat
+      erdctl convert --running-time drives.parquet - | erdctl diagnose -
       erdctl convert lab.txt out.parquet --text decimal=comma --map "force=Load (N)[0.98 N]"
     """
     from erdctl.cli.in_force import IN_FORCE
@@ -65,7 +73,7 @@ def command(
     kind = output_format(output, wanted)  # a wrong suffix shows before a long reading
     with progress() as step:
         parts = None
-        if kind not in CONTAINERS and project is None:
+        if kind not in CONTAINERS and project is None and not running_time:
             parts = converted_in_parts(log, maps=maps, say=say, warn=warn, progress=step)
         if parts is not None:
             with table_writer(output, wanted) as writer, behind(writer) as write:
@@ -78,6 +86,7 @@ def command(
             maps=maps,
             text=text,
             project=None if project is None else project.reading,
+            goes_on=running_time,
             say=say,
             warn=warn,
         )

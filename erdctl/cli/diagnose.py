@@ -135,6 +135,8 @@ def command(
       erdctl identify bench.csv | erdctl diagnose later.csv --params - -o diagnosis.json
       erdctl diagnose bench.csv -o diagnosis.json --plot before-after.png --plot misfit:map.svg
     """
+    from functools import partial
+
     from erdctl.cli.pictures import draw, wanted
     from erdctl.cli.reading import labelled, read_logs
     from erdctl.cli.rig import fail, show
@@ -144,6 +146,7 @@ def command(
     from erdctl.diagnose.corrected import parameters
     from erdctl.diagnose.diagnosis import Verdict, diagnose
     from erdctl.diagnose.jobs import worthwhile
+    from erdctl.diagnose.one_after_another import with_a_fault_once
     from erdctl.diagnose.record_effects import Varying
     from erdctl.effects import candidates
     from erdctl.io import documents
@@ -162,12 +165,12 @@ def command(
     if cluster is not None and jobs is not None:
         raise UsageProblem("--jobs is for this machine: leave it out with --cluster")
     with progress() as step, cluster_or_none(cluster) as there:
-        found = diagnose(
-            log.recording, tested, most=max_effects,
-            given=given,
+        run = partial(
+            diagnose, candidates=tested, most=max_effects, given=given,
             free=Varying(gain=record_gains, offset=record_offsets), accepted=accept, seed=seed,
             jobs=jobs or worthwhile(log.recording, tested), cluster=there, progress=step,
         )  # fmt: skip
+        found = with_a_fault_once(run, log.recording)
     document = to_json(found, file)
     documents.write(document, output)
     if report is not None:

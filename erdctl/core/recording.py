@@ -129,3 +129,20 @@ def concatenate(recordings: Sequence[Recording]) -> Recording:
         xdot_note="; ".join(notes),
         sources=tuple(s for r in recordings for s in r.sources),
     )
+
+
+def running_time(t: Array, starts: Index) -> Array:
+    """(n,) time that goes on from record to record [s], from that of the first.
+
+    t : (n,) times of records with the offsets `starts` (r + 1,). From the last sample of one to the
+    first of the next it is a median step.
+    Check: 0 1 2 s and 0 1 s are 0 1 2 3 4 s.
+    >>> running_time(np.array([0.0, 1.0, 2.0, 0.0, 1.0]), np.array([0, 3, 5])).tolist()
+    [0.0, 1.0, 2.0, 3.0, 4.0]
+    """
+    steps = np.diff(t)
+    inner = np.delete(steps, starts[1:-1] - 1)
+    first, last = t[starts[:-1]], t[starts[1:] - 1]
+    lengths = last - first + (float(np.median(inner)) if inner.size else 0.0)
+    begins = t[0] + np.cumsum(lengths) - lengths
+    return np.asarray(t + np.repeat(begins - first, np.diff(starts)))

@@ -14,7 +14,6 @@ from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import untestable
 from erdctl.bench.rig import Rig, look
 from erdctl.core.cluster import Cluster
-from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Recording
 from erdctl.diagnose import scores, thresholds
@@ -27,13 +26,14 @@ from erdctl.diagnose.fit_errors import fit_errors, may_be_absent
 from erdctl.diagnose.forward_step import key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.learning.stage import Learned, learned
-from erdctl.diagnose.problem import Problem, prepare, with_given
+from erdctl.diagnose.problem import Problem, check_enough, prepare, with_given
 from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying
 from erdctl.diagnose.residual.localisation import Region, record_region
 from erdctl.diagnose.residual.places import places
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_of
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
 from erdctl.diagnose.search import Selection, named_again, on_all, refit, search
+from erdctl.diagnose.sets_in_once import SetsInOnce, sets_in_once
 from erdctl.diagnose.slight_lag import (
     earned_by_lags,
     freed,
@@ -79,6 +79,7 @@ class Diagnosis:
     rig : what is wrong with the recording; if all of it is, nothing was searched
     learned : what the data say of a rest that no effect explains; `fit`, `corrected` and all that
         is said of the best model are then of the one with these laws
+    once : a fault that sets in once; what it does to the data, no law is learned from
     """
 
     verdict: Verdict
@@ -105,6 +106,7 @@ class Diagnosis:
     undetected: tuple[Detectable, ...]
     rig: Rig
     learned: Learned | None
+    once: SetsInOnce | None = None
 
 
 def diagnose(
@@ -118,6 +120,7 @@ def diagnose(
     accepted: Sequence[str] = (),
     limits: bool = True,
     learning: bool = True,
+    once: bool = True,
     jobs: int = 1,
     cluster: Cluster | None = None,
     progress: Progress = lambda stage, what: None,
@@ -130,12 +133,13 @@ def diagnose(
     limits : say from which size what was not named would have shown; nothing else rests on that
     learning : whether to learn what no effect explains; which effects are found does not rest on
         that, but for those that stand in for a law
+    once : look for a fault that sets in once in all of the log
     jobs, cluster : processes here, or a cluster, that try hypotheses; the results are the same
     """
     rig = look(recording).accept(accepted)
     recording = rig.usable()
     problem = prepare(recording, free)
-    _enough(problem)
+    check_enough(problem)
     survey = Survey.of(recording)
     if given is not None:
         simulate(given, recording)  # one that diverges is refused before the search, not judged
@@ -191,7 +195,10 @@ def diagnose(
         left = _matters(problem, selection, lack_of_fit)
         untold = cannot_tell(recording, selection.named)
         more: Learned | None = None
-        if learning and left and not (rig.blocking or untold):
+        fault: SetsInOnce | None = None
+        if once and left and not (rig.blocking or untold or free):
+            fault = sets_in_once(selection.best, testable, lack_of_fit.misfit_rms)
+        if learning and left and not (rig.blocking or untold or fault):
             start = searched.base, _on_thin(thin, searched.best, selection.best)
             more = learned(
                 (thin, seen, problem), unfitted, kept, start, testable, lack_of_fit, workers, seed
@@ -258,6 +265,7 @@ def diagnose(
         undetected=undetected,
         rig=rig,
         learned=more,
+        once=fault,
     )
 
 
@@ -301,19 +309,3 @@ def _on_thin(thin: Problem, searched: Hypothesis, best: Hypothesis) -> Hypothesi
         return searched
     steps, effects = thresholds.STEPS_AGAIN, best.record_effects
     return fit_hypothesis(thin, best.effects, [best.values], steps, effects)
-
-
-def _enough(problem: Problem) -> None:
-    """Refuse a recording that can show nothing."""
-    weight, moving = problem.block.weight, problem.block.signals.xdot != 0.0
-    if np.ptp(problem.block.force) == 0.0:
-        raise InputProblem("the force never changes: there is nothing to diagnose")
-    if not (moving & (weight > 0)).any():
-        raise InputProblem("the damper never moves: there is nothing to diagnose")
-    count, least = int(np.count_nonzero(problem.weight_of)), thresholds.LEAST_GROUPS
-    if count < least:
-        raise InputProblem(
-            f"too short to diagnose: {least} parts of {thresholds.STRETCH:g} s or more are left"
-            f" out in turn, and this log has {count}; record at least"
-            f" {2 * least * thresholds.STRETCH:g} s"
-        )

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from erdctl.bench.direction_of_motion import uncertain
 from erdctl.bench.identifiability import Lack, held_values, unmet
 from erdctl.core.blocks import Block, whole
+from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array, Index, Recording
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.record_effects import NONE_VARY, Varying
@@ -168,3 +169,19 @@ def stretches(recording: Recording, group: Index) -> Index:
         out[a:b] = first + np.arange(b - a) * pieces // (b - a)
         first += pieces
     return out
+
+
+def check_enough(problem: Problem) -> None:
+    """Refuse a recording that can show nothing."""
+    weight, moving = problem.block.weight, problem.block.signals.xdot != 0.0
+    if np.ptp(problem.block.force) == 0.0:
+        raise InputProblem("the force never changes: there is nothing to diagnose")
+    if not (moving & (weight > 0)).any():
+        raise InputProblem("the damper never moves: there is nothing to diagnose")
+    count, least = int(np.count_nonzero(problem.weight_of)), thresholds.LEAST_GROUPS
+    if count < least:
+        raise InputProblem(
+            f"too short to diagnose: {least} parts of {thresholds.STRETCH:g} s or more are left"
+            f" out in turn, and this log has {count}; record at least"
+            f" {2 * least * thresholds.STRETCH:g} s"
+        )

@@ -74,6 +74,11 @@ CHANCE_OF_LEVELS, LEVELS_FROM = 2.5e-4, 5
 # Origin: most of it; of six nulls of the plant, white, AR(1) and pink, the most had 0.06.
 LEVELS_SAID = 0.5
 
+# Part of a misfit's square that a fault in one record, or from one record on, takes.
+# Decides: whether that is said.
+# Origin: most of it.
+SETS_IN_ONCE = 0.5
+
 # Standard deviation of the gains of records, beyond their errors, that no rig is held to have.
 # Decides: whether a rest of which the levels take most is a misfit.
 # Origin: a load cell holds 1 % from one record to the next, and three times that is none of it.

@@ -123,7 +123,8 @@ def _left(found: Diagnosis) -> str:
     resembles = found.resemblance
     if resembles is not None:
         words += f"; it is most like {resembles.form} (correlation {resembles.correlation:+.2f})"
-    words += _of_records(found) + _hum(left) + _withdrawn(found)
+    words += _sets_in_once(found) or _of_records(found)
+    words += _hum(left) + _withdrawn(found)
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
 
 
@@ -137,6 +138,29 @@ def _of_records(found: Diagnosis) -> str:
         " whose records scatter, or of what changes from record to record in the damper, as its"
         " warmth or the strokes that it has made; no motion within them tells which"
         " (--record-gains --record-offsets carry it)"
+    )
+
+
+def _sets_in_once(found: Diagnosis) -> str:
+    """That a fault sets in once, as no law in every record's own time says, and how to have it."""
+    once = found.once
+    if once is None or once.confirmed is None:
+        return ""
+    name = found.problem.recording.names[once.record]
+    also = "".join(f" and {other}" for other in once.confirmed.beside)
+    rest = (
+        "is noise as far as these data tell" if once.confirmed.explained else "is more than noise"
+    )
+    if once.stays:
+        one_log = len(found.problem.recording.sources) == 1
+        how = "and in all records after it, and its law is found where their time goes on"
+        how += ": erdctl convert --running-time" if one_log else " in one log"
+    else:
+        how = f"and in no other; for a law from that record alone: --where record={name}"
+    return (
+        f"; {once.effect.name} that sets in once, at {once.when} of record {name!r}, takes"
+        f" {100 * once.share:.0f} % of it: f = {once.f:.3g} from then on {how}; with it{also}"
+        f" {once.confirmed.rms:.3g} N rms are left, which {rest}"
     )
 
 

@@ -137,10 +137,10 @@ class Profile:
         is_step = best.t_r == 0.0
         out = {}
         for symbol, most in ((START, OF_A_STEP if is_step else SMOOTH), (RAMP, SMOOTH)):
-            out[symbol] = self._interval(best, symbol, most)
+            out[symbol] = self.interval(best, symbol, most)
         return out
 
-    def _interval(self, best: Onset, symbol: str, most: float) -> tuple[float, float]:
+    def interval(self, best: Onset, symbol: str, most: float) -> tuple[float, float]:
         """Where the likelihood ratio of one of them, the other and f fitted, stays below `most`."""
         value = getattr(best, symbol)
         found = [value, value]

@@ -30,12 +30,13 @@ def placed(model: Model) -> tuple[str, ...]:
 
 def profile(
     model: Model, effect: Effect, signals: Signals, residual: Array, lever: Array, values: Values,
-    held: Iterable[str],
+    held: Iterable[str], times: Array | None = None,
 ) -> Profile:  # fmt: skip
     """The profile of the onset of an effect that a model does not hold, at some values.
 
     residual : (n,) that the model leaves, weighted;  lever : (n,) of its force on that
     held : names of parameters that do not move
+    times : (n,) in which onsets are sought [s], if not those of the records
     """
     fixed = {*held, *placed(model)}
     free = [n for n, q in model.quantities.items() if n not in fixed and q.low < values[n] < q.high]
@@ -64,7 +65,7 @@ def profile(
                 failing[k] += change * lever
     whole[-1] = residual
     failing[-1] = -lever * np.sum([parts[g] for g in effect.sets_in], axis=0)
-    acted = signals.t
+    acted = signals.t if times is None else times
     for channel, slot in model.of(ChannelSlot):
         # What is linear in a force and keeps a steady one delays the time as it does that.
         acted = slot(acted, signals, channel.local(values))

@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 from erdctl.core.errors import UsageProblem
@@ -14,6 +15,7 @@ from erdctl.diagnose.corrected import parameters as corrected
 from erdctl.diagnose.diagnosis import Diagnosis
 from erdctl.diagnose.diagnosis import diagnose as diagnosed
 from erdctl.diagnose.jobs import worthwhile
+from erdctl.diagnose.one_after_another import with_a_fault_once
 from erdctl.diagnose.record_effects import Varying
 from erdctl.diagnose.thresholds import MOST_EFFECTS
 from erdctl.effects import candidates
@@ -212,13 +214,14 @@ def diagnose(
     given = None if parameters is None else given_parameters(parameters)
     read = log_of(log, need_force=True).labelled(date, damper, operator)
     with one_thread():
-        found = diagnosed(
-            read.recording, tested, most=max_effects, seed=seed,
+        run = partial(
+            diagnosed, candidates=tested, most=max_effects, seed=seed,
             given=None if given is None else given.parameters,
             free=Varying(gain=record_gains, offset=record_offsets), accepted=accept,
             jobs=jobs or (1 if _in_script() else worthwhile(read.recording, tested)),
             progress=progress or (lambda stage, what: None),
         )  # fmt: skip
+        found = with_a_fault_once(run, read.recording)
     file = None if given is None else {"name": given.name, "sha256": given.sha256}
     return Diagnosed(to_json(found, file), found, read)
 

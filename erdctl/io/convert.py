@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pyarrow as pa
 
-from erdctl.core.errors import InputProblem
+from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.core.progress import Progress, part_of
-from erdctl.core.recording import Index
+from erdctl.core.recording import Index, running_time
 from erdctl.core.stretches import LONG
 from erdctl.io.batches import in_portions, long_source, read_batches
 from erdctl.io.checks import Place, check_growth, check_values
@@ -34,6 +34,7 @@ def read_converted(
     maps: Sequence[str] = (),
     text: TextSpec = None,
     project: ProjectReading | None = None,
+    goes_on: bool = False,
     say: Callable[[str], None],
     warn: Callable[[str], None] | None = None,
 ) -> pa.Table:
@@ -42,6 +43,7 @@ def read_converted(
     Nothing is required of it: it need not be a whole log. But where it has a time or records, they
     must be in order, as every other command demands.
     maps, text : options `--map` and `--text`;  project : what a project file says besides
+    goes_on : the time goes on from record to record, where it began anew
     say : takes a line for all that was assumed
     warn : takes a line for every column with values that no other command would accept; by default
         that is said like the rest
@@ -67,7 +69,25 @@ def read_converted(
     if rows := table.num_rows:
         place = Place(source.name, lambda sample: source.row_of(sample, rows))
         _Checks(plan, warn or say).add(table, place)
+    if goes_on:
+        table = _going_on(table, plan, source)
     return units_apart(table)
+
+
+def _going_on(table: pa.Table, plan: ColumnPlan, source: TableSource) -> pa.Table:
+    if "t" not in plan or RECORD not in plan:
+        raise UsageProblem(
+            f"{source.name}: --running-time is for logs with columns t and record; --map says which"
+            " those are"
+        )
+    place = Place(source.name, lambda sample: source.row_of(sample, table.num_rows))
+    t = to_numbers(table.column("t"), plan["t"][0], place)
+    starts, _ = ByColumn(plan[RECORD][0]).add(table.column(RECORD), place, 0)
+    if t.size:
+        t = running_time(t, starts)
+    index = table.column_names.index("t")
+    field = table.schema.field(index).with_type(pa.float64())
+    return table.set_column(index, field, pa.chunked_array([pa.array(t)]))
 
 
 def converted_in_parts(

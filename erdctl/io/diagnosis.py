@@ -70,6 +70,7 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
             "text": remaining_text(found),
         },
         **_records(found),
+        **_sets_in_once(found),
         "rig": found.rig.to_json(),
         "not_testable": found.untestable,
         "undetected": undetected(found.undetected),
@@ -94,6 +95,27 @@ def _records(found: Diagnosis) -> dict[str, Any]:
     """Per record, apart from the shared parameters; and the scores when both are used."""
     values = record_values(found)
     return {"records": values, "with_records": _scores(found.carried)} if values else {}
+
+
+def _sets_in_once(found: Diagnosis) -> dict[str, Any]:
+    """A fault from a time in one record on; nothing where there is none."""
+    once = found.once
+    if once is None or once.confirmed is None:
+        return {}
+    return {
+        "sets_in_once": {
+            "effect": once.effect.name,
+            "record": found.problem.recording.names[once.record],
+            "interval": list(once.at),
+            "unit": "s",
+            "f": once.f,
+            "in_later_records": once.stays,
+            "share": once.share,
+            "beside": list(once.confirmed.beside),
+            "explained": once.confirmed.explained,
+            "rms": once.confirmed.rms,
+        }
+    }
 
 
 def _finding(f: Finding, corrected: Parameters) -> dict[str, Any]:

@@ -207,6 +207,27 @@ class LeftOut(TypedDict):
     text: str
 
 
+class SetsInOnceDocument(TypedDict):
+    """A fault that sets in once, as a search finds where the time of records goes on.
+
+    interval : 95 % of the onset, in the time of its record [s];  f : effectiveness that is left
+    in_later_records : whether it stays in those behind that record
+    share : part of the misfit's square that it takes;  beside : other effects then named
+    explained : whether what is left with all of them, rms [N], is noise
+    """
+
+    effect: str
+    record: str
+    interval: list[float]
+    unit: str
+    f: float
+    in_later_records: bool
+    share: float
+    beside: list[str]
+    explained: bool
+    rms: float
+
+
 class DiagnosisFile(TypedDict):
     """A diagnosis; verdict : adequate, explained or unexplained.
 
@@ -229,6 +250,7 @@ class DiagnosisFile(TypedDict):
     withdrawn: NotRequired[list[str]]
     remaining: Remaining
     records: NotRequired[list[PerRecord]]
+    sets_in_once: NotRequired[SetsInOnceDocument]
     with_records: NotRequired[Scores]
     rig: NotRequired[list[RigFaultDocument]]
     not_testable: dict[str, str]

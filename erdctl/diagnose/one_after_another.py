@@ -1,0 +1,89 @@
+"""The diagnosis of a log in which a fault seems to set in once: again, as one record after another.
+
+In a time that goes on from record to record the law of a fault says what happened once. So the log
+is diagnosed in that time as well, the record of a fault that is in no other put last, and what the
+second diagnosis names says what the first could not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from erdctl.core.recording import Recording, running_time
+from erdctl.diagnose.corrected import parameters
+from erdctl.diagnose.diagnosis import Diagnosis, Verdict
+from erdctl.diagnose.residual.localisation import Region, said
+from erdctl.diagnose.sets_in_once import Confirmed, SetsInOnce
+from erdctl.model.effect import Variable
+from erdctl.model.onset import AMOUNT, START
+
+
+def with_a_fault_once(run: Callable[..., Diagnosis], recording: Recording) -> Diagnosis:
+    """The diagnosis of a recording by `run`: `diagnose` with all its options but those set here."""
+    found = run(recording)
+    if found.once is None:
+        return found
+    order = _order(len(recording.names), found.once)
+    again = run(_one_after_another(recording, order), limits=False, learning=False, once=False)
+    once = _confirmed(again, recording, order, found.once)
+    # Without it there are laws to learn.
+    if once is None:
+        return run(recording, once=False)
+    return replace(found, once=once, mismatch=(_place(recording, once), *found.mismatch))
+
+
+def _place(recording: Recording, once: SetsInOnce) -> Region:
+    """Where to look first: from the onset on."""
+    k, last = once.record, len(recording.names) - 1 if once.stays else once.record
+    after = recording.starts[last + 1] - recording.starts[k]
+    after -= int(np.searchsorted(recording.t[recording.slices[k]], float(np.mean(once.at))))
+    time = float(after) / len(recording)
+    where = f"after the onset of a fault at {once.when} of record {recording.names[k]!r}"
+    return Region(Variable.RECORD, k + 1.0, last + 1.0, once.share, time,
+                  said(once.share, time, where))  # fmt: skip
+
+
+def _order(count: int, once: SetsInOnce) -> list[int]:
+    if once.stays:
+        return list(range(count))
+    return [r for r in range(count) if r != once.record] + [once.record]
+
+
+def _one_after_another(recording: Recording, order: list[int]) -> Recording:
+    ordered = recording.select(order)
+    return replace(ordered, t=running_time(ordered.t, ordered.starts))
+
+
+def _confirmed(
+    again: Diagnosis, recording: Recording, order: list[int], once: SetsInOnce
+) -> SetsInOnce | None:
+    """What the second diagnosis says of the fault, in its record's time; None if it has none."""
+    named = [f.effect for f in again.findings]
+    fault = next((e for e in named if e.sets_in), None)
+    if fault is None:
+        return None
+    estimates = parameters(again).estimates
+    onset, left = estimates[fault.key(START)], estimates[fault.key(AMOUNT)]
+    assert onset.value is not None
+    assert left.value is not None
+    ordered = _one_after_another(recording, order)
+    firsts = ordered.t[ordered.starts[:-1]]
+    place = int(np.searchsorted(firsts, onset.value, "right")) - 1
+    if place < 0:
+        return None
+    own = recording.slices[order[place]]
+    begins, ends = float(recording.t[own][0]), float(recording.t[own][-1])
+    low, high = onset.within or (onset.value, onset.value)
+    back = begins - float(firsts[place])
+    return replace(
+        once, effect=fault, record=order[place], f=left.value,
+        at=(max(low + back, begins), min(high + back, ends)),
+        confirmed=Confirmed(
+            beside=tuple(e.name for e in named if e is not fault),
+            explained=again.verdict is not Verdict.UNEXPLAINED,
+            rms=again.carried.overall.rms,
+        ),
+    )  # fmt: skip

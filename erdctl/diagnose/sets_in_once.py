@@ -1,0 +1,121 @@
+"""A fault that sets in once, in one of several records, which no law in every record's time says.
+
+The time of a record begins anew with it, and a law in that time sets in in every record. A damper
+that fails in the fourth of six drives has failed in the fifth and sixth as well; a fault that was
+mimicked in one drive is in no other. Both are sought on what the search leaves: all times of all
+records in their order, and all times of the records with most misfit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from erdctl.core.recording import Array, running_time
+from erdctl.core.signals import Signals
+from erdctl.diagnose import thresholds
+from erdctl.diagnose.hypothesis import Hypothesis
+from erdctl.estimate.onset_profile import OF_A_STEP, Onset, Profile
+from erdctl.estimate.onsets import profile
+from erdctl.model.effect import Effect
+
+RECORDS = 3  # of those with most misfit, in each of which alone an onset is sought; budget
+
+
+@dataclass(frozen=True)
+class Confirmed:
+    """What is found where records follow one another: other names, and what is left [N rms]."""
+
+    beside: tuple[str, ...]
+    explained: bool
+    rms: float
+
+
+@dataclass(frozen=True, eq=False)
+class SetsInOnce:
+    """A fault as `effect` describes it, from a time in one record on.
+
+    record : its number;  at : 95 % interval of the onset [s], in the time of that record
+    f : effectiveness that is left [1];  stays : whether later records have it from their begin
+    share : part of the misfit's square that it takes [1];  confirmed : by a search with it
+    """
+
+    effect: Effect
+    record: int
+    at: tuple[float, float]
+    f: float
+    stays: bool
+    share: float
+    confirmed: Confirmed | None = None
+
+    @property
+    def when(self) -> str:
+        """The time of its onset, in words."""
+        low, high = self.at
+        return f"{low:.2f} s" if high - low < 0.01 else f"{low:.2f} to {high:.2f} s"
+
+
+@dataclass(frozen=True, eq=False)
+class _Clock:
+    """A time in which an onset is sought: (n,) [s] of every sample, and whether a fault stays."""
+
+    t: Array
+    stays: bool
+
+
+def sets_in_once(
+    best: Hypothesis, candidates: Iterable[Effect], misfit_rms: float
+) -> SetsInOnce | None:
+    """The fault that takes most of a misfit [N rms], if it takes most of it and its time shows."""
+    s, weight = best.problem.block.signals, best.problem.block.weight
+    faults = [e for e in candidates if e.sets_in and e not in best.effects]
+    if len(s.starts) < 3 or not faults:
+        return None
+    lever = np.sqrt(weight)
+    found: list[tuple[float, Effect, _Clock, Profile, Onset]] = []
+    for clock in _clocks(s, weight * best.residual**2):
+        for effect in faults:
+            at = profile(
+                best.model, effect, s, best.residual * lever, lever, best.values,
+                best.problem.held, clock.t,
+            )  # fmt: skip
+            onset = at.best()
+            found.append((onset.square, effect, clock, at, onset))
+    _, effect, clock, at, onset = min(found, key=lambda each: each[0])
+    whole = misfit_rms**2 * float(weight.sum())
+    share = min((at.square - onset.square) / whole, 1.0) if whole > 0.0 else 0.0
+    inside = _inside(s, clock, at, onset)
+    if share < thresholds.SETS_IN_ONCE or inside is None:
+        return None
+    return SetsInOnce(effect, *inside, onset.f, clock.stays, share)
+
+
+def _clocks(s: Signals, square: Array) -> list[_Clock]:
+    """The times of all records one after the other, and of single ones after all others."""
+    step, firsts, lasts = s.typical_step, s.t[s.starts[:-1]], s.t[s.starts[1:] - 1]
+    clocks = []
+    if np.any(firsts[1:] < lasts[:-1]):  # else the law in the time of the log says it
+        clocks.append(_Clock(running_time(s.t, s.starts), True))
+    mean = np.add.reduceat(square, s.starts[:-1]) / np.diff(s.starts)
+    for record in np.argsort(-mean)[:RECORDS]:
+        t = np.full(len(s), firsts[record] - step)
+        own = slice(s.starts[record], s.starts[record + 1])
+        t[own] = s.t[own]
+        clocks.append(_Clock(t, False))
+    return clocks
+
+
+def _inside(
+    s: Signals, clock: _Clock, at: Profile, onset: Onset
+) -> tuple[int, tuple[float, float]] | None:
+    """Record and interval of an onset that lies in one record, ramp and all; else None."""
+    low, high = at.interval(onset, "t_0", OF_A_STEP)
+    for record, (a, b) in enumerate(pairwise(s.starts.tolist())):
+        first, last = clock.t[a], clock.t[b - 1]
+        if first < low and high + onset.t_r < last:
+            back = float(s.t[a] - first)
+            return record, (low + back, high + back)
+    return None

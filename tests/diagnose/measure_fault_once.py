@@ -1,0 +1,77 @@
+"""What `diagnose` says of a fault that sets in once in several drives, by hand, minutes a case:
+
+    PYTHONPATH=.:tests python tests/diagnose/measure_fault_once.py FIRST END
+
+Each seed draws six drives of a car at 200 to 500 Hz. A fault sets in at some time in the second to
+sixth, and of even seeds stays for those after it; every fifth log has none, and there nothing of
+the kind may be said.
+"""
+
+from __future__ import annotations
+
+import sys
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+import quarter_car
+
+from erdctl.diagnose.diagnosis import diagnose
+from erdctl.diagnose.one_after_another import with_a_fault_once
+from erdctl.effects import catalogue
+from erdctl.io.logs import read_logs
+
+RECORDS, SECONDS = 6, 12.0
+
+
+def main(first: int, end: int) -> None:
+    faults = said = right = inside = 0
+    left: list[float] = []
+    for seed in range(first, end):
+        g = np.random.default_rng([seed, 2])
+        kind, f, stays = (
+            str(g.choice(quarter_car.FAULTS)),
+            float(g.uniform(0.3, 0.8)),
+            seed % 2 == 0,
+        )
+        k, t_0, rate = (
+            int(g.integers(1, RECORDS)),
+            float(g.uniform(3.0, 9.0)),
+            int(g.choice([200, 500])),
+        )
+        later = 0.0 if stays else np.inf
+        onsets = [np.inf] * k + [t_0] + [later] * (RECORDS - 1 - k)
+        healthy = seed % 5 == 4
+        table = quarter_car.log(
+            seed, rate, records=RECORDS, seconds=SECONDS, fault=kind, left=f,
+            onsets=[] if healthy else onsets,
+        )  # fmt: skip
+        with TemporaryDirectory() as folder:
+            file = Path(folder) / "car.parquet"
+            table.to_parquet(file)
+            log = read_logs([str(file)], need_force=True, report=lambda line: None)
+        run = partial(diagnose, candidates=catalogue(), jobs=1)
+        found = with_a_fault_once(run, log.recording)
+        once, names = found.once, [e.effect.name for e in found.findings]
+        truth = "none" if healthy else f"{kind} {f:.2f} r{k} {t_0:.2f} s, stays: {stays}"
+        answer = "nothing said"
+        if once is not None and once.confirmed is not None:
+            name = log.recording.names[once.record]
+            answer = f"{once.effect.name} {once.f:.3f} {name} {once.when}, stays: {once.stays}"
+            answer += f", {'' if once.confirmed.explained else 'not '}explained"
+            answer += f", beside {once.confirmed.beside}"
+            said += 1
+        faults += not healthy
+        if not healthy and once is not None:
+            last = k == RECORDS - 1
+            right += once.effect.name == kind and once.record == k and (last or once.stays == stays)
+            inside += once.record == k and once.at[0] <= t_0 <= once.at[1]
+            left.append(abs(once.f - f))
+        print(f"{seed} {truth} at {rate} Hz: {found.verdict.value} {names}; {answer}", flush=True)
+    print(f"{faults} faults, {said} said; kind and record right {right}, in its interval {inside}")
+    print(f"what is left of the damper: off by {max(left, default=0.0):.3f} at most")
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]), int(sys.argv[2]))
