@@ -56,7 +56,7 @@ def command(
       erdctl convert bench.mf4 bench.parquet
       erdctl convert bench.tdms bench.csv --map "x=Defl FL" --map "force=F_fl[kN]"
       erdctl convert bench.csv bench.mat
-      erdctl convert --running-time drives.parquet - | erdctl diagnose -
+      erdctl convert --running-time bench.parquet - | erdctl diagnose -
       erdctl convert lab.txt out.parquet --text decimal=comma --map "force=Load (N)[0.98 N]"
     """
     from erdctl.cli.in_force import IN_FORCE

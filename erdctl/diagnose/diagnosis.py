@@ -183,6 +183,9 @@ def diagnose(
             chosen = refit(seen, kept, workers, idle) if idle else None
         progress("lack of fit", part_of("regression of the residual", 1, 1))
         lack_of_fit, taken = lack_of_fit_of(selection.best, seed), None
+        fault: SetsInOnce | None = None
+        if once and not free and _matters(problem, selection, lack_of_fit):
+            fault = sets_in_once(selection.best, testable, lack_of_fit.misfit_rms)
         if selection.named and _matters(problem, selection, lack_of_fit):
             part = part_taken(selection, lack_of_fit)
             if not earned(part):
@@ -195,9 +198,6 @@ def diagnose(
         left = _matters(problem, selection, lack_of_fit)
         untold = cannot_tell(recording, selection.named)
         more: Learned | None = None
-        fault: SetsInOnce | None = None
-        if once and left and not (rig.blocking or untold or free):
-            fault = sets_in_once(selection.best, testable, lack_of_fit.misfit_rms)
         if learning and left and not (rig.blocking or untold or fault):
             start = searched.base, _on_thin(thin, searched.best, selection.best)
             more = learned(
@@ -265,7 +265,7 @@ def diagnose(
         undetected=undetected,
         rig=rig,
         learned=more,
-        once=fault,
+        once=fault if verdict is Verdict.UNEXPLAINED and not untold else None,
     )
 
 

@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from erdctl.core.recording import Recording, running_time
+from erdctl.diagnose import thresholds
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.residual.localisation import Region, said
@@ -28,7 +29,7 @@ def with_a_fault_once(run: Callable[..., Diagnosis], recording: Recording) -> Di
         return found
     order = _order(len(recording.names), found.once)
     again = run(_one_after_another(recording, order), limits=False, learning=False, once=False)
-    once = _confirmed(again, recording, order, found.once)
+    once = _confirmed(found, again, recording, order)
     # Without it there are laws to learn.
     if once is None:
         return run(recording, once=False)
@@ -58,12 +59,15 @@ def _one_after_another(recording: Recording, order: list[int]) -> Recording:
 
 
 def _confirmed(
-    again: Diagnosis, recording: Recording, order: list[int], once: SetsInOnce
+    found: Diagnosis, again: Diagnosis, recording: Recording, order: list[int]
 ) -> SetsInOnce | None:
     """What the second diagnosis says of the fault, in its record's time; None if it has none."""
     named = [f.effect for f in again.findings]
     fault = next((e for e in named if e.sets_in), None)
-    if fault is None:
+    before, after = (d.carried.overall.rms**2 for d in (found, again))
+    misfit = before - again.noise_rms**2
+    share = min((before - after) / misfit, 1.0) if misfit > 0.0 else 0.0
+    if fault is None or found.once is None or share < thresholds.SETS_IN_ONCE:
         return None
     estimates = parameters(again).estimates
     onset, left = estimates[fault.key(START)], estimates[fault.key(AMOUNT)]
@@ -79,7 +83,7 @@ def _confirmed(
     low, high = onset.within or (onset.value, onset.value)
     back = begins - float(firsts[place])
     return replace(
-        once, effect=fault, record=order[place], f=left.value,
+        found.once, effect=fault, record=order[place], f=left.value, share=share,
         at=(max(low + back, begins), min(high + back, ends)),
         confirmed=Confirmed(
             beside=tuple(e.name for e in named if e is not fault),

@@ -22,8 +22,6 @@ from erdctl.estimate.onset_profile import OF_A_STEP, Onset, Profile
 from erdctl.estimate.onsets import profile
 from erdctl.model.effect import Effect
 
-RECORDS = 3  # of those with most misfit, in each of which alone an onset is sought; budget
-
 
 @dataclass(frozen=True)
 class Confirmed:
@@ -40,7 +38,8 @@ class SetsInOnce:
 
     record : its number;  at : 95 % interval of the onset [s], in the time of that record
     f : effectiveness that is left [1];  stays : whether later records have it from their begin
-    share : part of the misfit's square that it takes [1];  confirmed : by a search with it
+    share : part of the misfit's square that it takes [1], with what else is then named if it is
+        confirmed : by a search with it
     """
 
     effect: Effect
@@ -54,8 +53,8 @@ class SetsInOnce:
     @property
     def when(self) -> str:
         """The time of its onset, in words."""
-        low, high = self.at
-        return f"{low:.2f} s" if high - low < 0.01 else f"{low:.2f} to {high:.2f} s"
+        low, high = (f"{end:.2f}" for end in self.at)
+        return f"{low} s" if low == high else f"{low} to {high} s"
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,10 +68,10 @@ class _Clock:
 def sets_in_once(
     best: Hypothesis, candidates: Iterable[Effect], misfit_rms: float
 ) -> SetsInOnce | None:
-    """The fault that takes most of a misfit [N rms], if it takes most of it and its time shows."""
+    """The fault that takes most of a misfit [N rms], if it takes much of it and its time shows."""
     s, weight = best.problem.block.signals, best.problem.block.weight
     faults = [e for e in candidates if e.sets_in and e not in best.effects]
-    if len(s.starts) < 3 or not faults:
+    if len(best.problem.recording.names) < 2 or not faults:
         return None
     lever = np.sqrt(weight)
     found: list[tuple[float, Effect, _Clock, Profile, Onset]] = []
@@ -88,7 +87,7 @@ def sets_in_once(
     whole = misfit_rms**2 * float(weight.sum())
     share = min((at.square - onset.square) / whole, 1.0) if whole > 0.0 else 0.0
     inside = _inside(s, clock, at, onset)
-    if share < thresholds.SETS_IN_ONCE or inside is None:
+    if share < thresholds.SEEMS_ONCE or inside is None:
         return None
     return SetsInOnce(effect, *inside, onset.f, clock.stays, share)
 
@@ -100,7 +99,7 @@ def _clocks(s: Signals, square: Array) -> list[_Clock]:
     if np.any(firsts[1:] < lasts[:-1]):  # else the law in the time of the log says it
         clocks.append(_Clock(running_time(s.t, s.starts), True))
     mean = np.add.reduceat(square, s.starts[:-1]) / np.diff(s.starts)
-    for record in np.argsort(-mean)[:RECORDS]:
+    for record in np.argsort(-mean)[: thresholds.ONCE_RECORDS]:
         t = np.full(len(s), firsts[record] - step)
         own = slice(s.starts[record], s.starts[record + 1])
         t[own] = s.t[own]

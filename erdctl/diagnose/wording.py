@@ -158,9 +158,9 @@ def _sets_in_once(found: Diagnosis) -> str:
     else:
         how = f"and in no other; for a law from that record alone: --where record={name}"
     return (
-        f"; {once.effect.name} that sets in once, at {once.when} of record {name!r}, takes"
-        f" {100 * once.share:.0f} % of it: f = {once.f:.3g} from then on {how}; with it{also}"
-        f" {once.confirmed.rms:.3g} N rms are left, which {rest}"
+        f"; {once.effect.name} that sets in once, at {once.when} of record {name!r}, leaves"
+        f" f = {once.f:.3g} from then on {how}; with it{also}, of {found.carried.overall.rms:.3g} N"
+        f" rms {once.confirmed.rms:.3g} remain, and that {rest}"
     )
 
 

@@ -1,0 +1,116 @@
+"""A fault that sets in once in a car's drives: which, in which record, when, whether it stays."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cache, partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import quarter_car
+
+from erdctl.core.recording import Recording, running_time
+from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
+from erdctl.diagnose.hypothesis import fit_hypothesis
+from erdctl.diagnose.one_after_another import with_a_fault_once
+from erdctl.diagnose.problem import prepare
+from erdctl.diagnose.residual.predictability import lack_of_fit_of
+from erdctl.diagnose.sets_in_once import SetsInOnce, sets_in_once
+from erdctl.diagnose.wording import remaining_text
+from erdctl.effects import get
+from erdctl.io.diagnosis import to_json
+from erdctl.io.logs import read_logs
+from erdctl.model.composed import Model
+
+NEVER = np.inf
+STAYS, ONCE = (NEVER, 4.4, 0.0, 0.0), (NEVER, 4.4, NEVER, NEVER)
+FAULTS = tuple(get(name) for name in quarter_car.FAULTS)
+
+
+@pytest.fixture(scope="module")
+def recordings(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    folder = tmp_path_factory.mktemp("car")
+
+    @cache
+    def recorded(kind: str, onsets: Sequence[float], seed: int = 31) -> Recording:
+        table = quarter_car.log(
+            seed, 200, records=4, seconds=8.0, fault=kind, left=0.6, onsets=onsets
+        )
+        file = Path(folder) / f"{kind}-{len(list(folder.iterdir()))}.parquet"
+        table.to_parquet(file)
+        return read_logs([str(file)], need_force=True, report=lambda line: None).recording
+
+    return recorded
+
+
+def sought(recording: Recording) -> SetsInOnce | None:
+    problem, effects = prepare(recording), (get("preyield_viscosity"),)
+    start = {name: q.start for name, q in Model(effects).quantities.items()}
+    best = fit_hypothesis(problem, effects, [start])
+    return sets_in_once(best, FAULTS, lack_of_fit_of(best).misfit_rms)
+
+
+@pytest.mark.parametrize("kind", quarter_car.FAULTS)
+@pytest.mark.parametrize("onsets", [STAYS, ONCE], ids=["stays", "once"])
+def test_record_and_time(kind: str, onsets: tuple[float, ...], recordings: Any) -> None:
+    found = sought(recordings(kind, onsets))
+    assert found is not None
+    assert (found.record, found.stays) == (1, onsets is STAYS)
+    assert found.at[0] <= 4.4 <= found.at[1]
+    assert found.f == pytest.approx(0.6, abs=0.05)
+    assert found.share > 0.9
+
+
+@pytest.mark.parametrize("seed", [31, 32, 33])
+def test_nothing_is_sought_in_vain(seed: int, recordings: Any) -> None:
+    """In healthy drives, in those of which every one has it, and where the log's time goes on."""
+    healthy = recordings("oil_leakage", (), seed)
+    assert sought(healthy) is None
+    stays = recordings("oil_leakage", STAYS, seed)
+    goes_on = sought(replace(stays, t=running_time(stays.t, stays.starts)))
+    assert goes_on is None or not goes_on.stays
+    assert sought(stays.select([0])) is None
+
+
+def diagnosed(recording: Recording) -> Diagnosis:
+    run = partial(diagnose, candidates=[*FAULTS, get("preyield_viscosity")], jobs=1)
+    return with_a_fault_once(run, recording)
+
+
+@pytest.mark.parametrize("onsets", [STAYS, ONCE], ids=["stays", "once"])
+def test_it_is_said_with_all_that_a_second_search_finds(
+    onsets: tuple[float, ...], recordings: Any
+) -> None:
+    found = diagnosed(recordings("oil_leakage", onsets))
+    document = to_json(found)
+    assert found.verdict is Verdict.UNEXPLAINED  # no law in each record's time says it
+    once = document["sets_in_once"]
+    assert (once["effect"], once["record"]) == ("oil_leakage", "r1")
+    assert once["in_later_records"] == (onsets is STAYS)
+    assert once["interval"][0] <= 4.4 <= once["interval"][1]
+    assert once["f"] == pytest.approx(0.6, abs=0.02)
+    assert once["beside"] == ["preyield_viscosity"]
+    assert once["explained"]
+    assert "of a fault at" in document["mismatch"][0]["text"]
+    text = remaining_text(found)
+    assert "oil_leakage that sets in once" in text
+    assert ("--running-time" if onsets is STAYS else "--where record=r1") in text or (
+        "in one log" in text
+    )
+
+
+def test_what_the_second_search_does_not_name_is_not_said(recordings: Any) -> None:
+    calls: list[dict[str, Any]] = []
+    found = diagnosed(recordings("oil_leakage", STAYS))
+
+    def run(recording: Recording, **options: Any) -> Diagnosis:
+        calls.append(options)
+        return replace(found, once=None, findings=()) if options else found
+
+    answer = with_a_fault_once(run, recordings("oil_leakage", STAYS))
+    assert answer.once is None
+    assert calls == [{}, {"limits": False, "learning": False, "once": False}, {"once": False}]
+    assert "sets_in_once" not in to_json(answer)
