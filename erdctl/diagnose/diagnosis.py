@@ -184,7 +184,7 @@ def diagnose(
         progress("lack of fit", part_of("regression of the residual", 1, 1))
         lack_of_fit, taken = lack_of_fit_of(selection.best, seed), None
         fault: SetsInOnce | None = None
-        if once and not free and _matters(problem, selection, lack_of_fit):
+        if once and not free:
             fault = sets_in_once(selection.best, testable, lack_of_fit.misfit_rms)
         if selection.named and _matters(problem, selection, lack_of_fit):
             part = part_taken(selection, lack_of_fit)
@@ -265,7 +265,7 @@ def diagnose(
         undetected=undetected,
         rig=rig,
         learned=more,
-        once=fault if verdict is Verdict.UNEXPLAINED and not untold else None,
+        once=None if untold else fault,
     )
 
 

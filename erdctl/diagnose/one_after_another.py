@@ -30,21 +30,21 @@ def with_a_fault_once(run: Callable[..., Diagnosis], recording: Recording) -> Di
     order = _order(len(recording.names), found.once)
     again = run(_one_after_another(recording, order), limits=False, learning=False, once=False)
     once = _confirmed(found, again, recording, order)
-    # Without it there are laws to learn.
-    if once is None:
-        return run(recording, once=False)
-    return replace(found, once=once, mismatch=(_place(recording, once), *found.mismatch))
+    if once is None or once.confirmed is None:
+        left = found.verdict is Verdict.UNEXPLAINED  # then there are laws to learn
+        return run(recording, once=False) if left else replace(found, once=None)
+    places = (_place(recording, once, once.confirmed.share), *found.mismatch)
+    return replace(found, verdict=Verdict.UNEXPLAINED, once=once, mismatch=places)
 
 
-def _place(recording: Recording, once: SetsInOnce) -> Region:
+def _place(recording: Recording, once: SetsInOnce, share: float) -> Region:
     """Where to look first: from the onset on."""
     k, last = once.record, len(recording.names) - 1 if once.stays else once.record
     after = recording.starts[last + 1] - recording.starts[k]
     after -= int(np.searchsorted(recording.t[recording.slices[k]], float(np.mean(once.at))))
     time = float(after) / len(recording)
     where = f"after the onset of a fault at {once.when} of record {recording.names[k]!r}"
-    return Region(Variable.RECORD, k + 1.0, last + 1.0, once.share, time,
-                  said(once.share, time, where))  # fmt: skip
+    return Region(Variable.RECORD, k + 1.0, last + 1.0, share, time, said(share, time, where))
 
 
 def _order(count: int, once: SetsInOnce) -> list[int]:
@@ -62,13 +62,13 @@ def _confirmed(
     found: Diagnosis, again: Diagnosis, recording: Recording, order: list[int]
 ) -> SetsInOnce | None:
     """What the second diagnosis says of the fault, in its record's time; None if it has none."""
-    named = [f.effect for f in again.findings]
-    fault = next((e for e in named if e.sets_in), None)
+    finding = next((f for f in again.findings if f.effect.sets_in), None)
     before, after = (d.carried.overall.rms**2 for d in (found, again))
     misfit = before - again.noise_rms**2
     share = min((before - after) / misfit, 1.0) if misfit > 0.0 else 0.0
-    if fault is None or found.once is None or share < thresholds.SETS_IN_ONCE:
+    if finding is None or found.once is None or share < thresholds.SETS_IN_ONCE:
         return None
+    fault = finding.effect
     estimates = parameters(again).estimates
     onset, left = estimates[fault.key(START)], estimates[fault.key(AMOUNT)]
     assert onset.value is not None
@@ -83,10 +83,12 @@ def _confirmed(
     low, high = onset.within or (onset.value, onset.value)
     back = begins - float(firsts[place])
     return replace(
-        found.once, effect=fault, record=order[place], f=left.value, share=share,
+        found.once, effect=fault, record=order[place], f=left.value,
         at=(max(low + back, begins), min(high + back, ends)),
         confirmed=Confirmed(
-            beside=tuple(e.name for e in named if e is not fault),
+            share=share,
+            alike=finding.equivalent,
+            beside=tuple(f.effect.name for f in again.findings if f is not finding),
             explained=again.verdict is not Verdict.UNEXPLAINED,
             rms=again.carried.overall.rms,
         ),

@@ -25,8 +25,14 @@ from erdctl.model.effect import Effect
 
 @dataclass(frozen=True)
 class Confirmed:
-    """What is found where records follow one another: other names, and what is left [N rms]."""
+    """What is found where records follow one another: other names, and what is left [N rms].
 
+    share : part of the square of what was missing that all of them take [1]
+    alike : other faults from which the data do not tell it
+    """
+
+    share: float
+    alike: tuple[str, ...]
     beside: tuple[str, ...]
     explained: bool
     rms: float
@@ -38,8 +44,7 @@ class SetsInOnce:
 
     record : its number;  at : 95 % interval of the onset [s], in the time of that record
     f : effectiveness that is left [1];  stays : whether later records have it from their begin
-    share : part of the misfit's square that it takes [1], with what else is then named if it is
-        confirmed : by a search with it
+    confirmed : what a search with it says
     """
 
     effect: Effect
@@ -47,7 +52,6 @@ class SetsInOnce:
     at: tuple[float, float]
     f: float
     stays: bool
-    share: float
     confirmed: Confirmed | None = None
 
     @property
@@ -68,28 +72,43 @@ class _Clock:
 def sets_in_once(
     best: Hypothesis, candidates: Iterable[Effect], misfit_rms: float
 ) -> SetsInOnce | None:
-    """The fault that takes most of a misfit [N rms], if it takes much of it and its time shows."""
+    """The fault that takes most of what is left, if its time shows, and a second search is due.
+
+    misfit_rms : what is known to be missing [N]; of that it must seem to take a part
+    """
     s, weight = best.problem.block.signals, best.problem.block.weight
-    faults = [e for e in candidates if e.sets_in and e not in best.effects]
+    faults = sorted(
+        (e for e in candidates if e.sets_in and e not in best.effects), key=lambda e: e.name
+    )
     if len(best.problem.recording.names) < 2 or not faults:
         return None
     lever = np.sqrt(weight)
-    found: list[tuple[float, Effect, _Clock, Profile, Onset]] = []
-    for clock in _clocks(s, weight * best.residual**2):
-        for effect in faults:
-            at = profile(
-                best.model, effect, s, best.residual * lever, lever, best.values,
-                best.problem.held, clock.t,
-            )  # fmt: skip
-            onset = at.best()
-            found.append((onset.square, effect, clock, at, onset))
-    _, effect, clock, at, onset = min(found, key=lambda each: each[0])
-    whole = misfit_rms**2 * float(weight.sum())
-    share = min((at.square - onset.square) / whole, 1.0) if whole > 0.0 else 0.0
-    inside = _inside(s, clock, at, onset)
-    if share < thresholds.SEEMS_ONCE or inside is None:
+
+    def tried(effect: Effect, clock: _Clock) -> tuple[Effect, _Clock, Profile, Onset]:
+        at = profile(
+            best.model, effect, s, best.residual * lever, lever, best.values,
+            best.problem.held, clock.t,
+        )  # fmt: skip
+        return effect, clock, at, at.best()
+
+    # One kind for all times first: where a fault sets in, each takes more than elsewhere.
+    first = [tried(faults[0], clock) for clock in _clocks(s, weight * best.residual**2)]
+    chosen = min(first, key=_square)
+    found = [chosen, *(tried(effect, chosen[1]) for effect in faults[1:])]
+    effect, clock, at, onset = min(found, key=_square)
+    nothing = Onset(1.0, onset.t_0, onset.t_r, at.square)
+    misfit = misfit_rms**2 * float(weight.sum())
+    if (
+        at.square - onset.square < thresholds.SEEMS_ONCE * misfit
+        or at.ratio(nothing, onset) < thresholds.ONCE_RATIO
+    ):
         return None
-    return SetsInOnce(effect, *inside, onset.f, clock.stays, share)
+    inside = _inside(s, clock, at, onset)
+    return None if inside is None else SetsInOnce(effect, *inside, onset.f, clock.stays)
+
+
+def _square(tried: tuple[Effect, _Clock, Profile, Onset]) -> float:
+    return tried[-1].square
 
 
 def _clocks(s: Signals, square: Array) -> list[_Clock]:

@@ -94,6 +94,8 @@ def _left(found: Diagnosis) -> str:
             f"{_laws(found)}; with that, what remains, {found.carried.overall.rms:.3g} N rms, is"
             f" noise as far as these data tell{_hum(left)}{_withdrawn(found)}"
         )
+    if not left.significant and (once := _sets_in_once(found)):
+        return f"what no law in the time of every record says{once}{_hum(left)}{_withdrawn(found)}"
     words = "" if found.learned is None else f"{_laws(found)}; with that, "
     words += f"{left.misfit_rms:.3g} N rms beyond a noise of {left.noise_rms:.3g} N "
     if left.records > 0.0:
@@ -148,6 +150,8 @@ def _sets_in_once(found: Diagnosis) -> str:
         return ""
     name = found.problem.recording.names[once.record]
     also = "".join(f" and {other}" for other in once.confirmed.beside)
+    alike = " or ".join(once.confirmed.alike)
+    alike = alike and f" (or {alike}, from which these data do not tell it)"
     rest = (
         "is noise as far as these data tell" if once.confirmed.explained else "is more than noise"
     )
@@ -158,7 +162,7 @@ def _sets_in_once(found: Diagnosis) -> str:
     else:
         how = f"and in no other; for a law from that record alone: --where record={name}"
     return (
-        f"; {once.effect.name} that sets in once, at {once.when} of record {name!r}, leaves"
+        f"; {once.effect.name}{alike} that sets in once, at {once.when} of record {name!r}, leaves"
         f" f = {once.f:.3g} from then on {how}; with it{also}, of {found.carried.overall.rms:.3g} N"
         f" rms {once.confirmed.rms:.3g} remain, and that {rest}"
     )

@@ -105,12 +105,13 @@ def _sets_in_once(found: Diagnosis) -> dict[str, Any]:
     return {
         "sets_in_once": {
             "effect": once.effect.name,
+            "equivalent": list(once.confirmed.alike),
             "record": found.problem.recording.names[once.record],
             "interval": list(once.at),
             "unit": "s",
             "f": once.f,
             "in_later_records": once.stays,
-            "share": once.share,
+            "share": once.confirmed.share,
             "beside": list(once.confirmed.beside),
             "explained": once.confirmed.explained,
             "rms": once.confirmed.rms,

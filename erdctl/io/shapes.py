@@ -210,13 +210,14 @@ class LeftOut(TypedDict):
 class SetsInOnceDocument(TypedDict):
     """A fault that sets in once, as a search finds where the time of records goes on.
 
+    equivalent : effects from which the data do not tell it
     interval : 95 % of the onset, in the time of its record [s];  f : effectiveness that is left
-    in_later_records : whether it stays in those behind that record
-    share : part of the misfit's square that it takes;  beside : other effects then named
-    explained : whether what is left with all of them, rms [N], is noise
+    in_later_records : whether it stays in those behind;  beside : other effects then named
+    share : part of the misfit's square that all take;  explained : whether the rest, rms, is noise
     """
 
     effect: str
+    equivalent: list[str]
     record: str
     interval: list[float]
     unit: str

@@ -172,3 +172,22 @@ def test_one_row_and_no_rows_are_converted(tmp_path: Path) -> None:
         log.write_text(f"t,x\n{rows}")
         erdctl("convert", log, out)
         assert out.read_text() == f"t,x\n{rows}"
+
+
+def test_a_time_that_goes_on(tmp_path: Path) -> None:
+    """From record to record, by a median step; all else as it was, through a pipe as well."""
+    table = pa.table({
+        "t": [0.0, 0.5, 1.0, 10.0, 10.5, 0.0, 0.5],
+        "x": np.arange(7.0) * 1e-3, "force": np.arange(7.0), "record": list("aaabbcc"),
+    })  # fmt: skip
+    pq.write_table(table, tmp_path / "log.parquet")
+    erdctl("convert", "--running-time", tmp_path / "log.parquet", tmp_path / "on.parquet")
+    found = pq.read_table(tmp_path / "on.parquet")
+    assert found["t"].to_pylist() == pytest.approx([0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0])
+    assert found.drop_columns("t").to_pydict() == table.drop_columns("t").to_pydict()
+    data = erdctl("convert", "--running-time", tmp_path / "log.parquet", "-").stdout_bytes
+    back = erdctl("convert", "-", "-", "--format", "arrow", data=data).stdout_bytes
+    assert pa.ipc.open_stream(back).read_all()["t"].to_pylist() == found["t"].to_pylist()
+    pq.write_table(table.drop_columns("record"), tmp_path / "one.parquet")
+    refused = erdctl("convert", "--running-time", tmp_path / "one.parquet", "-", code=3)
+    assert "one.parquet" in refused.stderr
