@@ -60,14 +60,15 @@ def main(first: int, end: int) -> None:
             name = log.recording.names[once.record]
             answer = f"{once.effect.name} {once.f:.3f} {name} {once.when}, stays: {once.stays}"
             answer += f", {'' if once.confirmed.explained else 'not '}explained"
-            answer += f", beside {once.confirmed.beside}"
+            answer += f", beside {once.confirmed.beside}, alike {once.confirmed.alike}"
             said += 1
         faults += not healthy
-        if not healthy and once is not None:
+        if not healthy and once is not None and once.confirmed is not None:
             last = k == RECORDS - 1
-            right += once.effect.name == kind and once.record == k and (last or once.stays == stays)
+            kinds = {once.effect.name, *once.confirmed.alike}
+            right += kind in kinds and once.record == k and (last or once.stays == stays)
             inside += once.record == k and once.at[0] <= t_0 <= once.at[1]
-            left.append(abs(once.f - f))
+            left += [abs(once.f - f)] if once.effect.name == kind else []
         print(f"{seed} {truth} at {rate} Hz: {found.verdict.value} {names}; {answer}", flush=True)
     print(f"{faults} faults, {said} said; kind and record right {right}, in its interval {inside}")
     print(f"what is left of the damper: off by {max(left, default=0.0):.3f} at most")
