@@ -27,13 +27,14 @@ def with_a_fault_once(run: Callable[..., Diagnosis], recording: Recording) -> Di
     found = run(recording)
     if found.once is None:
         return found
-    order = _order(len(recording.names), found.once)
-    again = run(_one_after_another(recording, order), limits=False, learning=False, once=False)
-    once = _confirmed(found, again, recording, order)
+    used = found.problem.recording  # without records that the rig has spoilt
+    order = _order(len(used.names), found.once)
+    again = run(_one_after_another(used, order), limits=False, learning=False, once=False)
+    once = _confirmed(found, again, order)
     if once is None or once.confirmed is None:
         left = found.verdict is Verdict.UNEXPLAINED  # then there are laws to learn
         return run(recording, once=False) if left else replace(found, once=None)
-    places = (_place(recording, once, once.confirmed.share), *found.mismatch)
+    places = (_place(used, once, once.confirmed.share), *found.mismatch)
     return replace(found, verdict=Verdict.UNEXPLAINED, once=once, mismatch=places)
 
 
@@ -58,9 +59,7 @@ def _one_after_another(recording: Recording, order: list[int]) -> Recording:
     return replace(ordered, t=running_time(ordered.t, ordered.starts))
 
 
-def _confirmed(
-    found: Diagnosis, again: Diagnosis, recording: Recording, order: list[int]
-) -> SetsInOnce | None:
+def _confirmed(found: Diagnosis, again: Diagnosis, order: list[int]) -> SetsInOnce | None:
     """What the second diagnosis says of the fault, in its record's time; None if it has none."""
     finding = next((f for f in again.findings if f.effect.sets_in), None)
     before, after = (d.carried.overall.rms**2 for d in (found, again))
@@ -73,6 +72,7 @@ def _confirmed(
     onset, left = estimates[fault.key(START)], estimates[fault.key(AMOUNT)]
     assert onset.value is not None
     assert left.value is not None
+    recording = found.problem.recording
     ordered = _one_after_another(recording, order)
     firsts = ordered.t[ordered.starts[:-1]]
     place = int(np.searchsorted(firsts, onset.value, "right")) - 1

@@ -115,6 +115,18 @@ def test_a_fault_in_the_end_of_one_record_is_not_called_noise(seed: int, recordi
     assert once["interval"][0] - 0.01 <= 6.4 <= once["interval"][1] + 0.01
 
 
+def test_records_are_those_that_can_be_used(recordings: Any) -> None:
+    """One whose force has the wrong sign is left out, and those behind it keep their names."""
+    recording = recordings("oil_leakage", (NEVER, *STAYS))
+    force = recording.force.copy()
+    force[recording.slices[0]] *= -1.0
+    found = diagnosed(replace(recording, force=force))
+    assert len(found.problem.recording.names) == 4
+    once = to_json(found)["sets_in_once"]
+    assert (once["effect"], once["record"]) == ("oil_leakage", "r2")
+    assert once["interval"][0] <= 4.4 <= once["interval"][1]
+
+
 def test_what_the_second_search_does_not_name_is_not_said(recordings: Any) -> None:
     calls: list[dict[str, Any]] = []
     found = diagnosed(recordings("oil_leakage", STAYS))
