@@ -21,6 +21,7 @@ from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.estimate.onset_profile import OF_A_STEP, Onset, Profile
 from erdctl.estimate.onsets import profile
 from erdctl.model.effect import Effect
+from erdctl.model.onset import START
 
 
 @dataclass(frozen=True)
@@ -69,6 +70,26 @@ class _Clock:
     stays: bool
 
 
+@dataclass(frozen=True, eq=False)
+class _Seen:
+    """What an onset of a fault in a time takes of a residual."""
+
+    effect: Effect
+    clock: _Clock
+    at: Profile
+    onset: Onset
+
+    @property
+    def taken(self) -> float:
+        """Of the square, weighted [N^2]."""
+        return self.at.square - self.onset.square
+
+    @property
+    def ratio(self) -> float:
+        """Likelihood ratio against none."""
+        return self.at.ratio(Onset(1.0, self.onset.t_0, self.onset.t_r, self.at.square), self.onset)
+
+
 def sets_in_once(
     best: Hypothesis, candidates: Iterable[Effect], misfit_rms: float
 ) -> SetsInOnce | None:
@@ -76,39 +97,47 @@ def sets_in_once(
 
     misfit_rms : what is known to be missing [N]; of that it must seem to take a part
     """
+    seen = _strongest(best, candidates)
+    misfit = misfit_rms**2 * float(best.problem.block.weight.sum())
+    if (
+        seen is None
+        or seen.taken < thresholds.SEEMS_ONCE * misfit
+        or seen.ratio < thresholds.ONCE_RATIO
+    ):
+        return None
+    inside = _inside(best.problem.block.signals, seen)
+    if inside is None:
+        return None
+    return SetsInOnce(seen.effect, *inside, seen.onset.f, seen.clock.stays)
+
+
+def ratio_of_once(best: Hypothesis, candidates: Iterable[Effect]) -> float:
+    """The likelihood ratio that decides; 0 where nothing sets in within a record."""
+    seen = _strongest(best, candidates)
+    inside = seen is not None and _inside(best.problem.block.signals, seen)
+    return seen.ratio if seen is not None and inside else 0.0
+
+
+def _strongest(best: Hypothesis, candidates: Iterable[Effect]) -> _Seen | None:
     s, weight = best.problem.block.signals, best.problem.block.weight
-    faults = sorted(
-        (e for e in candidates if e.sets_in and e not in best.effects), key=lambda e: e.name
-    )
+    faults = [e for e in candidates if e.sets_in and e not in best.effects]
+    faults.sort(key=lambda e: e.name)
     if len(best.problem.recording.names) < 2 or not faults:
         return None
     lever = np.sqrt(weight)
 
-    def tried(effect: Effect, clock: _Clock) -> tuple[Effect, _Clock, Profile, Onset]:
+    def tried(effect: Effect, clock: _Clock) -> _Seen:
         at = profile(
             best.model, effect, s, best.residual * lever, lever, best.values,
             best.problem.held, clock.t,
         )  # fmt: skip
-        return effect, clock, at, at.best()
+        return _Seen(effect, clock, at, at.best())
 
     # One kind for all times first: where a fault sets in, each takes more than elsewhere.
-    first = [tried(faults[0], clock) for clock in _clocks(s, weight * best.residual**2)]
-    chosen = min(first, key=_square)
-    found = [chosen, *(tried(effect, chosen[1]) for effect in faults[1:])]
-    effect, clock, at, onset = min(found, key=_square)
-    nothing = Onset(1.0, onset.t_0, onset.t_r, at.square)
-    misfit = misfit_rms**2 * float(weight.sum())
-    if (
-        at.square - onset.square < thresholds.SEEMS_ONCE * misfit
-        or at.ratio(nothing, onset) < thresholds.ONCE_RATIO
-    ):
-        return None
-    inside = _inside(s, clock, at, onset)
-    return None if inside is None else SetsInOnce(effect, *inside, onset.f, clock.stays)
-
-
-def _square(tried: tuple[Effect, _Clock, Profile, Onset]) -> float:
-    return tried[-1].square
+    clocks = _clocks(s, weight * best.residual**2)
+    first = max((tried(faults[0], clock) for clock in clocks), key=lambda seen: seen.taken)
+    others = (tried(effect, first.clock) for effect in faults[1:])
+    return max([first, *others], key=lambda seen: seen.taken)
 
 
 def _clocks(s: Signals, square: Array) -> list[_Clock]:
@@ -126,14 +155,12 @@ def _clocks(s: Signals, square: Array) -> list[_Clock]:
     return clocks
 
 
-def _inside(
-    s: Signals, clock: _Clock, at: Profile, onset: Onset
-) -> tuple[int, tuple[float, float]] | None:
+def _inside(s: Signals, seen: _Seen) -> tuple[int, tuple[float, float]] | None:
     """Record and interval of an onset that lies in one record, ramp and all; else None."""
-    low, high = at.interval(onset, "t_0", OF_A_STEP)
+    low, high = seen.at.interval(seen.onset, START, OF_A_STEP)
     for record, (a, b) in enumerate(pairwise(s.starts.tolist())):
-        first, last = clock.t[a], clock.t[b - 1]
-        if first < low and high + onset.t_r < last:
+        first, last = seen.clock.t[a], seen.clock.t[b - 1]
+        if first < low and high + seen.onset.t_r < last:
             back = float(s.t[a] - first)
             return record, (low + back, high + back)
     return None

@@ -94,6 +94,8 @@ class Profile:
         """Likelihood ratio of another onset against the best, in noise of the colour that is left.
 
         (SSE - SSE_best) |g|^2 / g'Cg,   g the difference of the two forces
+        C as of noise that is alike all along, or as loud as it is where g lies, whichever is more:
+        next to rest a steep yield force makes much of the noise of a velocity
         """
         left = self.left(best)
         g = self.left(other) - left
@@ -102,8 +104,10 @@ class Profile:
         if norm <= 0.0 or more <= 0.0:
             return 0.0
         noise = ColouredNoise.of(left, self.starts, used=self.weighed)
-        spread = noise.colour(g[None], self.starts)[0]
-        return more * norm / max(noise.innovation * float(spread @ spread), 1e-300)
+        spread = noise.colour(g[None], self.starts)[0] ** 2
+        alike = noise.innovation * float(spread.sum())
+        there = float(spread @ noise.innovations(left, self.starts) ** 2)
+        return more * norm / max(alike, there, 1e-300)
 
     def left(self, at: Onset) -> Array:
         """(n,) weighted residual that an onset leaves, all other parameters moved by dp."""

@@ -21,6 +21,7 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import compare, critical_of
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
 from erdctl.diagnose.findings import Finding
+from erdctl.diagnose.sets_in_once import ratio_of_once
 from erdctl.effects import catalogue
 from erdctl.io.logs import read_logs
 from erdctl.prove.score import EXTRA
@@ -102,6 +103,7 @@ def measures(found: Diagnosis) -> dict[str, float]:
     out["Z_ENERGY"] = max((c.energy.z for c in worth), default=0.0)
     out["T_PLACES"] = max((c.energy.groups.t for c in worth), default=0.0)
     out["LEAST_GAIN"] = max((c.gain for c in compared), default=0.0)
+    out["ONCE_RATIO"] = ratio_of_once(found.selection.best, catalogue())
     out["critical"] = critical_of(found.problem, base, singles)
     return out
 

@@ -111,17 +111,22 @@ def test_a_fit_finds_it_from_anywhere(effect: Effect, t_0: float, t_r: float) ->
     assert found[effect.key("t_r")] == pytest.approx(t_r, abs=4 * STEP)
 
 
-@pytest.mark.parametrize(("rho", "used"), [(0.0, 1.0), (0.95, 1.0), (0.0, 0.25)])
-def test_intervals_hold_the_truth(rho: float, used: float) -> None:
-    """Of steps and ramps of all kinds; with 95 % more than four of 24 fail once in 300 times.
+@pytest.mark.parametrize(
+    ("rho", "used", "loud"),
+    [(0.0, 1.0, 1.0), (0.95, 1.0, 1.0), (0.0, 0.25, 1.0), (0.0, 1.0, 8.0)],
+)
+def test_intervals_hold_the_truth(rho: float, used: float, loud: float) -> None:
+    """Of steps and ramps of all kinds; with 95 % more than six of 48 fail once in 100 times.
 
-    Also where most samples have no weight, as those of a car at rest: they are no noise of 0.
+    Also where most samples have no weight, as those of a car at rest: they are no noise of 0. And
+    where it sets in in the loudest part of a log.
     """
     s, outside, widest = drive(), 0, 0.0
-    for seed in range(12):
+    for seed in range(2000, 2024):
         rng, effect = np.random.default_rng([seed, 7]), FAULTS[seed % 3]
         t_0, t_r = rng.uniform(1.0, 5.0), rng.uniform(0.5, 2.5) * (seed % 2)
-        force = faulty(s, effect, 0.5, t_0, t_r) + noise(len(s), seed, rho)
+        own = noise(len(s), seed, rho) * np.where(np.abs(s.t - t_0 - 0.5 * t_r) < 0.3, loud, 1.0)
+        force = faulty(s, effect, 0.5, t_0, t_r) + own
         model, block, values = at_first(s, effect, force)
         block = Block(s, force, (rng.random(len(s)) < used).astype(float))
         fitted = fit(model, block, start=values, fixed=HELD).values
@@ -129,7 +134,7 @@ def test_intervals_hold_the_truth(rho: float, used: float) -> None:
         (low, high), ramp = found[effect.key("t_0")], found[effect.key("t_r")]
         outside += (not low <= t_0 <= high) + (not ramp[0] <= t_r <= ramp[1])
         widest = max(widest, high - low)
-    assert outside <= 4
+    assert outside <= 6, outside
     assert widest < 3.0  # and they say something
 
 
