@@ -21,6 +21,7 @@ import numpy as np
 from erdctl.core.recording import Array, Index
 from erdctl.core.signals import Signals
 from erdctl.estimate.autoregressive import ColouredNoise
+from erdctl.estimate.seldom import moved_on, seldom_weighed
 from erdctl.model.onset import AMOUNT, RAMP, START, onset_weight
 
 EDGES = 80  # of the first grid, over the whole time; budget
@@ -67,6 +68,7 @@ class Profile:
         rows = np.concatenate([whole, failing])
         self.weighed = np.any(rows != 0.0, axis=0)  # what has no weight is 0, and no noise
         self.X = rows[:, self.order]
+        self.seldom = seldom_weighed(self.weighed[self.order])
         self.middle = 0.5 * float(self.t[0] + self.t[-1])
         # Times that differ by rounding are one: the sums over so short a ramp would be rounding.
         apart = np.diff(self.t, prepend=-np.inf) > ROUNDED * self.step
@@ -94,13 +96,11 @@ class Profile:
         """Likelihood ratio of another onset against the best, in noise of the colour that is left.
 
         (SSE - SSE_best) |g|^2 / g'Cg,   g the difference of the two forces
-        C as of noise that is alike all along, or as loud as it is where g lies, whichever is more:
-        next to rest a steep yield force makes much of the noise of a velocity
+        C as of noise alike all along, or as loud as it is where g lies (next to rest), if more
         """
         left = self.left(best)
         g = self.left(other) - left
-        norm = float(g @ g)
-        more = other.square - best.square
+        norm, more = float(g @ g), other.square - best.square
         if norm <= 0.0 or more <= 0.0:
             return 0.0
         noise = ColouredNoise.of(left, self.starts, used=self.weighed)
@@ -170,8 +170,10 @@ class Profile:
                 else:
                     inside = mid
             found[side] = value + way * (inside if outside is None else outside)
-        low = max(found[0], 0.0) if symbol == RAMP else found[0] - half
-        return low, found[1] + half
+        if symbol == RAMP:
+            return max(found[0], 0.0), found[1] + half
+        low, high = (moved_on(self.t, self.seldom, found[k], 2 * k - 1) for k in (0, 1))
+        return low - half, high + half
 
     def _given(self, best: Onset, symbol: str, value: float) -> Onset:
         """The best with one of onset and ramp given, the other searched for near and far."""
