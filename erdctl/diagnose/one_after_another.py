@@ -2,7 +2,9 @@
 
 In a time that goes on from record to record the law of a fault says what happened once. So the log
 is diagnosed in that time as well, the record of a fault that is in no other put last, and what the
-second diagnosis names says what the first could not.
+second diagnosis names says what the first could not. A few seconds of one record are a single place
+to a search, where anything may have happened; a fault that takes what is missing there is fitted
+beside what was named before.
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ from erdctl.core.recording import Recording, running_time
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict
+from erdctl.diagnose.fault_beside import fault_beside
 from erdctl.diagnose.residual.localisation import Region, said
 from erdctl.diagnose.sets_in_once import Confirmed, SetsInOnce
 from erdctl.model.effect import Variable
@@ -27,12 +30,16 @@ def with_a_fault_once(run: Callable[..., Diagnosis], recording: Recording) -> Di
     found = run(recording)
     if found.once is None:
         return found
+    left = found.verdict is Verdict.UNEXPLAINED
     used = found.problem.recording  # without records that the rig has spoilt
     order = _order(len(used.names), found.once)
-    again = run(_one_after_another(used, order), limits=False, learning=False, once=False)
+    ordered = _one_after_another(used, order)
+    again = run(ordered, limits=False, learning=False, once=False)
     once = _confirmed(found, again, order)
+    if once is None:
+        once = _beside(found, found.once, ordered, order)
     if once is None or once.confirmed is None:
-        left = found.verdict is Verdict.UNEXPLAINED  # then there are laws to learn
+        # Where more is left there are laws to learn.
         return run(recording, once=False) if left else replace(found, once=None)
     places = (_place(used, once, once.confirmed.share), *found.mismatch)
     return replace(found, verdict=Verdict.UNEXPLAINED, once=once, mismatch=places)
@@ -72,24 +79,54 @@ def _confirmed(found: Diagnosis, again: Diagnosis, order: list[int]) -> SetsInOn
     onset, left = estimates[fault.key(START)], estimates[fault.key(AMOUNT)]
     assert onset.value is not None
     assert left.value is not None
-    recording = found.problem.recording
-    ordered = _one_after_another(recording, order)
+    confirmed = Confirmed(
+        share=share,
+        alike=finding.equivalent,
+        beside=tuple(f.effect.name for f in again.findings if f is not finding),
+        explained=again.verdict is not Verdict.UNEXPLAINED,
+        rms=again.carried.overall.rms,
+    )
+    within = onset.within or (onset.value, onset.value)
+    ordered = _one_after_another(found.problem.recording, order)
+    return _in_its_record(
+        replace(found.once, effect=fault, f=left.value, confirmed=confirmed),
+        found.problem.recording, ordered, order, onset.value, within,
+    )  # fmt: skip
+
+
+def _beside(
+    found: Diagnosis, once: SetsInOnce, ordered: Recording, order: list[int]
+) -> SetsInOnce | None:
+    """The same of a fault beside what was named without it; None if that takes too little."""
+    fault = fault_beside(found.problem, found.selection.best, once.kinds, ordered)
+    least = thresholds.SETS_IN_ONCE
+    missed = least * found.lack_of_fit.misfit_rms**2
+    if fault is None or fault.share < least or fault.taken < missed:
+        return None
+    confirmed = Confirmed(
+        share=fault.share,
+        alike=fault.alike,
+        beside=tuple(e.name for e in found.selection.named),
+        explained=fault.explained,
+        rms=fault.rms,
+    )
+    return _in_its_record(
+        replace(once, effect=fault.effect, f=fault.onset.f, confirmed=confirmed),
+        found.problem.recording, ordered, order, fault.onset.t_0, fault.within,
+    )  # fmt: skip
+
+
+def _in_its_record(
+    once: SetsInOnce, recording: Recording, ordered: Recording, order: list[int],
+    onset: float, within: tuple[float, float],
+) -> SetsInOnce | None:  # fmt: skip
+    """A fault with the record and the time in it of an onset in the time that goes on [s]."""
     firsts = ordered.t[ordered.starts[:-1]]
-    place = int(np.searchsorted(firsts, onset.value, "right")) - 1
+    place = int(np.searchsorted(firsts, onset, "right")) - 1
     if place < 0:
         return None
     own = recording.slices[order[place]]
     begins, ends = float(recording.t[own][0]), float(recording.t[own][-1])
-    low, high = onset.within or (onset.value, onset.value)
     back = begins - float(firsts[place])
-    return replace(
-        found.once, effect=fault, record=order[place], f=left.value,
-        at=(max(low + back, begins), min(high + back, ends)),
-        confirmed=Confirmed(
-            share=share,
-            alike=finding.equivalent,
-            beside=tuple(f.effect.name for f in again.findings if f is not finding),
-            explained=again.verdict is not Verdict.UNEXPLAINED,
-            rms=again.carried.overall.rms,
-        ),
-    )  # fmt: skip
+    low, high = (min(max(end + back, begins), ends) for end in within)
+    return replace(once, record=order[place], at=(low, high))

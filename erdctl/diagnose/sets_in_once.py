@@ -8,7 +8,7 @@ records in their order, and all times of the records with most misfit.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -45,6 +45,7 @@ class SetsInOnce:
 
     record : its number;  at : 95 % interval of the onset [s], in the time of that record
     f : effectiveness that is left [1];  stays : whether later records have it from their begin
+    kinds : of faults that it may be, `effect` among them
     confirmed : what a search with it says
     """
 
@@ -53,6 +54,7 @@ class SetsInOnce:
     at: tuple[float, float]
     f: float
     stays: bool
+    kinds: tuple[Effect, ...]
     confirmed: Confirmed | None = None
 
     @property
@@ -91,7 +93,7 @@ class _Seen:
 
 
 def sets_in_once(
-    best: Hypothesis, candidates: Iterable[Effect], misfit_rms: float
+    best: Hypothesis, candidates: Sequence[Effect], misfit_rms: float
 ) -> SetsInOnce | None:
     """The fault that takes most of what is left, if its time shows, and a second search is due.
 
@@ -108,7 +110,8 @@ def sets_in_once(
     inside = _inside(best.problem.block.signals, seen)
     if inside is None:
         return None
-    return SetsInOnce(seen.effect, *inside, seen.onset.f, seen.clock.stays)
+    kinds = _kinds(best, candidates)
+    return SetsInOnce(seen.effect, *inside, seen.onset.f, seen.clock.stays, kinds)
 
 
 def ratio_of_once(best: Hypothesis, candidates: Iterable[Effect]) -> float:
@@ -120,8 +123,7 @@ def ratio_of_once(best: Hypothesis, candidates: Iterable[Effect]) -> float:
 
 def _strongest(best: Hypothesis, candidates: Iterable[Effect]) -> _Seen | None:
     s, weight = best.problem.block.signals, best.problem.block.weight
-    faults = [e for e in candidates if e.sets_in and e not in best.effects]
-    faults.sort(key=lambda e: e.name)
+    faults = _kinds(best, candidates)
     if len(best.problem.recording.names) < 2 or not faults:
         return None
     lever = np.sqrt(weight)
@@ -133,11 +135,16 @@ def _strongest(best: Hypothesis, candidates: Iterable[Effect]) -> _Seen | None:
         )  # fmt: skip
         return _Seen(effect, clock, at, at.best())
 
-    # One kind for all times first: where a fault sets in, each takes more than elsewhere.
+    # All kinds in all times: in the wrong time the right one can take less than another one there.
     clocks = _clocks(s, weight * best.residual**2)
-    first = max((tried(faults[0], clock) for clock in clocks), key=lambda seen: seen.taken)
-    others = (tried(effect, first.clock) for effect in faults[1:])
-    return max([first, *others], key=lambda seen: seen.taken)
+    return max(
+        (tried(effect, clock) for clock in clocks for effect in faults), key=lambda seen: seen.taken
+    )
+
+
+def _kinds(best: Hypothesis, candidates: Iterable[Effect]) -> tuple[Effect, ...]:
+    found = [e for e in candidates if e.sets_in and e not in best.effects]
+    return tuple(sorted(found, key=lambda e: e.name))
 
 
 def _clocks(s: Signals, square: Array) -> list[_Clock]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
+from erdctl.diagnose.one_after_another import with_a_fault_once
 from erdctl.effects import candidates
 from erdctl.io import documents
 from erdctl.io.diagnosis import to_json
@@ -102,8 +104,8 @@ def examine(log: Path, without: Sequence[str] = ()) -> Diagnosis:
 
     without : effects that are not to be tested, as with `--exclude`
     """
-    recording = _read(log)
-    return diagnose(recording, candidates(exclude=without), limits=False)
+    run = partial(diagnose, candidates=candidates(exclude=without), limits=False)
+    return with_a_fault_once(run, _read(log))
 
 
 def scored(
@@ -118,7 +120,10 @@ def scored(
         for e in key["effects"]
     )
     known = all(e["catalogued"] for e in key["effects"])
-    findings = tuple(Found(f["effect"], tuple(f["equivalent"])) for f in document["findings"])
+    once = [document["sets_in_once"]] if "sets_in_once" in document else []
+    findings = tuple(
+        Found(f["effect"], tuple(f["equivalent"])) for f in (*document["findings"], *once)
+    )
     mended = tuple(_mended(document, hidden))
     match = naming((*mended, *findings), hidden)
     first = match.first

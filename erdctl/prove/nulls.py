@@ -10,6 +10,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import as_completed
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -21,6 +22,7 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import compare, critical_of
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
 from erdctl.diagnose.findings import Finding
+from erdctl.diagnose.one_after_another import with_a_fault_once
 from erdctl.diagnose.sets_in_once import ratio_of_once
 from erdctl.effects import catalogue
 from erdctl.io.logs import read_logs
@@ -72,13 +74,16 @@ def examine(seed: int) -> NullResult:
         path = Path(folder) / "log.parquet"
         pq.write_table(null.table, path)
         log = read_logs([os.fspath(path)], need_force=True, report=lambda line: None)
-    found = diagnose(log.recording, catalogue(), limits=False)
+    run = partial(diagnose, candidates=catalogue(), limits=False)
+    found = with_a_fault_once(run, log.recording)
+    wrong = [f.effect.name for f in found.findings if not _is_right(f, null.kind.right)]
+    wrong += [f"{found.once.effect.name} once"] if found.once else []
     return NullResult(
         seed,
         null.name,
         null.kind.only_noise,
         found.verdict.value,
-        tuple(f.effect.name for f in found.findings if not _is_right(f, null.kind.right)),
+        tuple(wrong),
         tuple(dict.fromkeys(f.code for f in found.rig.faults)),
         measures(found),
         found.learned is not None,
