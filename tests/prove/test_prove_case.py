@@ -7,6 +7,7 @@ import json
 import shutil
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -62,11 +63,16 @@ def test_the_diagnosis_is_given_the_log_alone(
 ) -> None:
     alone = shutil.copy(sealed.log, tmp_path / "case-001.parquet")
     asked = []
-    monkeypatch.setattr(judging, "diagnose", lambda *given, **more: asked.append((given, more)))
+
+    def diagnose(*given: object, **more: object) -> SimpleNamespace:
+        asked.append((given, more))
+        return SimpleNamespace(once=None)
+
+    monkeypatch.setattr(judging, "diagnose", diagnose)
     judging.examine(Path(alone))
-    (((recording, candidates), more),) = asked
+    (((recording,), more),) = asked
     assert isinstance(recording, Recording)
-    assert [e.name for e in candidates] == list(names())
+    assert [e.name for e in more.pop("candidates")] == list(names())
     assert more == {"limits": False}
 
 
