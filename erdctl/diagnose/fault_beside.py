@@ -17,7 +17,7 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem, prepare
 from erdctl.diagnose.residual.predictability import lack_of_fit_of
-from erdctl.estimate.onset_profile import OF_A_STEP, Onset
+from erdctl.estimate.onset_profile import Onset, Profile
 from erdctl.estimate.onsets import profile, profile_within
 from erdctl.model.effect import Effect
 from erdctl.model.onset import AMOUNT, RAMP, START, onset_weight
@@ -27,7 +27,7 @@ from erdctl.model.onset import AMOUNT, RAMP, START, onset_weight
 class FaultBeside:
     """A fault fitted beside other effects.
 
-    onset : in the time of the recording [s];  within : its 95 % interval [s]
+    at : the profile of its onset;  onset : in the time of the recording [s]
     ratio : likelihood ratio against none
     taken : of the mean square over all samples [N^2]
     share : of the mean square that is missing while it acts, which it takes [1]
@@ -36,8 +36,8 @@ class FaultBeside:
 
     effect: Effect
     hypothesis: Hypothesis
+    at: Profile
     onset: Onset
-    within: tuple[float, float]
     ratio: float
     taken: float
     share: float
@@ -96,5 +96,4 @@ def _fitted(problem: Problem, without: Hypothesis, effect: Effect) -> FaultBesid
         before, after = (np.average(h.residual**2, weights=here) for h in (without, found))
         missing = before - np.average(found.residual**2, weights=elsewhere)
         share = float((before - after) / missing) if missing > 0.0 else 0.0
-    within = at.interval(onset, START, OF_A_STEP)
-    return FaultBeside(effect, found, onset, within, ratio, float(taken), min(share, 1.0))
+    return FaultBeside(effect, found, at, onset, ratio, float(taken), min(share, 1.0))

@@ -20,9 +20,10 @@ from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.fault_beside import fault_beside
 from erdctl.diagnose.residual.localisation import Region, said
-from erdctl.diagnose.sets_in_once import Confirmed, SetsInOnce
+from erdctl.diagnose.sets_in_once import Confirmed, SetsInOnce, no_rig_has
+from erdctl.estimate.onsets import profile_within
 from erdctl.model.effect import Variable
-from erdctl.model.onset import AMOUNT, START
+from erdctl.model.onset import AMOUNT, RAMP, START
 
 
 def with_a_fault_once(run: Callable[..., Diagnosis], recording: Recording) -> Diagnosis:
@@ -30,55 +31,45 @@ def with_a_fault_once(run: Callable[..., Diagnosis], recording: Recording) -> Di
     found = run(recording)
     if found.once is None:
         return found
-    left = found.verdict is Verdict.UNEXPLAINED
-    used = found.problem.recording  # without records that the rig has spoilt
-    order = _order(len(used.names), found.once)
-    ordered = _one_after_another(used, order)
+    ordered = found.problem.recording.select(found.once.order)  # without what the rig has spoilt
+    ordered = replace(ordered, t=running_time(ordered.t, ordered.starts))
     again = run(ordered, limits=False, learning=False, once=False)
-    once = _confirmed(found, again, order)
-    if once is None:
-        once = _beside(found, found.once, ordered, order)
+    once = _named(found, found.once, again, ordered) or _beside(found, found.once, ordered)
     if once is None or once.confirmed is None:
         # Where more is left there are laws to learn.
+        left = found.verdict is Verdict.UNEXPLAINED
         return run(recording, once=False) if left else replace(found, once=None)
-    places = (_place(used, once, once.confirmed.share), *found.mismatch)
+    places = (_place(found.problem.recording, once, once.confirmed.share), *found.mismatch)
     return replace(found, verdict=Verdict.UNEXPLAINED, once=once, mismatch=places)
 
 
 def _place(recording: Recording, once: SetsInOnce, share: float) -> Region:
-    """Where to look first: from the onset on."""
-    k, last = once.record, len(recording.names) - 1 if once.stays else once.record
-    after = recording.starts[last + 1] - recording.starts[k]
-    after -= int(np.searchsorted(recording.t[recording.slices[k]], float(np.mean(once.at))))
-    time = float(after) / len(recording)
-    where = f"after the onset of a fault at {once.when} of record {recording.names[k]!r}"
-    return Region(Variable.RECORD, k + 1.0, last + 1.0, share, time, said(share, time, where))
+    """Where to look first: in the records that have the fault, from the onset on."""
+    lengths = np.diff(recording.starts)[list(once.records)]
+    own = recording.t[recording.slices[once.record]]
+    before = 0 if once.whole else int(np.searchsorted(own, float(np.mean(once.at))))
+    time = float(lengths.sum() - before) / len(recording)
+    where = f"after the onset of a fault at {once.when} of record {recording.names[once.record]!r}"
+    if once.whole:
+        where = f"in {once.named(recording.names)}, as of a fault all along"
+    low, high = min(once.records) + 1.0, max(once.records) + 1.0
+    return Region(Variable.RECORD, low, high, share, time, said(share, time, where))
 
 
-def _order(count: int, once: SetsInOnce) -> list[int]:
-    if once.stays:
-        return list(range(count))
-    return [r for r in range(count) if r != once.record] + [once.record]
-
-
-def _one_after_another(recording: Recording, order: list[int]) -> Recording:
-    ordered = recording.select(order)
-    return replace(ordered, t=running_time(ordered.t, ordered.starts))
-
-
-def _confirmed(found: Diagnosis, again: Diagnosis, order: list[int]) -> SetsInOnce | None:
+def _named(
+    found: Diagnosis, once: SetsInOnce, again: Diagnosis, ordered: Recording
+) -> SetsInOnce | None:
     """What the second diagnosis says of the fault, in its record's time; None if it has none."""
     finding = next((f for f in again.findings if f.effect.sets_in), None)
     before, after = (d.carried.overall.rms**2 for d in (found, again))
     misfit = before - again.noise_rms**2
     share = min((before - after) / misfit, 1.0) if misfit > 0.0 else 0.0
-    if finding is None or found.once is None or share < thresholds.SETS_IN_ONCE:
+    if finding is None or share < thresholds.SETS_IN_ONCE:
         return None
-    fault = finding.effect
-    estimates = parameters(again).estimates
-    onset, left = estimates[fault.key(START)], estimates[fault.key(AMOUNT)]
-    assert onset.value is not None
-    assert left.value is not None
+    best, fault = again.selection.best, finding.effect
+    block, held = best.problem.block, best.problem.held
+    at = profile_within(best.model, fault, block, best.values, held)
+    onset = at.least(*(best.values[fault.key(symbol)] for symbol in (START, RAMP, AMOUNT)))
     confirmed = Confirmed(
         share=share,
         alike=finding.equivalent,
@@ -86,17 +77,13 @@ def _confirmed(found: Diagnosis, again: Diagnosis, order: list[int]) -> SetsInOn
         explained=again.verdict is not Verdict.UNEXPLAINED,
         rms=again.carried.overall.rms,
     )
-    within = onset.within or (onset.value, onset.value)
-    ordered = _one_after_another(found.problem.recording, order)
-    return _in_its_record(
-        replace(found.once, effect=fault, f=left.value, confirmed=confirmed),
-        found.problem.recording, ordered, order, onset.value, within,
-    )  # fmt: skip
+    left = parameters(again).estimates[fault.key(AMOUNT)].value
+    named = replace(once, effect=fault, f=onset.f if left is None else left, confirmed=confirmed)
+    named_in = named.set_in(found.problem.recording, ordered.t, at, onset)
+    return _no_scatter(named_in, again.lack_of_fit.records > 0.0)
 
 
-def _beside(
-    found: Diagnosis, once: SetsInOnce, ordered: Recording, order: list[int]
-) -> SetsInOnce | None:
+def _beside(found: Diagnosis, once: SetsInOnce, ordered: Recording) -> SetsInOnce | None:
     """The same of a fault beside what was named without it; None if that takes too little."""
     fault = fault_beside(found.problem, found.selection.best, once.kinds, ordered)
     least = thresholds.SETS_IN_ONCE
@@ -110,23 +97,16 @@ def _beside(
         explained=fault.explained,
         rms=fault.rms,
     )
-    return _in_its_record(
-        replace(once, effect=fault.effect, f=fault.onset.f, confirmed=confirmed),
-        found.problem.recording, ordered, order, fault.onset.t_0, fault.within,
-    )  # fmt: skip
+    named = replace(once, effect=fault.effect, f=fault.onset.f, confirmed=confirmed)
+    named_in = named.set_in(found.problem.recording, ordered.t, fault.at, fault.onset)
+    return _no_scatter(named_in, not fault.explained)
 
 
-def _in_its_record(
-    once: SetsInOnce, recording: Recording, ordered: Recording, order: list[int],
-    onset: float, within: tuple[float, float],
-) -> SetsInOnce | None:  # fmt: skip
-    """A fault with the record and the time in it of an onset in the time that goes on [s]."""
-    firsts = ordered.t[ordered.starts[:-1]]
-    place = int(np.searchsorted(firsts, onset, "right")) - 1
-    if place < 0:
+def _no_scatter(once: SetsInOnce | None, more: bool) -> SetsInOnce | None:
+    """A fault, unless it is no more than one of the records that scatter.
+
+    more : whether records differ beyond it
+    """
+    if once is None or (once.whole and (more or not no_rig_has(once.f))):
         return None
-    own = recording.slices[order[place]]
-    begins, ends = float(recording.t[own][0]), float(recording.t[own][-1])
-    back = begins - float(firsts[place])
-    low, high = (min(max(end + back, begins), ends) for end in within)
-    return replace(once, record=order[place], at=(low, high))
+    return once

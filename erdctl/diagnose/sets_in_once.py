@@ -1,24 +1,24 @@
-"""A fault that sets in once, in one of several records, which no law in every record's time says.
+"""A fault that sets in once, which no law in every record's own time says.
 
 The time of a record begins anew with it, and a law in that time sets in in every record. A damper
 that fails in the fourth of six drives has failed in the fifth and sixth as well; a fault that was
-mimicked in one drive is in no other. Both are sought on what the search leaves: all times of all
-records in their order, and all times of the records with most misfit.
+mimicked in one drive is in no other; and one that was there from the beginning of some drives is in
+these all along. All are sought on what the search leaves: all times of all records in their order,
+all times of the records with most misfit, and the records whose gains set them apart.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from itertools import pairwise
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from erdctl.core.recording import Array, running_time
-from erdctl.core.signals import Signals
+from erdctl.core.recording import Array, Index, Recording, running_time
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
-from erdctl.estimate.onset_profile import OF_A_STEP, Onset, Profile
+from erdctl.diagnose.records_with_a_fault import apart
+from erdctl.estimate.onset_profile import OF_A_STEP, ROUNDED, Onset, Profile
 from erdctl.estimate.onsets import profile
 from erdctl.model.effect import Effect
 from erdctl.model.onset import START
@@ -43,19 +43,43 @@ class Confirmed:
 class SetsInOnce:
     """A fault as `effect` describes it, from a time in one record on.
 
-    record : its number;  at : 95 % interval of the onset [s], in the time of that record
-    f : effectiveness that is left [1];  stays : whether later records have it from their begin
+    order : records in that order in which it sets in once, those without it first
+    first : the place in it of the record in which it sets in
+    whole : whether that record has it from its beginning
+    at : 95 % interval of the onset [s], in the time of that record;  f : effectiveness left [1]
     kinds : of faults that it may be, `effect` among them
     confirmed : what a search with it says
     """
 
     effect: Effect
-    record: int
+    order: tuple[int, ...]
+    first: int
+    whole: bool
     at: tuple[float, float]
     f: float
-    stays: bool
     kinds: tuple[Effect, ...]
     confirmed: Confirmed | None = None
+
+    @property
+    def record(self) -> int:
+        """The record in which it sets in."""
+        return self.order[self.first]
+
+    @property
+    def records(self) -> tuple[int, ...]:
+        """All that have it, the one in which it sets in first."""
+        return self.order[self.first :]
+
+    @property
+    def stays(self) -> bool:
+        """Whether it is in all records behind that, of which there are some."""
+        records, last = self.records, len(self.order) - 1
+        return len(records) > 1 and records == tuple(range(records[0], last + 1))
+
+    def named(self, names: Sequence[str]) -> str:
+        """The records that have it, in words."""
+        own = ", ".join(repr(names[r]) for r in self.records)
+        return f"record{'s' * (len(self.records) > 1)} {own}"
 
     @property
     def when(self) -> str:
@@ -63,13 +87,44 @@ class SetsInOnce:
         low, high = (f"{end:.2f}" for end in self.at)
         return f"{low} s" if low == high else f"{low} to {high} s"
 
+    def set_in(
+        self, recording: Recording, t: Array, at: Profile, onset: Onset
+    ) -> SetsInOnce | None:
+        """The same with the record of an onset and its interval there; None if all have it.
+
+        Between two records more faults begin than between two samples: an onset is that of a
+        record unless it is as unlikely as one of all samples would have to be.
+        t : (n,) time of the samples of `order` in which it sets in once [s];  at : its profile
+        """
+        lengths = np.diff(recording.starts)[list(self.order)]
+        ends = np.cumsum(lengths)
+        begins, last = t[ends - lengths], t[ends - 1]
+        between = 0.5 * (last[:-1] + begins[1:])
+        even = ROUNDED * at.step
+        first = int(np.searchsorted(between - even, onset.t_0, "right"))
+        most = OF_A_STEP + 2.0 * float(np.log(len(t)))
+        near = [k for k in (first, first + 1) if 0 < k < len(begins) and begins[k] > begins[k - 1]]
+        ratios = {
+            k: at.ratio(at.least(float(between[k - 1]), 0.0, onset.f), onset) for k in near
+        }  # fmt: skip
+        likely = min(ratios, key=lambda k: ratios[k], default=0)
+        whole = bool(ratios) and ratios[likely] <= most
+        first = likely if whole else first
+        low, high = at.interval(onset, START, OF_A_STEP)
+        if not whole and low <= begins[0] + even:
+            return None
+        own = recording.slices[self.order[first]]
+        back = float(recording.t[own][0] - begins[first])
+        within = (float(np.clip(end, begins[first], last[first])) + back for end in (low, high))
+        return replace(self, first=first, whole=whole, at=(next(within), next(within)))
+
 
 @dataclass(frozen=True, eq=False)
 class _Clock:
-    """A time in which an onset is sought: (n,) [s] of every sample, and whether a fault stays."""
+    """A time in which an onset is sought: (n,) [s] of every sample, and the order of records."""
 
     t: Array
-    stays: bool
+    order: tuple[int, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +152,8 @@ def sets_in_once(
 ) -> SetsInOnce | None:
     """The fault that takes most of what is left, if its time shows, and a second search is due.
 
-    misfit_rms : what is known to be missing [N]; of that it must seem to take a part
+    misfit_rms : what is known to be missing [N]; of that it must seem to take a part. Of one that
+    is in whole records nothing but their levels speaks: it must take most, and be no rig's.
     """
     seen = _strongest(best, candidates)
     misfit = misfit_rms**2 * float(best.problem.block.weight.sum())
@@ -107,18 +163,23 @@ def sets_in_once(
         or seen.ratio < thresholds.ONCE_RATIO
     ):
         return None
-    inside = _inside(best.problem.block.signals, seen)
-    if inside is None:
-        return None
-    kinds = _kinds(best, candidates)
-    return SetsInOnce(seen.effect, *inside, seen.onset.f, seen.clock.stays, kinds)
+    once = _once(best, candidates, seen)
+    if once is None or not once.whole:
+        return once
+    most = misfit > 0.0 and seen.taken >= thresholds.SETS_IN_ONCE * misfit
+    return once if most and no_rig_has(once.f) else None
 
 
-def ratio_of_once(best: Hypothesis, candidates: Iterable[Effect]) -> float:
+def no_rig_has(f: float) -> bool:
+    """Whether what is left in some records is less than the gain of a rig leaves."""
+    return 1.0 - f >= thresholds.LOST_IN_RECORDS
+
+
+def ratio_of_once(best: Hypothesis, candidates: Sequence[Effect]) -> float:
     """The likelihood ratio that decides; 0 where nothing sets in within a record."""
     seen = _strongest(best, candidates)
-    inside = seen is not None and _inside(best.problem.block.signals, seen)
-    return seen.ratio if seen is not None and inside else 0.0
+    once = None if seen is None else _once(best, candidates, seen)
+    return seen.ratio if seen is not None and once is not None and not once.whole else 0.0
 
 
 def _strongest(best: Hypothesis, candidates: Iterable[Effect]) -> _Seen | None:
@@ -136,7 +197,7 @@ def _strongest(best: Hypothesis, candidates: Iterable[Effect]) -> _Seen | None:
         return _Seen(effect, clock, at, at.best())
 
     # All kinds in all times: in the wrong time the right one can take less than another one there.
-    clocks = _clocks(s, weight * best.residual**2)
+    clocks = _clocks(best, faults)
     return max(
         (tried(effect, clock) for clock in clocks for effect in faults), key=lambda seen: seen.taken
     )
@@ -147,27 +208,40 @@ def _kinds(best: Hypothesis, candidates: Iterable[Effect]) -> tuple[Effect, ...]
     return tuple(sorted(found, key=lambda e: e.name))
 
 
-def _clocks(s: Signals, square: Array) -> list[_Clock]:
-    """The times of all records one after the other, and of single ones after all others."""
-    step, firsts, lasts = s.typical_step, s.t[s.starts[:-1]], s.t[s.starts[1:] - 1]
-    clocks = []
-    if np.any(firsts[1:] < lasts[:-1]):  # else the law in the time of the log says it
-        clocks.append(_Clock(running_time(s.t, s.starts), True))
+def _clocks(best: Hypothesis, faults: Sequence[Effect]) -> list[_Clock]:
+    """The times of all records one after the other, and of some after all others."""
+    s, square = best.problem.block.signals, best.problem.block.weight * best.residual**2
+    count = len(s.starts) - 1
+    everyone = tuple(range(count))
+    clocks = {everyone: running_time(s.t, s.starts)}
     mean = np.add.reduceat(square, s.starts[:-1]) / np.diff(s.starts)
-    for record in np.argsort(-mean)[: thresholds.ONCE_RECORDS]:
-        t = np.full(len(s), firsts[record] - step)
-        own = slice(s.starts[record], s.starts[record + 1])
-        t[own] = s.t[own]
-        clocks.append(_Clock(t, False))
-    return clocks
+    alone = [(int(r),) for r in np.argsort(-mean)[: thresholds.ONCE_RECORDS]]
+    for last in (*alone, *(apart(best, fault) for fault in faults)):
+        order = (*(r for r in everyone if r not in last), *last)
+        if order not in clocks and len(last) < count:
+            clocks[order] = _behind(s.t, s.starts, last, s.typical_step)
+    if np.all(s.t[s.starts[1:-1]] >= s.t[s.starts[1:-1] - 1]):
+        del clocks[everyone]  # the law in the time of the log says it
+    return [_Clock(t, order) for order, t in clocks.items()]
 
 
-def _inside(s: Signals, seen: _Seen) -> tuple[int, tuple[float, float]] | None:
-    """Record and interval of an onset that lies in one record, ramp and all; else None."""
-    low, high = seen.at.interval(seen.onset, START, OF_A_STEP)
-    for record, (a, b) in enumerate(pairwise(s.starts.tolist())):
-        first, last = seen.clock.t[a], seen.clock.t[b - 1]
-        if first < low and high + seen.onset.t_r < last:
-            back = float(s.t[a] - first)
-            return record, (low + back, high + back)
-    return None
+def _behind(t: Array, starts: Index, last: Sequence[int], step: float) -> Array:
+    """(n,) time that goes on over some records, before which all others lie at one moment [s]."""
+    rows = np.concatenate([np.arange(starts[r], starts[r + 1]) for r in last])
+    own = running_time(t[rows], np.cumsum([0, *(starts[r + 1] - starts[r] for r in last)]))
+    out = np.full(len(t), own[0] - step)
+    out[rows] = own
+    return out
+
+
+def _once(best: Hypothesis, candidates: Iterable[Effect], seen: _Seen) -> SetsInOnce | None:
+    """The record and the time of an onset, ramp and all."""
+    s, recording = best.problem.block.signals, best.problem.recording
+    rows = np.concatenate([np.arange(s.starts[r], s.starts[r + 1]) for r in seen.clock.order])
+    kinds, onset = _kinds(best, candidates), seen.onset
+    blank = SetsInOnce(seen.effect, seen.clock.order, 0, False, (0.0, 0.0), onset.f, kinds)
+    once = blank.set_in(recording, seen.clock.t[rows], seen.at, onset)
+    if once is None:
+        return None
+    ends = float(recording.t[recording.slices[once.record]][-1])
+    return once if once.whole or once.at[1] + onset.t_r < ends else None

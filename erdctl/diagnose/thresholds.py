@@ -88,6 +88,11 @@ SEEMS_ONCE, SETS_IN_ONCE = 0.2, 0.5
 # of noise in a twentieth of the time has 4,900.
 ONCE_RATIO = 200.0
 
+# Part of its force that a damper has lost in some records from beginning to end.
+# Decides: whether that is a fault, and not records that scatter.
+# Origin: three times the gain that no rig is held to have, RIG_GAIN.
+LOST_IN_RECORDS = 0.09
+
 # Records, those with most misfit, in each of which alone an onset is sought.
 # Decides: whether a fault that is in one record and in no other is found.
 # Origin: budget; a fault leaves most where it is.

@@ -19,6 +19,7 @@ from erdctl.diagnose.findings import Finding
 from erdctl.diagnose.learning.words import law_words
 from erdctl.diagnose.residual.predictability import LackOfFit
 from erdctl.diagnose.residual.record_levels import taken_by_levels
+from erdctl.diagnose.sets_in_once import SetsInOnce
 from erdctl.diagnose.unseen import Left, Unseen
 
 
@@ -148,24 +149,40 @@ def _sets_in_once(found: Diagnosis) -> str:
     once = found.once
     if once is None or once.confirmed is None:
         return ""
-    name = found.problem.recording.names[once.record]
+    names = found.problem.recording.names
     also = "".join(f" and {other}" for other in once.confirmed.beside)
     alike = " or ".join(once.confirmed.alike)
-    alike = alike and f" (or {alike}, from which these data do not tell it)"
+    fault = once.effect.name
+    fault += alike and f" (or {alike}, from which these data do not tell it)"
     rest = (
         "is noise as far as these data tell" if once.confirmed.explained else "is more than noise"
     )
+    if once.whole:
+        said = (
+            f"{fault} all along {once.named(names)} leaves f = {once.f:.3g} there of what the"
+            " others have; what else changes a damper from one record to another, as its warmth,"
+            " may look like it"
+        )
+    else:
+        said = f"{fault} that sets in once, at {once.when} of record {names[once.record]!r}, leaves"
+        said += f" f = {once.f:.3g} from then on and in {_later(once, names)}"
     if once.stays:
         one_log = len(found.problem.recording.sources) == 1
-        how = "and in all records after it, and its law is found where their time goes on"
-        how += ": erdctl convert --running-time" if one_log else " in one log"
-    else:
-        how = f"and in no other; for a law from that record alone: --where record={name}"
+        said += "; its law is found where their time goes on"
+        said += ": erdctl convert --running-time" if one_log else " in one log"
+    elif once.records == (once.record,):
+        said += f"; for a law from that record alone: --where record={names[once.record]}"
     return (
-        f"; {once.effect.name}{alike} that sets in once, at {once.when} of record {name!r}, leaves"
-        f" f = {once.f:.3g} from then on {how}; with it{also}, of {found.carried.overall.rms:.3g} N"
-        f" rms {once.confirmed.rms:.3g} remain, and that {rest}"
+        f"; {said}; with it{also}, of {found.carried.overall.rms:.3g} N rms"
+        f" {once.confirmed.rms:.3g} remain, and that {rest}"
     )
+
+
+def _later(once: SetsInOnce, names: Sequence[str]) -> str:
+    if once.stays:
+        return "all records after it"
+    others = ", ".join(repr(names[r]) for r in once.records[1:])
+    return others or "no other"
 
 
 def _begins(found: Diagnosis) -> str:

@@ -16,6 +16,7 @@ from erdctl.diagnose.residual.localisation import Region
 from erdctl.diagnose.unseen import Unseen
 from erdctl.diagnose.wording import finding_text, record_values, remaining_text, unseen_text
 from erdctl.io.parameters import to_document
+from erdctl.io.sets_in_once import sets_in_once
 from erdctl.io.undetected import limits, undetected
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
@@ -70,7 +71,7 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
             "text": remaining_text(found),
         },
         **_records(found),
-        **_sets_in_once(found),
+        **sets_in_once(found),
         "rig": found.rig.to_json(),
         "not_testable": found.untestable,
         "undetected": undetected(found.undetected),
@@ -95,28 +96,6 @@ def _records(found: Diagnosis) -> dict[str, Any]:
     """Per record, apart from the shared parameters; and the scores when both are used."""
     values = record_values(found)
     return {"records": values, "with_records": _scores(found.carried)} if values else {}
-
-
-def _sets_in_once(found: Diagnosis) -> dict[str, Any]:
-    """A fault from a time in one record on; nothing where there is none."""
-    once = found.once
-    if once is None or once.confirmed is None:
-        return {}
-    return {
-        "sets_in_once": {
-            "effect": once.effect.name,
-            "equivalent": list(once.confirmed.alike),
-            "record": found.problem.recording.names[once.record],
-            "interval": list(once.at),
-            "unit": "s",
-            "f": once.f,
-            "in_later_records": once.stays,
-            "share": once.confirmed.share,
-            "beside": list(once.confirmed.beside),
-            "explained": once.confirmed.explained,
-            "rms": once.confirmed.rms,
-        }
-    }
 
 
 def _finding(f: Finding, corrected: Parameters) -> dict[str, Any]:

@@ -17,6 +17,7 @@ from erdctl.io.manifest import PwmManifest
 from erdctl.io.parameters import ParameterFile
 from erdctl.io.project import shape as project
 from erdctl.io.rig import RigFaultDocument
+from erdctl.io.sets_in_once import SetsInOnceDocument
 from erdctl.io.undetected import Limit, UndetectedDocument
 
 
@@ -205,28 +206,6 @@ class LeftOut(TypedDict):
     nrmse_before: float
     nrmse_after: float
     text: str
-
-
-class SetsInOnceDocument(TypedDict):
-    """A fault that sets in once, as a search finds where the time of records goes on.
-
-    equivalent : effects from which the data do not tell it
-    interval : 95 % of the onset, in the time of its record [s];  f : effectiveness that is left
-    in_later_records : whether it stays in those behind;  beside : other effects then named
-    share : part of the misfit's square that all take;  explained : whether the rest, rms, is noise
-    """
-
-    effect: str
-    equivalent: list[str]
-    record: str
-    interval: list[float]
-    unit: str
-    f: float
-    in_later_records: bool
-    share: float
-    beside: list[str]
-    explained: bool
-    rms: float
 
 
 class DiagnosisFile(TypedDict):
