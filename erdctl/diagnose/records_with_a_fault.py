@@ -27,10 +27,12 @@ def apart(best: Hypothesis, fault: Effect) -> tuple[int, ...]:
     G = (rows * weight) @ rows.T
     count = len(records)
     p = len(rows) - count - 1
-    gains = _gains(G)[p:]
-    order = np.argsort(-gains, kind="stable")
-    left = [_left(_summed(G, p, order[cut:])) for cut in range(1, count)]
-    return tuple(sorted(order[1 + int(np.argmin(left)) :].tolist()))
+    power = np.diag(G)[p:-1]
+    told = power > thresholds.TELLS_A_GAIN * power.max()  # others are as they would be without
+    order = np.argsort(-np.where(told, _gains(G)[p:], np.inf), kind="stable")
+    cuts = range(max(int(np.count_nonzero(~told)), 1), count)
+    left = [_left(_summed(G, p, order[cut:])) for cut in cuts]
+    return tuple(sorted(order[cuts[int(np.argmin(left))] :].tolist())) if left else ()
 
 
 def _summed(G: Array, p: int, records: Index) -> Array:

@@ -108,7 +108,7 @@ class SetsInOnce:
             k: at.ratio(at.least(float(between[k - 1]), 0.0, onset.f), onset) for k in near
         }  # fmt: skip
         likely = min(ratios, key=lambda k: ratios[k], default=0)
-        whole = bool(ratios) and ratios[likely] <= most
+        whole = bool(ratios) and bool(ratios[likely] <= most)
         first = likely if whole else first
         low, high = at.interval(onset, START, OF_A_STEP)
         if not whole and low <= begins[0] + even:
@@ -155,16 +155,14 @@ def sets_in_once(
     misfit_rms : what is known to be missing [N]; of that it must seem to take a part. Of one that
     is in whole records nothing but their levels speaks: it must take most, and be no rig's.
     """
-    seen = _strongest(best, candidates)
-    misfit = misfit_rms**2 * float(best.problem.block.weight.sum())
-    if (
-        seen is None
-        or seen.taken < thresholds.SEEMS_ONCE * misfit
-        or seen.ratio < thresholds.ONCE_RATIO
-    ):
+    found = _strongest(best, candidates)
+    if found is None:
         return None
-    once = _once(best, candidates, seen)
-    if once is None or not once.whole:
+    seen, once = found
+    misfit = misfit_rms**2 * float(best.problem.block.weight.sum())
+    if seen.taken < thresholds.SEEMS_ONCE * misfit or seen.ratio < thresholds.ONCE_RATIO:
+        return None
+    if not once.whole:
         return once
     most = misfit > 0.0 and seen.taken >= thresholds.SETS_IN_ONCE * misfit
     return once if most and no_rig_has(once.f) else None
@@ -177,12 +175,12 @@ def no_rig_has(f: float) -> bool:
 
 def ratio_of_once(best: Hypothesis, candidates: Sequence[Effect]) -> float:
     """The likelihood ratio that decides; 0 where nothing sets in within a record."""
-    seen = _strongest(best, candidates)
-    once = None if seen is None else _once(best, candidates, seen)
-    return seen.ratio if seen is not None and once is not None and not once.whole else 0.0
+    found = _strongest(best, candidates)
+    return found[0].ratio if found is not None and not found[1].whole else 0.0
 
 
-def _strongest(best: Hypothesis, candidates: Iterable[Effect]) -> _Seen | None:
+def _strongest(best: Hypothesis, candidates: Iterable[Effect]) -> tuple[_Seen, SetsInOnce] | None:
+    """What takes most of all that lies in one record, or begins with one."""
     s, weight = best.problem.block.signals, best.problem.block.weight
     faults = _kinds(best, candidates)
     if len(best.problem.recording.names) < 2 or not faults:
@@ -198,9 +196,15 @@ def _strongest(best: Hypothesis, candidates: Iterable[Effect]) -> _Seen | None:
 
     # All kinds in all times: in the wrong time the right one can take less than another one there.
     clocks = _clocks(best, faults)
-    return max(
-        (tried(effect, clock) for clock in clocks for effect in faults), key=lambda seen: seen.taken
-    )
+    seen = [tried(effect, clock) for clock in clocks for effect in faults]
+    seen.sort(key=lambda one: -one.taken)
+    for one in seen:
+        if one.taken < thresholds.ONCE_NEARLY * seen[0].taken:
+            break
+        once = _once(best, candidates, one)
+        if once is not None:
+            return one, once
+    return None
 
 
 def _kinds(best: Hypothesis, candidates: Iterable[Effect]) -> tuple[Effect, ...]:
