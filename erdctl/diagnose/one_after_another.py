@@ -19,8 +19,10 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.fault_beside import fault_beside
+from erdctl.diagnose.hypothesis import Hypothesis
+from erdctl.diagnose.records_with_a_fault import is_no_scatter
 from erdctl.diagnose.residual.localisation import Region, said
-from erdctl.diagnose.sets_in_once import Confirmed, SetsInOnce, no_rig_has
+from erdctl.diagnose.sets_in_once import Confirmed, SetsInOnce
 from erdctl.estimate.onsets import profile_within
 from erdctl.model.effect import Variable
 from erdctl.model.onset import AMOUNT, RAMP, START
@@ -80,7 +82,7 @@ def _named(
     left = parameters(again).estimates[fault.key(AMOUNT)].value
     named = replace(once, effect=fault, f=onset.f if left is None else left, confirmed=confirmed)
     named_in = named.set_in(found.problem.recording, ordered.t, at, onset)
-    return _no_scatter(named_in, again.lack_of_fit.records > 0.0)
+    return _no_scatter(named_in, best, again.lack_of_fit.records == 0.0)
 
 
 def _beside(found: Diagnosis, once: SetsInOnce, ordered: Recording) -> SetsInOnce | None:
@@ -99,14 +101,15 @@ def _beside(found: Diagnosis, once: SetsInOnce, ordered: Recording) -> SetsInOnc
     )
     named = replace(once, effect=fault.effect, f=fault.onset.f, confirmed=confirmed)
     named_in = named.set_in(found.problem.recording, ordered.t, fault.at, fault.onset)
-    return _no_scatter(named_in, not fault.explained)
+    return _no_scatter(named_in, fault.hypothesis, fault.explained)
 
 
-def _no_scatter(once: SetsInOnce | None, more: bool) -> SetsInOnce | None:
-    """A fault, unless it is no more than one of the records that scatter.
+def _no_scatter(once: SetsInOnce | None, best: Hypothesis, explained: bool) -> SetsInOnce | None:
+    """A fault, unless it is all along records that may be no more than some that scatter.
 
-    more : whether records differ beyond it
+    best : with the fault;  explained : whether no records differ beyond it
     """
-    if once is None or (once.whole and (more or not no_rig_has(once.f))):
-        return None
-    return once
+    if once is None or not once.whole:
+        return once
+    sure = explained and is_no_scatter(best, once.effect, once.f, once.first)
+    return once if sure else None

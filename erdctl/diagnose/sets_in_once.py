@@ -20,6 +20,7 @@ from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.records_with_a_fault import apart
 from erdctl.estimate.onset_profile import OF_A_STEP, ROUNDED, Onset, Profile
 from erdctl.estimate.onsets import profile
+from erdctl.model.checked import GROUPS
 from erdctl.model.effect import Effect
 from erdctl.model.onset import START
 
@@ -75,6 +76,12 @@ class SetsInOnce:
         """Whether it is in all records behind that, of which there are some."""
         records, last = self.records, len(self.order) - 1
         return len(records) > 1 and records == tuple(range(records[0], last + 1))
+
+    @property
+    def may_be_a_gain(self) -> bool:
+        """Whether it, or what the data do not tell from it, takes a part of all forces alike."""
+        alike = (self.effect.name, *(self.confirmed.alike if self.confirmed else ()))
+        return any(e.name in alike and set(GROUPS) <= {*e.sets_in} for e in self.kinds)
 
     def named(self, names: Sequence[str]) -> str:
         """The records that have it, in words."""
@@ -165,12 +172,8 @@ def sets_in_once(
     if not once.whole:
         return once
     most = misfit > 0.0 and seen.taken >= thresholds.SETS_IN_ONCE * misfit
-    return once if most and no_rig_has(once.f) else None
-
-
-def no_rig_has(f: float) -> bool:
-    """Whether what is left in some records is less than the gain of a rig leaves."""
-    return 1.0 - f >= thresholds.LOST_IN_RECORDS
+    least = thresholds.LOST_OVER_SCATTER * thresholds.GAIN_HOLDS
+    return once if most and 1.0 - once.f >= least else None
 
 
 def ratio_of_once(best: Hypothesis, candidates: Sequence[Effect]) -> float:

@@ -158,10 +158,11 @@ def _sets_in_once(found: Diagnosis) -> str:
         "is noise as far as these data tell" if once.confirmed.explained else "is more than noise"
     )
     if once.whole:
+        rig = " or a gain of the rig" * once.may_be_a_gain
         said = (
             f"{fault} all along {once.named(names)} leaves f = {once.f:.3g} there of what the"
-            " others have; what else changes a damper from one record to another, as its warmth,"
-            " may look like it"
+            " others have; what else changes from one record to another, as the damper's warmth"
+            f"{rig}, may look like it"
         )
     else:
         said = f"{fault} that sets in once, at {once.when} of record {names[once.record]!r}, leaves"

@@ -1,4 +1,4 @@
-"""A fault that sets in once in a car's drives: which, in which record, when, whether it stays."""
+"""A fault in some of a car's drives: which, in which records, from when on, whether it stays."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
 from erdctl.diagnose.hypothesis import fit_hypothesis
 from erdctl.diagnose.one_after_another import with_a_fault_once
 from erdctl.diagnose.problem import prepare
+from erdctl.diagnose.records_with_a_fault import apart
 from erdctl.diagnose.residual.predictability import lack_of_fit_of
 from erdctl.diagnose.sets_in_once import SetsInOnce, sets_in_once
 from erdctl.diagnose.wording import remaining_text
@@ -75,6 +76,24 @@ def test_the_time_and_the_kind_are_chosen_together(seed: int, left: float, recor
     assert found.f == pytest.approx(left, abs=0.03)
 
 
+@pytest.mark.parametrize(
+    ("kind", "having", "seed"),
+    [
+        ("oil_leakage", (1, 3), 71), ("electrical_fault", (2, 3, 4, 5), 72),
+        ("deformation_fault", (0, 1, 4), 73), ("electrical_fault", (5,), 74),
+    ],
+)  # fmt: skip
+def test_records_that_have_it_all_along(
+    kind: str, having: tuple[int, ...], seed: int, recordings: Any
+) -> None:
+    found = sought(recordings(kind, tuple(0.0 if r in having else NEVER for r in range(6)), seed))
+    assert found is not None
+    assert found.whole
+    assert (found.effect.name, found.records) == (kind, having)
+    assert found.stays == (having == (2, 3, 4, 5))
+    assert found.f == pytest.approx(0.6, abs=0.05)
+
+
 @pytest.mark.parametrize("seed", [31, 32, 33])
 def test_nothing_is_sought_in_vain(seed: int, recordings: Any) -> None:
     """In healthy drives, in those of which every one has it, and where the log's time goes on."""
@@ -110,6 +129,47 @@ def test_it_is_said_with_all_that_a_second_search_finds(
     assert "oil_leakage that sets in once" in text
     assert ("their time goes on" in text) == (onsets is STAYS)
     assert ("--where record=r1" in text) == (onsets is ONCE)
+
+
+def test_a_fault_all_along_is_said_with_its_records(recordings: Any) -> None:
+    """In any of them; the damper may have been mended in between."""
+    recording = recordings("oil_leakage", (NEVER, 0.0, NEVER, 0.0, NEVER), 75)
+    found = diagnosed(recording)
+    document = to_json(found)
+    once = document["sets_in_once"]
+    assert found.verdict is Verdict.UNEXPLAINED
+    assert (once["effect"], once["records"]) == ("oil_leakage", ["r1", "r3"])
+    assert once["all_along"]
+    assert not once["in_later_records"]
+    assert once["f"] == pytest.approx(0.6, abs=0.02)
+    assert once["explained"]
+    assert "in records 'r1', 'r3', as of a fault all along" in document["mismatch"][0]["text"]
+    text = remaining_text(found)
+    assert "oil_leakage all along records 'r1', 'r3' leaves" in text.replace(
+        " (or deformation_fault, from which these data do not tell it)", ""
+    )
+    assert "--where" not in text  # no one record holds its law
+
+
+@pytest.mark.parametrize("spread", [0.02, 0.1])
+def test_records_whose_gains_scatter_have_no_fault(spread: float, recordings: Any) -> None:
+    """As of a rig that is off, however far."""
+    recording = recordings("oil_leakage", (NEVER,) * 6, 76)
+    gains = 1.0 + spread * np.array([0.3, -1.2, 0.8, -0.4, 1.6, -1.1])
+    force = recording.force * np.repeat(gains, np.diff(recording.starts))
+    assert diagnosed(replace(recording, force=force)).once is None
+
+
+def test_a_record_that_shows_nothing_of_a_force_is_none_of_a_fault(recordings: Any) -> None:
+    """Without a duty there is no yield force that could be less."""
+    recording = recordings("electrical_fault", (NEVER, 0.0, NEVER, NEVER, NEVER), 77)
+    duty, idle = recording.duty.copy(), recording.slices[4]
+    duty[idle] = 0.0
+    problem = prepare(replace(recording, duty=duty))
+    effects = (get("preyield_viscosity"),)
+    start = {name: q.start for name, q in Model(effects).quantities.items()}
+    best = fit_hypothesis(problem, effects, [start])
+    assert 4 not in apart(best, get("electrical_fault"))
 
 
 @pytest.mark.parametrize("seed", [41, 43])
