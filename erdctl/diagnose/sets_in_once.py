@@ -123,7 +123,10 @@ class SetsInOnce:
         own = recording.slices[self.order[first]]
         back = float(recording.t[own][0] - begins[first])
         within = (float(np.clip(end, begins[first], last[first])) + back for end in (low, high))
-        return replace(self, first=first, whole=whole, at=(next(within), next(within)))
+        order = self.order
+        if whole:
+            order = (*order[:first], *sorted(order[first:]))
+        return replace(self, order=order, first=first, whole=whole, at=(next(within), next(within)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,8 +162,8 @@ def sets_in_once(
 ) -> SetsInOnce | None:
     """The fault that takes most of what is left, if its time shows, and a second search is due.
 
-    misfit_rms : what is known to be missing [N]; of that it must seem to take a part. Of one that
-    is in whole records nothing but their levels speaks: it must take most, and be no rig's.
+    misfit_rms : what is known to be missing [N]; of that it must seem to take a part. For one that
+    is in whole records nothing but their levels speaks, and it must be beyond a rig's.
     """
     found = _strongest(best, candidates)
     if found is None:
@@ -169,11 +172,8 @@ def sets_in_once(
     misfit = misfit_rms**2 * float(best.problem.block.weight.sum())
     if seen.taken < thresholds.SEEMS_ONCE * misfit or seen.ratio < thresholds.ONCE_RATIO:
         return None
-    if not once.whole:
-        return once
-    most = misfit > 0.0 and seen.taken >= thresholds.SETS_IN_ONCE * misfit
     least = thresholds.LOST_OVER_SCATTER * thresholds.GAIN_HOLDS
-    return once if most and 1.0 - once.f >= least else None
+    return None if once.whole and 1.0 - once.f < least else once
 
 
 def ratio_of_once(best: Hypothesis, candidates: Sequence[Effect]) -> float:
