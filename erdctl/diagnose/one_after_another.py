@@ -111,5 +111,7 @@ def _no_scatter(once: SetsInOnce | None, best: Hypothesis, explained: bool) -> S
     """
     if once is None or not once.whole:
         return once
-    sure = explained and is_no_scatter(best, once.effect, once.f, once.first)
+    sure = explained and is_no_scatter(
+        best, once.effect, once.f, once.first, may_be_a_gain=once.may_be_a_gain
+    )
     return once if sure else None

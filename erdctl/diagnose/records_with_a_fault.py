@@ -9,6 +9,8 @@ once, no cut costs more than a few small systems.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 import numpy.typing as npt
 
@@ -29,11 +31,15 @@ def apart(best: Hypothesis, fault: Effect) -> tuple[int, ...]:
     return tuple(sorted(order[cuts[int(np.argmin(left))] :].tolist())) if left else ()
 
 
-def is_no_scatter(best: Hypothesis, fault: Effect, f: float, first: int) -> bool:
+def is_no_scatter(
+    best: Hypothesis, fault: Effect, f: float, first: int, *, may_be_a_gain: bool
+) -> bool:
     """Whether what is left of some records is far below the others, held against how they scatter.
 
     best : with the fault, from the beginning of its record number `first` on
     f : what it leaves [1]
+    may_be_a_gain : whether it is like a gain of records: then of a rig that is off, however far,
+        a cut of all these gains must hardly go as far
     """
     G, p = _products(best, fault)
     power = np.where(_told(G, p), np.diag(G)[p:-1], 0.0)
@@ -44,8 +50,32 @@ def is_no_scatter(best: Hypothesis, fault: Effect, f: float, first: int) -> bool
             square += float(np.dot(power[of], (gains[of] - mean) ** 2))
     records = int(np.count_nonzero(power))
     square *= records / max(records - 2, 1) / float(power.sum())
-    scatter = max(float(np.sqrt(square)), thresholds.GAIN_HOLDS)
-    return 1.0 - f >= thresholds.LOST_OVER_SCATTER * scatter
+    scatter, lost = float(np.sqrt(square)), 1.0 - f
+    if may_be_a_gain and lost < by_chance(records) * scatter:
+        return False
+    return lost >= thresholds.LOST_OVER_SCATTER * max(scatter, thresholds.GAIN_HOLDS)
+
+
+@lru_cache
+def by_chance(count: int) -> float:
+    """How far apart the best cut of so many normal values has its two means, over what is left.
+
+    What `thresholds.CHANCE_OF_A_CUT` of such draws exceed; of two values nothing is left.
+    Check: of three one can be next to another by chance, of eight hardly any two groups are.
+    >>> by_chance(3) > 50.0, 5.0 < by_chance(8) < 10.0
+    (True, True)
+    """
+    if count < 3:
+        return np.inf
+    draws = np.sort(np.random.default_rng(0).normal(size=(thresholds.CUTS_DRAWN, count)), axis=1)
+    sums, squares = np.cumsum(draws, axis=1), np.sum(draws**2, axis=1)
+    lower = np.arange(1, count)
+    means = sums[:, :-1] / lower, (sums[:, -1:] - sums[:, :-1]) / (count - lower)
+    left = squares[:, None] - means[0] ** 2 * lower - means[1] ** 2 * (count - lower)
+    best = np.argmin(left, axis=1)[:, None]
+    apart_by = np.take_along_axis(means[1] - means[0], best, axis=1)
+    scatter = np.sqrt(np.take_along_axis(left, best, axis=1).clip(1e-300) / (count - 2))
+    return float(np.quantile(apart_by / scatter, 1.0 - thresholds.CHANCE_OF_A_CUT))
 
 
 def _products(best: Hypothesis, fault: Effect) -> tuple[Array, int]:

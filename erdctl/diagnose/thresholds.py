@@ -91,9 +91,14 @@ ONCE_RATIO = 200.0
 # Part of its force that a damper has lost in some records from beginning to end, over the scatter
 # of the gains of records beside that; and the scatter that is always reckoned with.
 # Decides: whether that is a fault.
-# Origin: a load cell holds 1 % from one record to the next, and nine times that is far beyond. The
-# best cut of six gains that are only noise goes as far in 2 %, of four in 10 % (20,000 draws).
+# Origin: a load cell holds 1 % from one record to the next, and nine times that is far beyond.
 LOST_OVER_SCATTER, GAIN_HOLDS = 9.0, 0.01
+
+# Chance with which the best cut of gains that are only scatter goes as far, and how many are drawn.
+# Decides: whether what may be a gain of the rig is a fault.
+# Origin: convention; of four gains it takes 20 times their scatter, of six 9 (a car whose four
+# records scatter by 10 %, seed 440, was said to have lost 14 % in three).
+CHANCE_OF_A_CUT, CUTS_DRAWN = 0.02, 20_000
 
 # Of what the best onset takes of a residual, the part that another must take.
 # Decides: whether it is sought, where the best one begins in no record and with none.
