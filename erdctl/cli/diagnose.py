@@ -90,7 +90,11 @@ def command(
     ] = None,
     cluster: Cluster = None,
     fail_on_mismatch: Annotated[
-        bool, typer.Option("--fail-on-mismatch", help="Exit 1 unless the verdict is adequate.")
+        bool,
+        typer.Option(
+            "--fail-on-mismatch",
+            help="Exit 1 unless the verdict is adequate and given parameters hold.",
+        ),
     ] = False,
     report: Report = None,
     maps: Maps = [],
@@ -113,9 +117,10 @@ def command(
     Faults of the rig are looked for first (see `inspect`): what they spoil is left out, listed
     under `rig`, and never given the name of a physical effect.
 
-    A lack-of-fit test of the residual then decides the verdict. adequate: the model given is
-    enough. explained: with the effects found, the residual is noise. unexplained: a misfit is left
-    that no effect of the catalogue explains; the diagnosis says where it is and what it resembles.
+    A lack-of-fit test of the residual then decides the verdict. adequate: the model, fitted to this
+    log, is enough. explained: with the effects found, the residual is noise. unexplained: a misfit
+    is left that no effect of the catalogue explains; the diagnosis says where it is and what it
+    resembles, and which fault some of the records have, if one explains it.
     So is a log of one duty and one speed in which an effect was found, or of two duties and two
     kinds of motion at most in which several were, since others would do as well there; the drives
     that would tell them apart are named. And so is a log in which a channel stops at a limit, where
@@ -145,6 +150,7 @@ def command(
     from erdctl.core.labels import labels_of
     from erdctl.diagnose.corrected import parameters
     from erdctl.diagnose.diagnosis import Verdict, diagnose
+    from erdctl.diagnose.fault_wording import as_fault_text
     from erdctl.diagnose.jobs import worthwhile
     from erdctl.diagnose.one_after_another import with_a_fault_once
     from erdctl.diagnose.record_effects import Varying
@@ -185,6 +191,8 @@ def command(
         fail(found.rig)
     if fail_on_mismatch and found.verdict is not Verdict.ADEQUATE:
         raise CheckFailed(f"the paper's model does not hold: {found.verdict.value}")
+    if fail_on_mismatch and found.as_fault is not None:
+        raise CheckFailed(f"the given parameters do not hold: {as_fault_text(found)}")
 
 
 def _given(params: str | None, logs: Sequence[str]) -> tuple[Parameters | None, dict[str, str]]:
@@ -230,6 +238,7 @@ def _show(found: Diagnosis) -> None:
     from math import nan
 
     from erdctl.diagnose.corrected import parameters
+    from erdctl.diagnose.fault_wording import as_fault_text
     from erdctl.diagnose.learning.words import law_text
     from erdctl.diagnose.wording import finding_text, record_values, remaining_text, unseen_text
     from erdctl.model.corrected_equation import corrected_equation
@@ -288,6 +297,8 @@ def _show(found: Diagnosis) -> None:
         say(unseen_text(unseen), "unseen")
     for region in found.mismatch:
         say(region.text, "where")
+    if changed := as_fault_text(found):
+        say(changed, "given")
     say(remaining_text(found), "remains")
 
 

@@ -21,6 +21,7 @@ from erdctl.diagnose.bounds import Bounds
 from erdctl.diagnose.conditions import cannot_tell, cannot_tell_several, most_told
 from erdctl.diagnose.detectable import Detectable, detectable
 from erdctl.diagnose.executor import Executor, executor
+from erdctl.diagnose.fault_of_given import FaultOfGiven, fault_of_given
 from erdctl.diagnose.findings import Finding, earned, findings, part_taken
 from erdctl.diagnose.fit_errors import fit_errors, may_be_absent
 from erdctl.diagnose.forward_step import key_of
@@ -80,6 +81,7 @@ class Diagnosis:
     learned : what the data say of a rest that no effect explains; `fit`, `corrected` and all that
         is said of the best model are then of the one with these laws
     once : a fault that sets in once; what it does to the data, no law is learned from
+    as_fault : of the damper that has the given parameters, if one does nearly what a new fit does
     """
 
     verdict: Verdict
@@ -107,6 +109,7 @@ class Diagnosis:
     rig: Rig
     learned: Learned | None
     once: SetsInOnce | None = None
+    as_fault: FaultOfGiven | None = None
 
 
 def diagnose(
@@ -234,6 +237,7 @@ def diagnose(
         unseen = (replace(unseen[0], decided=True), *unseen[1:])
     refitted = scores.of(problem, base.model, base.values)
     corrected = scores.of(problem, fit.model, fit.values)
+    as_fault = None if given is None else fault_of_given(problem, given, testable, best)
     undetected: tuple[Detectable, ...] = ()
     if limits:
         undetected = _undetected(thin, searched.best, named, candidates, missing, progress)
@@ -266,6 +270,7 @@ def diagnose(
         rig=rig,
         learned=more,
         once=None if untold else fault,
+        as_fault=as_fault,
     )
 
 

@@ -9,6 +9,7 @@ once, no cut costs more than a few small systems.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -41,19 +42,32 @@ def is_no_scatter(
     may_be_a_gain : whether it is like a gain of records: then of a rig that is off, however far,
         a cut of all these gains must hardly go as far
     """
-    G, p = _products(best, fault)
-    power = np.where(_told(G, p), np.diag(G)[p:-1], 0.0)
-    gains, square = _gains(G)[p:], 0.0
-    for of in (slice(None, first), slice(first, None)):
-        if power[of].any():
-            mean = np.average(gains[of], weights=power[of])
-            square += float(np.dot(power[of], (gains[of] - mean) ** 2))
-    records = int(np.count_nonzero(power))
-    square *= records / max(records - 2, 1) / float(power.sum())
-    scatter, lost = float(np.sqrt(square)), 1.0 - f
+    scatter, records = _scatter(best, fault, np.arange(first, len(best.problem.recording.names)))
+    lost = 1.0 - f
     if may_be_a_gain and lost < by_chance(records) * scatter:
         return False
     return lost >= thresholds.LOST_OVER_SCATTER * max(scatter, thresholds.GAIN_HOLDS)
+
+
+def seems_no_scatter(best: Hypothesis, fault: Effect, f: float, having: Sequence[int]) -> bool:
+    """The same before any fit has the fault, or what else is missing: of most cuts it is none."""
+    scatter, _ = _scatter(best, fault, np.asarray(having, dtype=np.intp))
+    least = thresholds.LOST_OVER_SCATTER * thresholds.GAIN_HOLDS
+    return 1.0 - f >= max(least, thresholds.SEEMS_LOST * scatter)
+
+
+def _scatter(best: Hypothesis, fault: Effect, having: Index) -> tuple[float, int]:
+    """Standard deviation of the gains of records about the two means, and how many tell of one."""
+    G, p = _products(best, fault)
+    told = _told(G, p)
+    power, gains = np.where(told, np.diag(G)[p:-1], 0.0), _gains(G)[p:]
+    faulty = np.isin(np.arange(len(told)), having)
+    square = 0.0
+    for own in (power * faulty, power * ~faulty):
+        if own.any():
+            square += float(np.dot(own, (gains - np.average(gains, weights=own)) ** 2))
+    records = int(np.count_nonzero(told))
+    return float(np.sqrt(square / float(power.sum()) * records / max(records - 2, 1))), records
 
 
 @lru_cache

@@ -17,7 +17,7 @@ import numpy as np
 from erdctl.core.recording import Array, Index, Recording, running_time
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
-from erdctl.diagnose.records_with_a_fault import apart
+from erdctl.diagnose.records_with_a_fault import apart, seems_no_scatter
 from erdctl.estimate.onset_profile import OF_A_STEP, ROUNDED, Onset, Profile
 from erdctl.estimate.onsets import profile
 from erdctl.model.checked import GROUPS
@@ -172,8 +172,9 @@ def sets_in_once(
     misfit = misfit_rms**2 * float(best.problem.block.weight.sum())
     if seen.taken < thresholds.SEEMS_ONCE * misfit or seen.ratio < thresholds.ONCE_RATIO:
         return None
-    least = thresholds.LOST_OVER_SCATTER * thresholds.GAIN_HOLDS
-    return None if once.whole and 1.0 - once.f < least else once
+    if once.whole and not seems_no_scatter(best, once.effect, once.f, once.records):
+        return None
+    return once
 
 
 def ratio_of_once(best: Hypothesis, candidates: Sequence[Effect]) -> float:

@@ -94,6 +94,16 @@ ONCE_RATIO = 200.0
 # Origin: a load cell holds 1 % from one record to the next, and nine times that is far beyond.
 LOST_OVER_SCATTER, GAIN_HOLDS = 9.0, 0.01
 
+# The same over the scatter of gains of a fit that lacks the fault, and maybe more.
+# Decides: whether a second search is made for it.
+# Origin: TODO
+SEEMS_LOST = 2.0
+
+# Of the square by which given parameters are worse than fitted ones, the part that a fault takes.
+# Decides: whether it is said to be what has happened to the damper of those parameters.
+# Origin: nearly all of it; what a fit takes beside is its noise and small changes of everything.
+GIVEN_SHARE = 0.9
+
 # Chance with which the best cut of gains that are only scatter goes as far, and how many are drawn.
 # Decides: whether what may be a gain of the rig is a fault.
 # Origin: convention; of four gains it takes 20 times their scatter, of six 9 (a car whose four

@@ -15,11 +15,11 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.conditions import one_condition, one_motion, slow_far_out
 from erdctl.diagnose.detectable import Detectable
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict
+from erdctl.diagnose.fault_wording import sets_in_once_text
 from erdctl.diagnose.findings import Finding
 from erdctl.diagnose.learning.words import law_words
 from erdctl.diagnose.residual.predictability import LackOfFit
 from erdctl.diagnose.residual.record_levels import taken_by_levels
-from erdctl.diagnose.sets_in_once import SetsInOnce
 from erdctl.diagnose.unseen import Left, Unseen
 
 
@@ -95,7 +95,7 @@ def _left(found: Diagnosis) -> str:
             f"{_laws(found)}; with that, what remains, {found.carried.overall.rms:.3g} N rms, is"
             f" noise as far as these data tell{_hum(left)}{_withdrawn(found)}"
         )
-    if not left.significant and (once := _sets_in_once(found)):
+    if not left.significant and (once := sets_in_once_text(found)):
         return f"what no law in the time of every record says{once}{_hum(left)}{_withdrawn(found)}"
     words = "" if found.learned is None else f"{_laws(found)}; with that, "
     words += f"{left.misfit_rms:.3g} N rms beyond a noise of {left.noise_rms:.3g} N "
@@ -126,7 +126,7 @@ def _left(found: Diagnosis) -> str:
     resembles = found.resemblance
     if resembles is not None:
         words += f"; it is most like {resembles.form} (correlation {resembles.correlation:+.2f})"
-    words += _sets_in_once(found) or _of_records(found)
+    words += sets_in_once_text(found) or _of_records(found)
     words += _hum(left) + _withdrawn(found)
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
 
@@ -142,48 +142,6 @@ def _of_records(found: Diagnosis) -> str:
         " warmth or the strokes that it has made; no motion within them tells which"
         " (--record-gains --record-offsets carry it)"
     )
-
-
-def _sets_in_once(found: Diagnosis) -> str:
-    """That a fault sets in once, as no law in every record's own time says, and how to have it."""
-    once = found.once
-    if once is None or once.confirmed is None:
-        return ""
-    names = found.problem.recording.names
-    also = "".join(f" and {other}" for other in once.confirmed.beside)
-    alike = " or ".join(once.confirmed.alike)
-    fault = once.effect.name
-    fault += alike and f" (or {alike}, from which these data do not tell it)"
-    rest = (
-        "is noise as far as these data tell" if once.confirmed.explained else "is more than noise"
-    )
-    if once.whole:
-        rig = " or a gain of the rig" * once.may_be_a_gain
-        said = (
-            f"{fault} all along {once.named(names)} leaves f = {once.f:.3g} there of what the"
-            " others have; what else changes from one record to another, as the damper's warmth"
-            f"{rig}, may look like it"
-        )
-    else:
-        said = f"{fault} that sets in once, at {once.when} of record {names[once.record]!r}, leaves"
-        said += f" f = {once.f:.3g} from then on and in {_later(once, names)}"
-    if once.stays:
-        one_log = len(found.problem.recording.sources) == 1
-        said += "; its law is found where their time goes on"
-        said += ": erdctl convert --running-time" if one_log else " in one log"
-    elif once.records == (once.record,):
-        said += f"; for a law from that record alone: --where record={names[once.record]}"
-    return (
-        f"; {said}; with it{also}, of {found.carried.overall.rms:.3g} N rms"
-        f" {once.confirmed.rms:.3g} remain, and that {rest}"
-    )
-
-
-def _later(once: SetsInOnce, names: Sequence[str]) -> str:
-    if once.stays:
-        return "all records after it"
-    others = ", ".join(repr(names[r]) for r in once.records[1:])
-    return others or "no other"
 
 
 def _begins(found: Diagnosis) -> str:

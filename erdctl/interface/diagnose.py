@@ -162,6 +162,7 @@ class Diagnosed:
         d = self.document
         out = [f"{f['effect']}: {f['text']}" for f in d["findings"]]
         out += [f"where: {m['text']}" for m in d["mismatch"]]
+        out += [f"given: {d['as_fault']['text']}"] if "as_fault" in d else []
         return [*out, f"remains: {d['remaining']['text']}"]
 
 

@@ -15,8 +15,8 @@ from erdctl.diagnose.learning.words import law_text
 from erdctl.diagnose.residual.localisation import Region
 from erdctl.diagnose.unseen import Unseen
 from erdctl.diagnose.wording import finding_text, record_values, remaining_text, unseen_text
+from erdctl.io.faults import as_fault, sets_in_once
 from erdctl.io.parameters import to_document
-from erdctl.io.sets_in_once import sets_in_once
 from erdctl.io.undetected import limits, undetected
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
@@ -72,6 +72,7 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
         },
         **_records(found),
         **sets_in_once(found),
+        **as_fault(found),
         "rig": found.rig.to_json(),
         "not_testable": found.untestable,
         "undetected": undetected(found.undetected),

@@ -12,12 +12,12 @@ from typing import Any, NotRequired, TypedDict
 import msgspec
 
 from erdctl.io import geometry, inspection, parameters
+from erdctl.io.faults import AsFaultDocument, SetsInOnceDocument
 from erdctl.io.labels import LabelsDocument
 from erdctl.io.manifest import PwmManifest
 from erdctl.io.parameters import ParameterFile
 from erdctl.io.project import shape as project
 from erdctl.io.rig import RigFaultDocument
-from erdctl.io.sets_in_once import SetsInOnceDocument
 from erdctl.io.undetected import Limit, UndetectedDocument
 
 
@@ -231,6 +231,7 @@ class DiagnosisFile(TypedDict):
     remaining: Remaining
     records: NotRequired[list[PerRecord]]
     sets_in_once: NotRequired[SetsInOnceDocument]
+    as_fault: NotRequired[AsFaultDocument]
     with_records: NotRequired[Scores]
     rig: NotRequired[list[RigFaultDocument]]
     not_testable: dict[str, str]

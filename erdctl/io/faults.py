@@ -1,8 +1,10 @@
-"""A fault that sets in once, as a diagnosis writes it."""
+"""Faults, as a diagnosis writes them."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypedDict
+
+from erdctl.diagnose.fault_wording import as_fault_text
 
 if TYPE_CHECKING:
     from erdctl.diagnose.diagnosis import Diagnosis
@@ -31,6 +33,41 @@ class SetsInOnceDocument(TypedDict):
     beside: list[str]
     explained: bool
     rms: float
+
+
+class AsFaultDocument(TypedDict):
+    """A fault that does nearly what a new fit of given parameters does, all along the log.
+
+    equivalent : effects from which the data do not tell it;  f : effectiveness that is left
+    share : of the square by which the given parameters are worse than fitted ones
+    rms : of what it leaves [N]
+    """
+
+    effect: str
+    equivalent: list[str]
+    f: float
+    stderr: float
+    share: float
+    rms: float
+    text: str
+
+
+def as_fault(found: Diagnosis) -> dict[str, Any]:
+    """A fault of the damper with the given parameters; nothing where there is none."""
+    fault = found.as_fault
+    if fault is None:
+        return {}
+    return {
+        "as_fault": {
+            "effect": fault.effect.name,
+            "equivalent": list(fault.alike),
+            "f": fault.f,
+            "stderr": fault.stderr,
+            "share": fault.share,
+            "rms": fault.rms,
+            "text": as_fault_text(found),
+        }
+    }
 
 
 def sets_in_once(found: Diagnosis) -> dict[str, Any]:
