@@ -96,7 +96,8 @@ LOST_OVER_SCATTER, GAIN_HOLDS = 9.0, 0.01
 
 # The same over the scatter of gains of a fit that lacks the fault, and maybe more.
 # Decides: whether a second search is made for it.
-# Origin: TODO
+# Origin: between a real damper whose drives differ in their frequency, and that lacks another law
+# (1.7, mr_sine), and five cars of which some drives have a fault (3.4 to 35, seeds 430 to 436).
 SEEMS_LOST = 2.0
 
 # Of the square by which given parameters are worse than fitted ones, the part that a fault takes.
