@@ -10,17 +10,10 @@ in any order. Every third log has none: its drives have gains of their own that 
 from __future__ import annotations
 
 import sys
-from functools import partial
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 import quarter_car
-
-from erdctl.diagnose.diagnosis import diagnose
-from erdctl.diagnose.one_after_another import with_a_fault_once
-from erdctl.effects import catalogue
-from erdctl.io.logs import read_logs
+from diagnosed_table import diagnosed
 
 SECONDS, RATE = 10.0, 200
 
@@ -45,12 +38,7 @@ def main(first: int, end: int) -> None:
                 zip(table.record.unique(), 1.0 + spread * g.normal(size=count), strict=True)
             )
             table["force"] *= table.record.map(gains)
-        with TemporaryDirectory() as folder:
-            file = Path(folder) / "car.parquet"
-            table.to_parquet(file)
-            log = read_logs([str(file)], need_force=True, report=lambda line: None)
-        run = partial(diagnose, candidates=catalogue(), jobs=1, limits=False)
-        found = with_a_fault_once(run, log.recording)
+        found = diagnosed(table)
         once, names = found.once, [e.effect.name for e in found.findings]
         truth = f"gains off by {spread:.3f}" if scatters else f"{kind} {f:.2f} in {having}"
         answer = "nothing said"

@@ -10,17 +10,10 @@ the kind may be said.
 from __future__ import annotations
 
 import sys
-from functools import partial
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 import quarter_car
-
-from erdctl.diagnose.diagnosis import diagnose
-from erdctl.diagnose.one_after_another import with_a_fault_once
-from erdctl.effects import catalogue
-from erdctl.io.logs import read_logs
+from diagnosed_table import diagnosed
 
 RECORDS, SECONDS = 6, 12.0
 
@@ -47,17 +40,12 @@ def main(first: int, end: int) -> None:
             seed, rate, records=RECORDS, seconds=SECONDS, fault=kind, left=f,
             onsets=[] if healthy else onsets,
         )  # fmt: skip
-        with TemporaryDirectory() as folder:
-            file = Path(folder) / "car.parquet"
-            table.to_parquet(file)
-            log = read_logs([str(file)], need_force=True, report=lambda line: None)
-        run = partial(diagnose, candidates=catalogue(), jobs=1)
-        found = with_a_fault_once(run, log.recording)
+        found = diagnosed(table)
         once, names = found.once, [e.effect.name for e in found.findings]
         truth = "none" if healthy else f"{kind} {f:.2f} r{k} {t_0:.2f} s, stays: {stays}"
         answer = "nothing said"
         if once is not None and once.confirmed is not None:
-            name = log.recording.names[once.record]
+            name = found.problem.recording.names[once.record]
             answer = f"{once.effect.name} {once.f:.3f} {name} {once.when}, stays: {once.stays}"
             answer += f", {'' if once.confirmed.explained else 'not '}explained"
             answer += f", beside {once.confirmed.beside}, alike {once.confirmed.alike}"
