@@ -19,6 +19,7 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.energy import energy_test
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
+from erdctl.model.checked import GROUPS
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 from erdctl.model.onset import AMOUNT, RAMP, START
@@ -32,6 +33,7 @@ class FaultOfGiven:
     f : what is left [1], and its standard error over parts of the log
     share : of the mean square by which given parameters are worse than fitted ones [1]
     alike : other faults from which these data do not tell it;  rms : of what it leaves [N]
+    may_be_a_gain : whether it, or one of these, takes a part of all forces alike, as a rig may
     """
 
     effect: Effect
@@ -40,6 +42,7 @@ class FaultOfGiven:
     share: float
     rms: float
     alike: tuple[str, ...] = ()
+    may_be_a_gain: bool = False
 
 
 def fault_of_given(
@@ -47,6 +50,7 @@ def fault_of_given(
 ) -> FaultOfGiven | None:
     """The fault that takes most of what is missing, if it takes it all but a little.
 
+    kinds : none of them among the given effects
     fitted : the same model fitted to the problem, and with what the search has named
     """
     block, weight = problem.block, problem.block.weight
@@ -66,10 +70,12 @@ def fault_of_given(
     ):
         return None
     alike = [
-        other.effect.name for other, rest in tried
+        other.effect for other, rest in tried
         if other is not best and not energy_test(problem, rest, left).significant
     ]  # fmt: skip
-    return replace(best, share=share, alike=tuple(alike))
+    gain = any(set(GROUPS) <= {*e.sets_in} for e in (best.effect, *alike))
+    names = tuple(e.name for e in alike)
+    return replace(best, share=share, alike=names, may_be_a_gain=gain)
 
 
 def _fitted(problem: Problem, given: Parameters, effect: Effect) -> tuple[FaultOfGiven, Array]:
@@ -77,7 +83,7 @@ def _fitted(problem: Problem, given: Parameters, effect: Effect) -> tuple[FaultO
     from scipy.optimize import minimize_scalar
 
     s, force, weight = problem.block.signals, problem.block.force, problem.block.weight
-    model = Model((*(e for e in given.model.effects if e is not effect), effect))
+    model = Model((*given.model.effects, effect))
     before = {effect.key(START): float(s.t.min()) - 1.0, effect.key(RAMP): 0.0}
 
     def left(f: float) -> Array:

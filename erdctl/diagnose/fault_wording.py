@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from erdctl.diagnose.diagnosis import Diagnosis
 from erdctl.diagnose.sets_in_once import SetsInOnce
 
+RIG = " or a gain of the rig"
+
 
 def as_fault_text(found: Diagnosis) -> str:
     """What has become of the damper that has the given parameters; "" where no fault says it."""
@@ -19,7 +21,8 @@ def as_fault_text(found: Diagnosis) -> str:
         f"of the damper with the given parameters {fault.effect.name}{alike} all along, with"
         f" f = {fault.f:.3g} +- {fault.stderr:.1g} beside their own errors, leaves"
         f" {fault.rms:.3g} N rms for {found.baseline.overall.rms:.3g} N,"
-        f" {100 * fault.share:.0f} % of what a new fit takes"
+        f" {100 * fault.share:.0f} % of what a new fit takes; what else has changed since, as the"
+        f" damper's warmth{RIG * fault.may_be_a_gain}, may look like it"
     )
 
 
@@ -37,11 +40,10 @@ def sets_in_once_text(found: Diagnosis) -> str:
         "is noise as far as these data tell" if once.confirmed.explained else "is more than noise"
     )
     if once.whole:
-        rig = " or a gain of the rig" * once.may_be_a_gain
         said = (
             f"{fault} all along {once.named(names)} leaves f = {once.f:.3g} there of what the"
             " others have; what else changes from one record to another, as the damper's warmth"
-            f"{rig}, may look like it"
+            f"{RIG * once.may_be_a_gain}, may look like it"
         )
     else:
         said = f"{fault} that sets in once, at {once.when} of record {names[once.record]!r}, leaves"

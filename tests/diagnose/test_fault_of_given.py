@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ import quarter_car
 from erdctl.core.recording import Recording
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
+from erdctl.diagnose.fault_wording import as_fault_text
 from erdctl.effects import get
 from erdctl.io.diagnosis import to_json
 from erdctl.io.logs import read_logs
@@ -60,6 +62,16 @@ def test_the_fault_and_what_is_left(kind: str, seed: int, left: float, halves: A
     assert kind in (found.effect.name, *found.alike)
     assert found.f == pytest.approx(left, abs=0.02)
     assert found.share > 0.95
+    # Oil alone takes a part of all forces, as a load cell that is off does.
+    assert found.may_be_a_gain == ("oil_leakage" in (found.effect.name, *found.alike))
+
+
+def test_a_load_cell_that_is_off_is_not_ruled_out(halves: Any) -> None:
+    given, healthy, _ = halves("electrical_fault", 81, 0.6)
+    found = answered(given, replace(healthy, force=0.8 * healthy.force))
+    assert found.as_fault is not None
+    assert found.as_fault.f == pytest.approx(0.8, abs=0.01)
+    assert "a gain of the rig, may look like it" in as_fault_text(found)
 
 
 def test_it_is_written_with_its_share(halves: Any) -> None:
