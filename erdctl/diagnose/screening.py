@@ -25,6 +25,7 @@ from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 from erdctl.model.slots import (
     ChannelSlot,
+    HysteresisSlot,
     MotionSlot,
     SeriesSlot,
     SignSlot,
@@ -229,7 +230,9 @@ def _orthonormal(rows: Array) -> Array:
 def _is_other(effect: Effect) -> bool:
     """Whether it makes the yield force one of more than the piston's speed."""
     slot = effect.slot
-    return isinstance(slot, YieldSlot) or (isinstance(slot, SignSlot) and slot.of_another)
+    return isinstance(slot, HysteresisSlot | YieldSlot) or (
+        isinstance(slot, SignSlot) and slot.of_another
+    )
 
 
 def starts(effect: Effect, problem: Problem, residual: Array) -> list[dict[str, float]]:

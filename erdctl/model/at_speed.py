@@ -33,7 +33,8 @@ class Other(NamedTuple):
 
     yields : whether the yield force is not F_ER sign(v) with that sign alone
     lead : kappa [1/s] of a sign law that is one of v + kappa x_p
-    T_s, x_d : time [s] and travel [m] over which the force follows it, 0 at once
+    T_s : time over which the force follows it [s];  x_d : travel over which the hysteretic variable
+        follows its sign law [m]; 0 at once, and never both
     F_c, x_c : friction [N] that follows the direction over a travel [m]
     """
 
@@ -53,6 +54,7 @@ class Leg(NamedTuple):
     Y : F_ER;  by : see `SignSlot`;  k_c, k_r : gas stiffness;  viscous, yields : factors
     half : half of the free play;  s : compliance
     was, Y_0, smooth : signed yield force before the leg, F_ER, and its sign law but for the jump
+    h : hysteretic variable before the leg
     z : part of the friction that followed the direction, by then
     c : damping of the spring [N s/m];  end : speed of the rod as the leg ends
     pull, push : slope of mass and damping by the piston's speed [N s/m], and their force at rest
@@ -75,6 +77,7 @@ class Leg(NamedTuple):
     was: float
     Y_0: float
     smooth: float
+    h: float
     z: float
     c: float
     end: float
@@ -97,8 +100,9 @@ def value(law: Array, grid: Array, v: float, way: float) -> float:
 @njit(cache=True, inline="always")
 def followed(
     v: float, way: float, travel: float, e: float, i: Leg, d: SpeedLaws, o: Other
-) -> tuple[float, float]:
-    """Signed yield force at a speed v of the piston, and its sign law there but for the jump.
+) -> tuple[float, float, float]:
+    """Signed yield force at a speed v of the piston, its sign law there but for the jump, and the
+    hysteretic variable.
 
     It follows a straight line from where F_ER sign(v) was. What jumps with the direction has that
     of now from the start, so that it does not matter whether the piston rested or hardly moved.
@@ -109,14 +113,18 @@ def followed(
     jump *= 1.0 if sheared > 0.0 or (sheared == 0.0 and way > 0.0) else -1.0
     target, smooth = i.Y * law, law - jump
     if o.T_s == 0.0 and o.x_d == 0.0:
-        return target, smooth
-    z = (i.dt / o.T_s if o.T_s > 0.0 else 0.0) + (travel / o.x_d if o.x_d > 0.0 else 0.0)
+        return target, smooth, 0.0
+    z = i.dt / o.T_s if o.T_s > 0.0 else travel / o.x_d
     if z == 0.0:
-        return i.was, smooth
+        return i.was if o.T_s > 0.0 else i.Y * i.h, smooth, i.h
     gone = -np.expm1(-z)
     new = 1.0 - gone / z
-    before = i.Y_0 * (i.smooth + jump)
-    return (1.0 - gone) * i.was + (gone - new) * before + new * target, smooth
+    before = i.smooth + jump
+    if o.T_s > 0.0:
+        was, before = (1.0 - gone) * i.was, i.Y_0 * before
+        return was + (gone - new) * before + new * target, smooth, 0.0
+    h = (1.0 - gone) * i.h + (gone - new) * before + new * law
+    return i.Y * h, smooth, h
 
 
 @njit(cache=True, inline="always")

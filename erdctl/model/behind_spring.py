@@ -12,7 +12,15 @@ from erdctl.core.errors import IncompatibleEffects
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.effect import Effect, in_slot
-from erdctl.model.slots import ScaleSlot, SignSlot, TermSlot, Values, ViscousSlot, YieldSlot
+from erdctl.model.slots import (
+    HysteresisSlot,
+    ScaleSlot,
+    SignSlot,
+    TermSlot,
+    Values,
+    ViscousSlot,
+    YieldSlot,
+)
 
 if TYPE_CHECKING:  # it is compiled, and to load a compiler costs an export 0.3 s
     from erdctl.model.at_speed import Other
@@ -48,9 +56,9 @@ def refuse(effects: Sequence[Effect]) -> None:
         another = isinstance(e.slot, SignSlot) and e.slot.of_another
         if isinstance(e.slot, SignSlot | ViscousSlot) and not (e.of_speed or another):
             raise IncompatibleEffects(f"{e.name} cannot act behind a spring: no law of speed alone")
-    remember = in_slot(effects, YieldSlot)
-    for number, (e, law) in enumerate(remember):
-        if number or not (law.time or law.travel):
+    remember = [e for e in effects if isinstance(e.slot, HysteresisSlot | YieldSlot)]
+    for number, e in enumerate(remember):
+        if number or (isinstance(e.slot, YieldSlot) and not e.slot.time):
             raise IncompatibleEffects(f"{e.name} cannot act behind a spring: a second memory")
 
 
@@ -135,7 +143,8 @@ def other(
         lead = values[e.key(sign.lead)] if sign.lead else 0.0
     for e, law in in_slot(effects, YieldSlot):
         time = values[e.key(law.time)] if law.time else 0.0
-        travel = values[e.key(law.travel)] if law.travel else 0.0
+    for e, stretches in in_slot(effects, HysteresisSlot):
+        travel = values[e.key(stretches.travel)]
     slides = sliding(effects) if inner else None
     if slides is not None:
         effect, force, way = slides

@@ -29,6 +29,7 @@ from erdctl.model.slots import (
     FeedbackSlot,
     FieldSlot,
     GasSlot,
+    HysteresisSlot,
     LagSlot,
     MotionSlot,
     ScaleSlot,
@@ -122,7 +123,7 @@ class Model:
             signals=s,
             gas=self.replaced(GasSlot, s, values, s.x),
             viscous=self.replaced(ViscousSlot, s, values, s.xdot),
-            sign=self.replaced(SignSlot, s, values, s.sign),
+            sign=self.sign(s, values),
             fields=self.fields(s, values),
             lags=self._lags(s, values),
             scale=scale,
@@ -172,6 +173,13 @@ class Model:
             what = {GasSlot: "gas", ViscousSlot: "viscous", SignSlot: "sign"}[kind]
             raise IncompatibleEffects(f"only one effect can take the place of {what}: {names}")
         return laws[0][1](s, laws[0][0].local(values)) if laws else plain
+
+    def sign(self, s: Signals, values: Values) -> Array:
+        """(n,) what stands in the place of sign(xdot), by what follows it over travel."""
+        sign = self.replaced(SignSlot, s, values, s.sign)
+        for effect, stretched in self.of(HysteresisSlot):
+            sign = stretched(sign, s, effect.local(values))
+        return sign
 
     def fields(self, s: Signals, values: Values) -> tuple[Array, Array]:
         """(n,) normalised steady yield force for either direction, on the piston's signals."""

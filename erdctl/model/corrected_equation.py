@@ -29,6 +29,7 @@ from erdctl.model.slots import (
     ControlSlot,
     FieldSlot,
     GasSlot,
+    HysteresisSlot,
     MotionSlot,
     SeriesSlot,
     SignSlot,
@@ -38,7 +39,7 @@ from erdctl.model.slots import (
 
 # In the order in which effects act on a piece; those of the motion come last, since all forces act
 # on the piston's own motion.
-ORDER = (GasSlot, ViscousSlot, SignSlot, FieldSlot, ControlSlot, YieldSlot)
+ORDER = (GasSlot, ViscousSlot, SignSlot, HysteresisSlot, FieldSlot, ControlSlot, YieldSlot)
 LAST = (MotionSlot, SeriesSlot)
 PIECES = {"gas": "k_nom x", "viscous": "c_vis xdot", "yield": "F_ER {sign}", "sign": "sign(xdot)",
           "law": "v^beta"}  # fmt: skip
@@ -67,6 +68,8 @@ def corrected_equation(effects: Sequence[Effect]) -> tuple[str, ...]:
             if {"viscous", "yield"} & set(dict(effect.alters)):
                 text = _at_speed(text, r"c_vis (\w+)", pieces["viscous"])
                 text = _at_speed(text, r"F_ER sign\((\w+)\)", _yield(pieces))
+            if "sign" in dict(effect.alters):
+                text = _at_speed(text, r"sign\((\w+)\)", pieces["sign"])
             below.append(text)
         for piece, becomes in effect.alters:
             if pieces.get(piece):

@@ -14,14 +14,8 @@ from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.c_law import CLaw
 from erdctl.model.checked import added_forces, checked_most, checked_starts
-from erdctl.model.slots import (
-    MostFunction,
-    Slot,
-    StartsFunction,
-    TermFunction,
-    TermSlot,
-    Values,
-)
+from erdctl.model.slot_functions import MostFunction, StartsFunction, TermFunction
+from erdctl.model.slots import Slot, TermSlot, Values
 
 S = TypeVar("S", bound=Slot)
 

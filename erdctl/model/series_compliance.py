@@ -174,12 +174,11 @@ def _speed(
 @_borrowing
 def _moved(
     e: float, mean: float, near: int, i: Leg, d: SpeedLaws, o: Other | None
-) -> tuple[float, float, int, float, float, float]:
+) -> tuple[float, float, int, float, float, float, float]:
     """As a leg ends: stretch, speed behind the spring, node, signed yield force, smooth part of its
-    sign law, part of the friction that follows.
+    sign law, hysteretic variable, part of the friction that follows.
 
-    mean : speed of the rod over the leg [m/s]
-    near : node of the grid below the last speed, where the search begins; the new one is returned
+    mean : speed of the rod over the leg [m/s];  near : node below the last speed, to search from
     """
     m = len(d.grid)
     e += mean * i.dt
@@ -209,17 +208,17 @@ def _moved(
             u, node = _speed(branch, span, e, near, i, d, o)
         at = e - way * u * span
         if o is None:
-            return at, way * u, node, 0.0, 0.0, 0.0
-        force, smooth = followed(way * u, way, u * span, at, i, d, o)
-        return at, way * u, node, force, smooth, slid(way, u * span, i, o)
+            return at, way * u, node, 0.0, 0.0, 0.0, 0.0
+        force, smooth, h = followed(way * u, way, u * span, at, i, d, o)
+        return at, way * u, node, force, smooth, h, slid(way, u * span, i, o)
     if o is None:
-        return e, 0.0, 1, 0.0, 0.0, 0.0
+        return e, 0.0, 1, 0.0, 0.0, 0.0, 0.0
     # What sticks is held by as much of what it could take from either side as balances the rest.
-    up, smooth = followed(0.0, 1.0, 0.0, e, i, d, o)
-    down, _ = followed(0.0, -1.0, 0.0, e, i, d, o)
+    up, smooth, h = followed(0.0, 1.0, 0.0, e, i, d, o)
+    down, _, _ = followed(0.0, -1.0, 0.0, e, i, d, o)
     apart = to_go - _starting(1, e, i, d, o)
     part = min(max(to_go / apart, 0.0), 1.0) if apart > 0.0 else 0.5
-    return e, 0.0, 1, up + (down - up) * part, smooth, i.z
+    return e, 0.0, 1, up + (down - up) * part, smooth, h, i.z
 
 
 @njit(cache=True, nogil=True)
@@ -275,7 +274,7 @@ def march(
             other += value(d.viscous, d.grid, v, way) * g_visc[first]
             other += was * g_yield[first] * value(d.factor, d.grid, v, way)
             other += value(d.friction, d.grid, v, way)
-        was, smooth = (0.0, 0.0) if still else (was, smooth)
+        was, smooth, h = (0.0, 0.0, 0.0) if still else (was, smooth, law)
         soft = s / (1.0 + c * s / BEGUN)
         F = (k * x[first] + other) / (1.0 + k * soft)
         near, rate = np.searchsorted(d.grid, abs(v)) - 1, 0.0
@@ -305,10 +304,10 @@ def march(
                 pull, level = mass / max(span, 1e-9), end + v - begun
                 now = Leg(
                     span, x_end, rod_end, other, y, by[i], k_c * g_gas[i], k_r * g_gas[i],
-                    g_visc[i], g_yield[i], half, s, was, y_0, smooth, z, c, end,
+                    g_visc[i], g_yield[i], half, s, was, y_0, smooth, h, z, c, end,
                     pull + c, pull * level + c * end, v, level, v + rate * span,
                 )  # fmt: skip
-                e, v, near, was, smooth, z = _moved(e, mean, near, now, d, o)
+                e, v, near, was, smooth, h, z = _moved(e, mean, near, now, d, o)
                 up = v > 0.0 if abs(v) >= d.grid[0] else up  # rounding turns what comes to rest
                 added = rubs * z + pull * (v - level)
             rate = (v - was_v) / max(dt, 1e-9)

@@ -20,6 +20,7 @@ from erdctl.model.slots import (
     FeedbackSlot,
     FieldSlot,
     GasSlot,
+    HysteresisSlot,
     MotionSlot,
     ScaleSlot,
     SeriesSlot,
@@ -38,6 +39,7 @@ _OF_SLOT: Mapping[type, tuple[str, ...]] = {
     ViscousSlot: ("viscous",),
     SignSlot: ("yield",),
     FieldSlot: ("yield",),
+    HysteresisSlot: ("yield",),
     YieldSlot: ("yield",),
     TermSlot: (),
     ChannelSlot: (),
@@ -136,6 +138,6 @@ class Shifts:
             return replace(p, gas=self.model.replaced(GasSlot, s, values, s.x))
         if isinstance(slot, ViscousSlot):
             return replace(p, viscous=self.model.replaced(ViscousSlot, s, values, s.xdot))
-        if isinstance(slot, SignSlot):
-            return replace(p, sign=self.model.replaced(SignSlot, s, values, s.sign))
+        if isinstance(slot, SignSlot | HysteresisSlot):
+            return replace(p, sign=self.model.sign(s, values))
         return p

@@ -1,8 +1,8 @@
 """Where an effect enters the model, and what its function receives and must return there.
 
-One class a slot: it holds the effect's function, whose type is a Protocol, so that a type checker
-holds every effect to its slot; and it calls the function, so that what comes back is checked where
-it is used. Common to all:
+One class a slot: it holds the effect's function, whose type is a Protocol (`model.slot_functions`),
+so that a type checker holds every effect to its slot; and it calls the function, so that what comes
+back is checked where it is used. Common to all:
 
 s : `Signals`, motion and control at the samples;  p : the effect's values by symbol;  (n,) : one
 value a sample. Values are those *at* a sample, but for two that hold until the next one:
@@ -19,87 +19,24 @@ divided by `s.starts`, and must not let one see another.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Generic, Protocol, TypeVar
+from collections.abc import Callable
+from typing import Generic, TypeVar
 
 from erdctl.core.errors import EffectFailed
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.checked import Groups, called, groups, in_words, number, samples
-
-Values = Mapping[str, float]
-
-
-class MotionFunction(Protocol):
-    """Motion of the piston from that of the rod; `Signals.with_motion` makes it."""
-
-    def __call__(self, s: Signals, p: Values, /) -> Signals: ...
-
-
-class SamplesFunction(Protocol):
-    """(n,) of what the slot takes the place of; see the slot."""
-
-    def __call__(self, s: Signals, p: Values, /) -> Array: ...
-
-
-class FieldFunction(Protocol):
-    """(n,) normalised steady yield force from `field`, in one direction."""
-
-    def __call__(self, field: Array, s: Signals, p: Values, way: str, /) -> Array: ...
-
-
-class ColumnFunction(Protocol):
-    """(n,) what becomes of a force (n,) [N]."""
-
-    def __call__(self, column: Array, s: Signals, p: Values, /) -> Array: ...
-
-
-class ScaleFunction(Protocol):
-    """(n,) factors of groups; a group that is not in it keeps its force."""
-
-    def __call__(self, s: Signals, p: Values, /) -> Groups: ...
-
-
-class FeedbackFunction(Protocol):
-    """(n,) factors of groups from the forces that act without it, by group and `other`."""
-
-    def __call__(self, parts: Groups, s: Signals, p: Values, /) -> Groups: ...
-
-
-class DrivenFunction(Protocol):
-    """(n,) force [N] that the forces of the groups bring about."""
-
-    def __call__(self, parts: Groups, s: Signals, p: Values, /) -> Array: ...
-
-
-class NumberFunction(Protocol):
-    """One number."""
-
-    def __call__(self, p: Values, /) -> float: ...
-
-
-class TermFunction(Protocol):
-    """(k, n) forces at unit amplitudes, one row for each linear parameter, in their order [N]."""
-
-    def __call__(self, s: Signals, p: Values, /) -> Array: ...
-
-
-class StartsFunction(Protocol):
-    """Starts of a search, each with a number for every parameter that is not linear.
-
-    `rest` is what the present model leaves of the force (n,) [N], 0 where it has no weight: from it
-    a frequency or a time can be read. All starts are looked at with one evaluation of the model
-    each, so some tens are cheap and thousands are not; the best few are searched from.
-    """
-
-    def __call__(self, s: Signals, rest: Array, /) -> Sequence[Values]: ...
-
-
-class MostFunction(Protocol):
-    """Largest values of some parameters that a log allows, by symbol, whatever else acts in it."""
-
-    def __call__(self, s: Signals, force: Array, /) -> Values: ...
-
+from erdctl.model.slot_functions import (
+    ColumnFunction,
+    DrivenFunction,
+    FeedbackFunction,
+    FieldFunction,
+    MotionFunction,
+    NumberFunction,
+    SamplesFunction,
+    ScaleFunction,
+)
+from erdctl.model.slot_functions import Values as Values
 
 F = TypeVar("F", bound=Callable[..., object])
 
@@ -222,18 +159,27 @@ class ColumnSlot(FunctionSlot[ColumnFunction]):
         return samples(self.function, called(self.function, column, s, p), s)
 
 
+class HysteresisSlot(ColumnSlot):
+    """(n,) hysteretic variable [1] in place of a sign law (n,), which it follows; linear in it.
+
+    travel : symbol of the travel [m] over which it follows, exponentially; 0 at once
+    """
+
+    def __init__(self, function: ColumnFunction, *, travel: str) -> None:
+        super().__init__(function)
+        self.travel = travel
+
+
 class YieldSlot(ColumnSlot):
     """(n,) what becomes of the signed yield force [N], at the samples; may remember.
 
-    time, travel : symbols of the time [s] and the travel [m] over which it follows, exponentially:
-        what a spring in series needs to know of it
+    time : symbol of the time [s] over which it follows, exponentially: what a spring in series
+        needs to know of it
     """
 
-    def __init__(
-        self, function: ColumnFunction, *, time: str | None = None, travel: str | None = None
-    ) -> None:
+    def __init__(self, function: ColumnFunction, *, time: str | None = None) -> None:
         super().__init__(function)
-        self.time, self.travel = time, travel
+        self.time = time
 
 
 class ChannelSlot(ColumnSlot):
@@ -310,8 +256,9 @@ class TermSlot:
 
 
 Slot = (
-    MotionSlot | ControlSlot | FieldSlot | LagSlot | SignSlot | YieldSlot | ViscousSlot | GasSlot
-    | ScaleSlot | TermSlot | FeedbackSlot | DrivenSlot | SeriesSlot | ChannelSlot
+    MotionSlot | ControlSlot | FieldSlot | LagSlot | SignSlot | HysteresisSlot | YieldSlot
+    | ViscousSlot | GasSlot | ScaleSlot | TermSlot | FeedbackSlot | DrivenSlot | SeriesSlot
+    | ChannelSlot
 )  # fmt: skip
 
 

@@ -9,16 +9,20 @@ import pytest
 from made import act, force, signals, sine
 from scipy.integrate import solve_ivp
 
+from erdctl.core.signals import Signals
+from erdctl.effects import get
+from erdctl.model.composed import Model
+
 
 def test_check_value() -> None:
-    """0.1 mm after a reversal: 10 - 20 exp(-1)."""
+    """0.1 mm after a reversal: 1 - 2 exp(-1)."""
     # Turns half-way between samples 49 and 50; 0.01 mm a step, and a quarter of it on either side.
     xdot = np.where(np.arange(100) < 50, -0.01, 0.01)
     s = signals(xdot, step=1e-3)
-    found = act("preyield_elasticity", 10.0 * np.sign(xdot), s, {"x_d": 1e-4})
+    found = act("preyield_elasticity", np.sign(xdot), s, {"x_d": 1e-4})
     travelled = 0.0025e-3 + 0.01e-3 * np.arange(50)
-    assert found[50:] == pytest.approx(10 - 20 * np.exp(-travelled / 1e-4), abs=1e-9)
-    assert np.interp(1e-4, travelled, found[50:]) == pytest.approx(10 - 20 * np.exp(-1), abs=0.02)
+    assert found[50:] == pytest.approx(1 - 2 * np.exp(-travelled / 1e-4), abs=1e-10)
+    assert np.interp(1e-4, travelled, found[50:]) == pytest.approx(1 - 2 * np.exp(-1), abs=0.002)
 
 
 @pytest.mark.parametrize("rate", [200.0, 1000.0])
@@ -50,3 +54,49 @@ def test_the_loop_does_not_depend_on_frequency() -> None:
         force("preyield_elasticity", s, {"x_d": 1e-3}, k_nom=0.0, c_vis=0.0) for s in (slow, fast)
     )
     assert a == pytest.approx(b, abs=1e-9)
+
+
+def stepped() -> Signals:
+    """One tone under a duty that steps at all phases of it, also to nothing and back."""
+    t = np.arange(3000) / 1000.0
+    w = 2 * np.pi * 1.5
+    duty = np.array([0.1, 0.6, 0.0, 0.3, 0.9, 0.2])[(t / 0.23).astype(int) % 6]
+    return signals(0.01 * w * np.cos(w * t), x=0.01 * np.sin(w * t), t=t, duty=duty)
+
+
+APART = {  # both directions, which differ
+    "compression.k_nom": 0.0, "release.k_nom": 0.0, "compression.c_vis": 60.0,
+    "release.c_vis": 80.0, "compression.sigma": 24.0, "release.sigma": 18.0,
+    "compression.T_d": 0.02, "release.T_d": 0.03, "compression.beta": 0.6, "release.beta": 0.6,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("s_m", [0.0, 2e-5])
+def test_a_step_of_the_control_acts_on_what_is_stretched(s_m: float) -> None:
+    """F_y = F_ER z, as in Spencer's and in Dahl's damper, where the control multiplies z. The
+    force was to build up over x_d again after each step of the control: up to 14 N of 22 N off,
+    and T_d came out as 0 to make up for it."""
+    s, x_d = stepped(), 2e-3
+    w, n = 2 * np.pi * 1.5, len(s)
+
+    def slope(t: float, y: np.ndarray) -> list[float]:
+        F, z, e = y
+        v = rod = 0.01 * w * np.cos(w * t)
+        if s_m > 0.0:  # e / s = c v_p + F_y
+            rest = e / s_m - F * z
+            v = rest / (60.0 if rest > 0.0 else 80.0)
+        u = s.duty[min(int(t * 1000 + 1e-6), n - 1)] ** 0.6
+        lag = (24.0 * u - F) / 0.02 if v > 0.0 else (18.0 * u - F) / 0.03
+        return [lag, (np.sign(v) - z) * abs(v) / x_d, rod - v]
+
+    start = [24.0 * 0.1**0.6, 1.0, s_m * (24.0 * 0.1**0.6 + 60.0 * 0.01 * w)]
+    F, z, e = solve_ivp(
+        slope, (0.0, s.t[-1]), start, t_eval=s.t, max_step=2e-4, rtol=1e-6,
+        method="RK23" if s_m == 0.0 else "LSODA",
+    ).y  # fmt: skip
+    by_hand = e / s_m if s_m > 0.0 else F * z + s.xdot * np.where(s.xdot > 0.0, 60.0, 80.0)
+    names = ("preyield_elasticity", "mount_compliance") if s_m > 0.0 else ("preyield_elasticity",)
+    values = APART | {"preyield_elasticity.x_d": x_d, "mount_compliance.s_m": s_m}
+    found = Model(tuple(get(name) for name in names)).force(s, values)
+    error = (found - by_hand)[500:]
+    assert np.sqrt(np.mean(error**2)) < 4e-3 * np.ptp(by_hand)

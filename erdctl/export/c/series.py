@@ -12,7 +12,7 @@ from erdctl.export.c.names import identifier, part
 from erdctl.model.behind_spring import masses, refuse, sliding
 from erdctl.model.effect import Effect, in_slot
 from erdctl.model.parameters import Parameters
-from erdctl.model.slots import FeedbackSlot, SeriesSlot, SignSlot, YieldSlot
+from erdctl.model.slots import FeedbackSlot, HysteresisSlot, SeriesSlot, SignSlot, YieldSlot
 
 FASTEST = 1.0  # m/s, where the logs do not say
 
@@ -86,10 +86,11 @@ def march(spring: Effect, effects: Sequence[Effect]) -> str:
 def _of_the_sign(effects: Sequence[Effect]) -> list[str]:
     """What else the yield force is made from than F_ER sign(v), as `behind_spring.other` has it."""
     signs, yields = in_slot(effects, SignSlot), in_slot(effects, YieldSlot)
+    stretched = in_slot(effects, HysteresisSlot)
     asked = {
         "sign_lead": [_parameter(e, slot.lead) for e, slot in signs if slot.lead],
         "yield_time": [_parameter(e, slot.time) for e, slot in yields if slot.time],
-        "yield_travel": [_parameter(e, slot.travel) for e, slot in yields if slot.travel],
+        "yield_travel": [_parameter(e, slot.travel) for e, slot in stretched],
     }
     by = [call("by", e) for e, slot in signs if slot.by]
     other = bool(by or any(asked.values()))

@@ -65,22 +65,18 @@ def _rebuilt(Y: Array, x: Array, v: Array, h: float, start: int, x_d: float) -> 
     return out
 
 
-def _as_a_whole(F: Array, grid: FineGrid, p: Values) -> Array:
+def _as_one(grid: FineGrid, p: Values) -> Array:
     """What is usually fitted: chains of one length, exponentially (Bouc-Wen)."""
-    up, v = grid.v > 0.0, grid.v
-    rest = np.where(up, p["k_c"], p["k_r"]) * grid.x + np.where(up, p["c_c"], p["c_r"]) * v
-    rebuilt = _rebuilt(F - rest, grid.x, v, grid.h, grid.start, p["x_d"])
-    return np.asarray(rest + rebuilt)
+    way = np.sign(grid.v)
+    return np.asarray(_rebuilt(way, grid.x, grid.v, grid.h, grid.start, p["x_d"]))
 
 
-USUAL = Hooks("preyield_elasticity", force=_as_a_whole)
+USUAL = Hooks("preyield_elasticity", sign=_as_one)
 
 
 def _law(plant: Plant) -> Law:
     x_d = 0.5 * plant.own_values("preyield_elasticity")["x_y"]
-    up, down = plant.compression, plant.release
-    damper = {"k_c": up.k_nom, "k_r": down.k_nom, "c_c": up.c_vis, "c_r": down.c_vis}
-    return plant.with_own(USUAL, x_d=x_d, **damper), {"x_d": x_d}
+    return plant.with_own(USUAL, x_d=x_d), {"x_d": x_d}
 
 
 def _build(plant: Plant, s: float, q: Shape, by: Scales) -> Plant:

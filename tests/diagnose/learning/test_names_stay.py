@@ -14,10 +14,10 @@ from erdctl.plant import draw, log
 
 
 def test_chains_of_many_lengths_are_still_a_pre_yield_elasticity(tmp_path: Path) -> None:
-    """They break one after the other, and the effect of the catalogue all alike: 95 % of what the
+    """They break one after the other, and the effect of the catalogue all alike: 97 % of what the
     paper's model misses. A curve over the travel since a turn fits better, and the name was gone:
     `no effect of the catalogue explains the misfit`."""
-    case = draw(1580209, known=names())
+    case = draw(1580399, known=names())
     assert [t.name for t in case.truth] == ["preyield_elasticity"]
     pq.write_table(log(case), tmp_path / "log.parquet")
     recording = read_logs([str(tmp_path / "log.parquet")], need_force=True, report=print).recording

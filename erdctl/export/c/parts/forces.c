@@ -59,7 +59,7 @@ static real parallel(State *st, const Sample *s)
     form(st, s);
     force.gas = gas_law(st, s) * along(s, st->p.compression_k_nom, st->p.release_k_nom);
     force.viscous = viscous_law(st, s) * along(s, st->p.compression_c_vis, st->p.release_c_vis);
-    force.yield = yield_law(st, s, st->yielding * sign_law(st, s));
+    force.yield = yield_law(st, s, st->yielding * stretched(st, s, sign_law(st, s)));
     f.gas = f.viscous = f.yield = K(1.0);
     scale(st, s, &f);
     of_speed(st, s, &f);

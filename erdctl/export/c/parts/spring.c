@@ -118,26 +118,30 @@ static real jump_of(const State *st, real v, int way)
     return v < K(0.0) || (!(v > K(0.0)) && way == 1) ? -jump : jump;
 }
 
-/* Signed yield force at a speed v of the piston, and its sign law there but for the jump. It follows
- * a straight line, in which what jumps has the direction of now from the start. */
+/* Signed yield force at a speed v of the piston, its sign law there but for the jump, and the
+ * hysteretic variable. It follows a straight line, in which what jumps has the direction of now from
+ * the start. */
 static real followed(const State *st, const Spring *b, const Joint *to, const Leg *leg, real v,
-                     int way, real travel, real e, real *smooth)
+                     int way, real travel, real e, real *smooth, real *h)
 {
-    real T = yield_time(st), d = yield_travel(st), z = K(0.0), gone, fresh;
+    real T = yield_time(st), d = yield_travel(st), z, gone, fresh;
     real sheared = (v + sign_lead(st) * (leg->rod - e)) / to->by;
     real law = sign_along(st, sheared, way), jump = jump_of(st, sheared, way);
 
     *smooth = law - jump;
+    *h = b->h;
     if (!(T > K(0.0)) && !(d > K(0.0)))
         return leg->Y * law;
-    z += T > K(0.0) ? leg->dt / T : K(0.0);
-    z += d > K(0.0) ? travel / d : K(0.0);
+    z = T > K(0.0) ? leg->dt / T : travel / d;
     if (!(z > K(0.0)))
-        return b->was;
+        return T > K(0.0) ? b->was : leg->Y * b->h;
     gone = -EXPM1(-z);
     fresh = K(1.0) - gone / z;
-    return (K(1.0) - gone) * b->was + (gone - fresh) * leg->Y0 * (b->smooth + jump)
-           + fresh * leg->Y * law;
+    if (T > K(0.0))
+        return (K(1.0) - gone) * b->was + (gone - fresh) * leg->Y0 * (b->smooth + jump)
+               + fresh * leg->Y * law;
+    *h = (K(1.0) - gone) * b->h + (gone - fresh) * (b->smooth + jump) + fresh * law;
+    return leg->Y * *h;
 }
 
 /* Part of the friction that follows the direction, after a travel of the piston. */
@@ -153,10 +157,10 @@ static real slid(const State *st, const Spring *b, int way, real travel)
 static real excess(const State *st, const Spring *b, const Joint *to, const Leg *leg, real u, int j,
                    real w, int way, real span, real e)
 {
-    real direction = way == 0 ? K(1.0) : K(-1.0), at = e - direction * u * span, yields, smooth;
+    real direction = way == 0 ? K(1.0) : K(-1.0), at = e - direction * u * span, yields, smooth, h;
 
     if (OTHER)
-        yields = followed(st, b, to, leg, direction * u, way, u * span, at, &smooth)
+        yields = followed(st, b, to, leg, direction * u, way, u * span, at, &smooth, &h)
                  * between(st->factor_at[way], j + 1, w);
     else
         yields = leg->Y * between(st->sign_at[way], j + 1, w);
@@ -171,10 +175,10 @@ static real excess(const State *st, const Spring *b, const Joint *to, const Leg 
 static real starting(const State *st, const Spring *b, const Joint *to, const Leg *leg, int way,
                      real e)
 {
-    real yields = leg->Y * st->sign_at[way][0], smooth;
+    real yields = leg->Y * st->sign_at[way][0], smooth, h;
 
     if (OTHER)
-        yields = followed(st, b, to, leg, K(0.0), way, K(0.0), e, &smooth)
+        yields = followed(st, b, to, leg, K(0.0), way, K(0.0), e, &smooth, &h)
                  * st->factor_at[way][0];
     return to->k[way] * (leg->x - e) + leg->beside - held(e, to) - leg->push
            + yields * to->gain.yield + st->friction_at[way][0]
@@ -184,12 +188,12 @@ static real starting(const State *st, const Spring *b, const Joint *to, const Le
 /* What sticks is held by as much of what it could take from either side as balances the rest. */
 static void stick(const State *st, Spring *b, const Joint *to, const Leg *leg, real e)
 {
-    real smooth, up, down, go, apart;
+    real smooth, h, up, down, go, apart;
 
     b->near = 1;
     if (OTHER) {
-        down = followed(st, b, to, leg, K(0.0), 1, K(0.0), e, &smooth);
-        up = followed(st, b, to, leg, K(0.0), 0, K(0.0), e, &smooth);
+        down = followed(st, b, to, leg, K(0.0), 1, K(0.0), e, &smooth, &h);
+        up = followed(st, b, to, leg, K(0.0), 0, K(0.0), e, &smooth, &h);
         go = starting(st, b, to, leg, 0, e);
         apart = go - starting(st, b, to, leg, 1, e);
         b->was = up + (down - up) * (apart > K(0.0) ? clipped(go / apart, K(0.0), K(1.0)) : K(0.5));
@@ -276,7 +280,7 @@ static real speed_on(const State *st, const Spring *b, const Joint *to, const Le
 static void advance(const State *st, Spring *b, const Joint *to, const Leg *leg, real mean,
                     real end)
 {
-    real dt = leg->dt, e = b->stretch + mean * dt, began = b->speed, way, span, part, u, smooth;
+    real dt = leg->dt, e = b->stretch + mean * dt, began = b->speed, way, span, part, u, smooth, h;
     real nearly = NEARLY * FABS(held(e, to) + to->c * end), go = K(0.0), last, lag, start, least;
     real stiff = dt + to->c * to->s;
     real fastest = FMAX(FMAX(FABS(began), FABS(end)),
@@ -313,8 +317,9 @@ static void advance(const State *st, Spring *b, const Joint *to, const Leg *leg,
         b->stretch = e - b->speed * span;
         b->near = node;
         if (OTHER) {
-            b->was = followed(st, b, to, leg, b->speed, branch, u * span, b->stretch, &smooth);
+            b->was = followed(st, b, to, leg, b->speed, branch, u * span, b->stretch, &smooth, &h);
             b->smooth = smooth;
+            b->h = h;
         }
         b->z = SLIDES ? slid(st, b, branch, u * span) : K(0.0);
         return;
@@ -337,7 +342,7 @@ static real set_out(const State *st, Spring *b, const Joint *to, const Sample *s
 
     b->up = s->up;
     b->yielding = u[way];
-    b->was = b->smooth = K(0.0);
+    b->was = b->smooth = b->h = K(0.0);
     if (still) { /* what rubs holds what it can of them */
         real held_by[2];
 
@@ -348,6 +353,7 @@ static real set_out(const State *st, Spring *b, const Joint *to, const Sample *s
     } else {
         real sheared = (s->xdot + sign_lead(st) * s->x) / to->by, law = sign_along(st, sheared, way);
 
+        b->h = law;
         b->was = b->yielding * law;
         b->smooth = law - jump_of(st, sheared, 1);
         rest += between(st->viscous_at[way], j, w) * to->gain.viscous

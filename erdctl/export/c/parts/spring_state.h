@@ -8,6 +8,7 @@
         int near; /* node below the last speed */
         PREFIX_real beside; /* [N] forces that the rod's motion made */
         PREFIX_real was, smooth; /* [N] signed yield force; its sign law but for the jump */
+        PREFIX_real h; /* hysteretic variable in the place of the sign law */
         PREFIX_real z; /* part of the friction that follows the direction */
         PREFIX_real rate;   /* [m/s2] acceleration of the piston in the last step */
         PREFIX_real pulled; /* [N] of the mass, for what the piston is not accelerated as the rod */
