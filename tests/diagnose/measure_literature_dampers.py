@@ -4,7 +4,8 @@ asked for both kinds, other drives than those fitted; beside an expert's models 
 
     PYTHONPATH=.:tests python tests/diagnose/measure_literature_dampers.py FIRST END [NAME ...]
 
-NRMSE over the range of the force of the drive that is asked for, whose noise is in it.
+NRMSE over the range of the force of the drive that is asked for, whose noise is in it, without the
+first second of each record: what was before it no model knows.
 """
 
 from __future__ import annotations
@@ -15,10 +16,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import literature_dampers
+import numpy as np
 import pandas as pd
-from peers import black_boxes, error, expert, of_model
+from peers import black_boxes, expert, of_model
 
-from erdctl.core.recording import Recording
+from erdctl.core.recording import Array, Recording
 from erdctl.diagnose.diagnosis import diagnose
 from erdctl.effects import catalogue
 from erdctl.io.logs import read_logs
@@ -29,6 +31,13 @@ def read(table: pd.DataFrame) -> Recording:
         file = Path(folder) / "log.parquet"
         table.to_parquet(file)
         return read_logs([str(file)], need_force=True, report=lambda line: None).recording
+
+
+def error(r: Recording, force: Array) -> float:
+    assert r.force is not None
+    later = r.t >= np.repeat(r.t[r.starts[:-1]], np.diff(r.starts)) + 1.0
+    rms = float(np.sqrt(np.mean((r.force - force)[later] ** 2)))
+    return rms / float(np.ptp(r.force))
 
 
 def row(name: str, seed: int, *, random: bool) -> str:
