@@ -9,7 +9,7 @@ beside what was named before.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -20,7 +20,7 @@ from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.fault_beside import fault_beside
 from erdctl.diagnose.hypothesis import Hypothesis
-from erdctl.diagnose.records_with_a_fault import is_no_scatter
+from erdctl.diagnose.records_with_a_fault import is_no_scatter, telling
 from erdctl.diagnose.residual.localisation import Region, said
 from erdctl.diagnose.sets_in_once import Confirmed, SetsInOnce
 from erdctl.estimate.onsets import profile_within
@@ -82,7 +82,7 @@ def _named(
     left = parameters(again).estimates[fault.key(AMOUNT)].value
     named = replace(once, effect=fault, f=onset.f if left is None else left, confirmed=confirmed)
     named_in = named.set_in(found.problem.recording, ordered.t, at, onset)
-    return _no_scatter(named_in, best, again.lack_of_fit.records == 0.0)
+    return _no_scatter(named_in, once.order, best, found, again.lack_of_fit.records == 0.0)
 
 
 def _beside(found: Diagnosis, once: SetsInOnce, ordered: Recording) -> SetsInOnce | None:
@@ -101,17 +101,28 @@ def _beside(found: Diagnosis, once: SetsInOnce, ordered: Recording) -> SetsInOnc
     )
     named = replace(once, effect=fault.effect, f=fault.onset.f, confirmed=confirmed)
     named_in = named.set_in(found.problem.recording, ordered.t, fault.at, fault.onset)
-    return _no_scatter(named_in, fault.hypothesis, fault.explained)
+    return _no_scatter(named_in, once.order, fault.hypothesis, found, fault.explained)
 
 
-def _no_scatter(once: SetsInOnce | None, best: Hypothesis, explained: bool) -> SetsInOnce | None:
+def _no_scatter(
+    once: SetsInOnce | None,
+    order: Sequence[int],
+    best: Hypothesis,
+    found: Diagnosis,
+    explained: bool,
+) -> SetsInOnce | None:
     """A fault, unless it is all along records that may be no more than some that scatter.
 
-    best : with the fault;  explained : whether no records differ beyond it
+    best : with the fault, of records in an order;  explained : whether none differ beyond it
     """
     if once is None or not once.whole:
         return once
     sure = explained and is_no_scatter(
         best, once.effect, once.f, once.first, may_be_a_gain=once.may_be_a_gain
     )
-    return once if sure else None
+    if not sure:
+        return None
+    # Of a record that shows nothing of its force, one without a duty, nobody knows.
+    told = [order[k] for k in telling(best, once.effect)]
+    recording = found.problem.recording
+    return once.of_those(told, recording.t[recording.starts[:-1]])

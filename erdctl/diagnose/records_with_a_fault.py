@@ -56,6 +56,12 @@ def seems_no_scatter(best: Hypothesis, fault: Effect, f: float, having: Sequence
     return 1.0 - f >= max(least, thresholds.SEEMS_LOST * scatter)
 
 
+def telling(best: Hypothesis, fault: Effect) -> tuple[int, ...]:
+    """Records that show a force which a fault takes a part of; best : with the fault."""
+    G, p = _products(best, fault)
+    return tuple(np.flatnonzero(_told(G, p)).tolist())
+
+
 def _scatter(best: Hypothesis, fault: Effect, having: Index) -> tuple[float, int]:
     """Standard deviation of the gains of records about the two means, and how many tell of one."""
     G, p = _products(best, fault)

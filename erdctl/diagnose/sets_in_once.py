@@ -83,6 +83,18 @@ class SetsInOnce:
         alike = (self.effect.name, *(self.confirmed.alike if self.confirmed else ()))
         return any(e.name in alike and set(GROUPS) <= {*e.sets_in} for e in self.kinds)
 
+    def of_those(self, telling: Iterable[int], begins: Array) -> SetsInOnce:
+        """The same in whole records that tell of it alone, unless it is there from one on.
+
+        begins : (r,) time of each record's first sample [s]
+        """
+        having = tuple(r for r in self.records if r in {*telling})
+        if self.stays or not self.whole or having in ((), self.records):
+            return self
+        order = (*sorted({*self.order} - {*having}), *having)
+        begin = float(begins[having[0]])
+        return replace(self, order=order, first=len(order) - len(having), at=(begin, begin))
+
     def named(self, names: Sequence[str]) -> str:
         """The records that have it, in words."""
         own = ", ".join(repr(names[r]) for r in self.records)
