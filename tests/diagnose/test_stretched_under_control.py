@@ -27,8 +27,8 @@ def dahl(tmp_path: Path) -> Recording:
 
 
 def test_dahls_damper_under_a_control_that_steps_is_explained(dahl: Recording) -> None:
-    """A third of the noise was left beyond what was named, of a force that builds up anew after
-    each step of the control, T_d was 6 ms for 16.7, and the log was `unexplained`."""
+    """33 N was left beyond a noise of 13 by a force that builds up anew after each step;
+    T_d was 4 ms for 16.7, `field_viscosity` was not named, and the log was `unexplained`."""
     found = diagnose(dahl, [get(name) for name in CANDIDATES], limits=False, learning=False)
     names = {f.effect.name for f in found.findings}
     assert names == {"preyield_elasticity", "presliding_friction", "field_viscosity"}
