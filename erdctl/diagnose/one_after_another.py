@@ -115,14 +115,14 @@ def _no_scatter(
 
     best : with the fault, of records in an order;  explained : whether none differ beyond it
     """
-    if once is None or not once.whole:
-        return once
-    sure = explained and is_no_scatter(
-        best, once.effect, once.f, once.first, may_be_a_gain=once.may_be_a_gain
-    )
-    if not sure:
+    if once is None:
         return None
     # Of a record that shows nothing of its force, one without a duty, nobody knows.
     told = [order[k] for k in telling(best, once.effect)]
     recording = found.problem.recording
-    return once.of_those(told, recording.t[recording.starts[:-1]])
+    of_those = once.of_those(told, recording.t[recording.starts[:-1]])
+    sure = not of_those.whole or (
+        explained
+        and is_no_scatter(best, once.effect, once.f, once.first, may_be_a_gain=once.may_be_a_gain)
+    )
+    return of_those if sure else None

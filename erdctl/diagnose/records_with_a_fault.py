@@ -19,6 +19,7 @@ from erdctl.core.recording import Array, Index
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis, slopes
 from erdctl.model.effect import Effect
+from erdctl.model.slots import Values
 
 
 def apart(best: Hypothesis, fault: Effect) -> tuple[int, ...]:
@@ -101,12 +102,17 @@ def by_chance(count: int) -> float:
 def _products(best: Hypothesis, fault: Effect) -> tuple[Array, int]:
     """Of J (p, n), the forces of records, and the residual, all with all."""
     s, weight = best.problem.block.signals, best.problem.block.weight
-    parts = best.model.prepare(s, best.values).parts(best.values)
-    failing = np.sum([parts[group] for group in fault.sets_in], axis=0)
+    failing = _failing(best, fault, best.values)
     records = np.repeat(np.eye(len(s.starts) - 1), np.diff(s.starts), axis=1)
     J = slopes(best)
     rows = np.vstack([J, records * failing, best.residual])
     return (rows * weight) @ rows.T, len(J)
+
+
+def _failing(best: Hypothesis, fault: Effect, values: Values) -> Array:
+    """(n,) forces that a fault takes a part of [N]."""
+    parts = best.model.prepare(best.problem.block.signals, values).parts(values)
+    return np.asarray(np.sum([parts[group] for group in fault.sets_in], axis=0))
 
 
 def _told(G: Array, p: int) -> npt.NDArray[np.bool_]:

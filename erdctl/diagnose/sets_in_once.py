@@ -84,16 +84,20 @@ class SetsInOnce:
         return any(e.name in alike and set(GROUPS) <= {*e.sets_in} for e in self.kinds)
 
     def of_those(self, telling: Iterable[int], begins: Array) -> SetsInOnce:
-        """The same in whole records that tell of it alone, unless it is there from one on.
+        """The same of the records that tell of it alone; where it stays, from the first that does.
 
         begins : (r,) time of each record's first sample [s]
         """
-        having = tuple(r for r in self.records if r in {*telling})
-        if self.stays or not self.whole or having in ((), self.records):
+        told = {*telling}
+        having = tuple(r for r in self.records if r in told)
+        if self.stays and having:
+            having = self.records[self.records.index(having[0]) :]
+        if having in ((), self.records):
             return self
         order = (*sorted({*self.order} - {*having}), *having)
-        begin = float(begins[having[0]])
-        return replace(self, order=order, first=len(order) - len(having), at=(begin, begin))
+        whole, begin = self.whole or having[0] != self.record, float(begins[having[0]])
+        at = (begin, begin) if whole else self.at
+        return replace(self, order=order, first=len(order) - len(having), whole=whole, at=at)
 
     def named(self, names: Sequence[str]) -> str:
         """The records that have it, in words."""

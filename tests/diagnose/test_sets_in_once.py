@@ -242,3 +242,41 @@ def test_a_record_that_shows_nothing_of_the_force_is_not_accused() -> None:
     assert found.of_those(range(6), begins) is found
     stays = SetsInOnce(fault, (0, 1, 2, 3, 4, 5), 3, True, (30.0, 30.0), 0.37, (fault,))
     assert stays.of_those((0, 1, 2, 3, 5), begins) is stays  # it is there from one record on
+
+
+def test_what_is_said_in_the_end_is_of_the_records_that_tell_of_it(recordings: Any) -> None:
+    """Before the drive with the fault come two without a duty, r3 and r4: both were accused, the
+    onset "0 to 8 s" of r3."""
+    healthy = (NEVER,) * 6
+    recording = recordings("electrical_fault", (*healthy[:5], 0.0), 75, 0.4)
+    idle = recordings("electrical_fault", (*healthy[:3], 0.0, *healthy[4:]), 75, 0.0)
+    of_3 = recording.slices[3]
+    duty, force = recording.duty.copy(), recording.force.copy()
+    duty[of_3], force[of_3] = 0.0, idle.force[of_3]  # as if it had had none
+    fault = get("electrical_fault")
+    both = SetsInOnce(fault, (0, 1, 2, 4, 3, 5), 4, True, (0.0, 0.0), 0.4, FAULTS)
+    candidates = [*FAULTS, get("preyield_viscosity")]
+
+    def run(r: Recording, **options: Any) -> Diagnosis:
+        found = diagnose(
+            r, candidates=candidates, jobs=1, limits=False, learning=False,
+            once=options.get("once", True),
+        )  # fmt: skip
+        return found if options else replace(found, once=both)
+
+    found = with_a_fault_once(run, replace(recording, duty=duty, force=force)).once
+    assert found is not None
+    assert (found.records, found.whole, found.at) == ((5,), True, (0.0, 0.0))
+    assert found.f == pytest.approx(0.4, abs=0.05)
+
+
+def test_where_it_stays_the_first_that_tells_of_it_has_it_from_its_beginning() -> None:
+    """It has set in in one of those before, which say nothing; those behind have it as well."""
+    fault = get("electrical_fault")
+    begins = 10.0 * np.arange(6)
+    found = SetsInOnce(fault, (0, 1, 2, 3, 4, 5), 2, False, (21.0, 29.0), 0.4, (fault,))
+    later = found.of_those((0, 1, 3, 5), begins)
+    assert (later.records, later.whole, later.at, later.stays) == (
+        (3, 4, 5), True, (30.0, 30.0), True
+    )  # fmt: skip
+    assert found.of_those((0, 2), begins) is found
