@@ -22,14 +22,12 @@ Source: P. R. Dahl, Solid friction damping of mechanical vibrations, AIAA Journa
 
 from __future__ import annotations
 
-from functools import lru_cache
-from itertools import pairwise
-
 import numpy as np
 
 from erdctl.core.quantity import Quantity, Scale
-from erdctl.core.recording import Array, Index
+from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.beginnings import as_before
 from erdctl.model.c_law import CLaw
 from erdctl.model.effect import Causal, Effect, Requirement, Stage, Variable
 from erdctl.model.kernels import follow
@@ -38,22 +36,13 @@ from erdctl.model.slots import TermSlot, Values
 
 def presliding_friction(s: Signals, p: Values) -> Array:
     """(1, n) state z, the force for F_c = 1 N [1]."""
-    slid = _slid(s)
-    z = _states(s, p, slid)
-    record, again, part, travel = _again(s)
-    if len(record):
-        then = (1.0 - part) * z[again - 1] + part * z[again]
-        kept = np.exp(-travel / p["x_d"])  # of what it began with
-        first = slid.copy()
-        # Within bounds also where a step is long for x_d, and the line across it no exponential.
-        first[record] = np.clip((then - kept * slid[record]) / (1.0 - kept), -1.0, 1.0)
-        z = _states(s, p, first)
-    return z[None]
+    x_d = p["x_d"]
+    return as_before(lambda first: _states(s, x_d, first), _slid(s), s, x_d)[None]
 
 
 def slid_before(s: Signals, p: Values) -> Array:
     """(1, n) state z of records that begin in motion as ones that have slid long [1]."""
-    return _states(s, p, _slid(s))[None]
+    return _states(s, p["x_d"], _slid(s))[None]
 
 
 def _slid(s: Signals) -> Array:
@@ -61,38 +50,12 @@ def _slid(s: Signals) -> Array:
     return np.sign(s.xdot[s.starts[:-1]])
 
 
-def _states(s: Signals, p: Values, first: Array) -> Array:
+def _states(s: Signals, x_d: float, first: Array) -> Array:
     """(n,) z of records that begin with first (r,)."""
-    path, after = (distance / p["x_d"] for distance in s.path)
+    path, after = (distance / x_d for distance in s.path)
     way = np.where(s.compressing, 1.0, -1.0)
     i, _ = s.turns
     return follow(way, path, i, np.maximum(path[i] - after, 0.0), after, first, s.starts)
-
-
-@lru_cache(maxsize=4)
-def _again(s: Signals) -> tuple[Index, Index, Array, Array]:
-    """Where records that begin in motion first come by their first place again, in its direction.
-
-    Returns (k,) the records, (k,) the samples behind that, (k,) parts of the step up to it, and
-    (k,) distances travelled until then [m].
-    """
-    found = []
-    turned, path = s.turns[0], s.path[0]
-    for record, (a, b) in enumerate(pairwise(s.starts.tolist())):
-        way = np.sign(s.xdot[a])
-        turns = turned[(turned >= a) & (turned < b)] + 1
-        if way == 0.0 or len(turns) < 2:
-            continue
-        ahead = way * (s.x[turns[1] : b] - s.x[a])
-        along = way * s.xdot[turns[1] + 1 : b] > 0.0
-        passed = np.flatnonzero((ahead[:-1] < 0.0) & (ahead[1:] >= 0.0) & along)
-        if len(passed):
-            i = passed[0]
-            part, before = ahead[i] / (ahead[i] - ahead[i + 1]), turns[1] + i
-            travel = float(path[a:before].sum() + part * path[before])
-            found.append((record, before + 1, part, travel))
-    columns = np.array(found).reshape(-1, 4).T
-    return columns[0].astype(np.intp), columns[1].astype(np.intp), columns[2], columns[3]
 
 
 EFFECT = Effect(

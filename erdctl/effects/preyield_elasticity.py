@@ -27,8 +27,9 @@ import numpy as np
 from erdctl.core.quantity import Quantity, Scale
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.beginnings import as_before
 from erdctl.model.c_law import CLaw
-from erdctl.model.effect import Effect, Requirement, Stage, Variable
+from erdctl.model.effect import Causal, Effect, Requirement, Stage, Variable
 from erdctl.model.kernels import follow
 from erdctl.model.slots import HysteresisSlot, Values
 
@@ -38,10 +39,21 @@ def preyield_elasticity(sign: Array, s: Signals, p: Values) -> Array:
     x_d = p["x_d"]
     if x_d == 0.0:
         return sign
+    return as_before(lambda first: _stretched(sign, s, x_d, first), sign[s.starts[:-1]], s, x_d)
+
+
+def steady_before(sign: Array, s: Signals, p: Values) -> Array:
+    """(n,) z of records that all begin with it steady [1]."""
+    x_d = p["x_d"]
+    return sign if x_d == 0.0 else _stretched(sign, s, x_d, sign[s.starts[:-1]])
+
+
+def _stretched(sign: Array, s: Signals, x_d: float, first: Array) -> Array:
+    """(n,) z of records that begin with first (r,)."""
     path, after = (distance / x_d for distance in s.path)
     i, _ = s.turns
     before = np.maximum(path[i] - after, 0.0)
-    return follow(sign, path, i, before, after, sign[s.starts[:-1]], s.starts)
+    return follow(sign, path, i, before, after, first, s.starts)
 
 
 EFFECT = Effect(
@@ -63,6 +75,7 @@ EFFECT = Effect(
         ),
     ),
     companions=("preyield_viscosity",),
+    causal=Causal(slot=HysteresisSlot(steady_before, travel="x_d")),
     c=CLaw(
         state=("z", "past"),
         code="""
@@ -76,5 +89,6 @@ EFFECT = Effect(
                                         s->after / p->x_d);
         return z->z;
         """,
+        note="begins steady; whether the motion comes by its first place again it cannot know",
     ),
 )  # fmt: skip

@@ -118,12 +118,14 @@ class Model:
         for effect, control in self.of(ControlSlot):
             s = s.with_duty(control(s, effect.local(values)))
         scale, of_speed = product(self.scales(s, values))
+        sign, unsteady = self.sign(s, values)
         return Prepared(
             effects=self.effects,
             signals=s,
             gas=self.replaced(GasSlot, s, values, s.x),
             viscous=self.replaced(ViscousSlot, s, values, s.xdot),
-            sign=self.sign(s, values),
+            sign=sign,
+            unsteady=unsteady,
             fields=self.fields(s, values),
             lags=self._lags(s, values),
             scale=scale,
@@ -174,12 +176,13 @@ class Model:
             raise IncompatibleEffects(f"only one effect can take the place of {what}: {names}")
         return laws[0][1](s, laws[0][0].local(values)) if laws else plain
 
-    def sign(self, s: Signals, values: Values) -> Array:
-        """(n,) what stands in the place of sign(xdot), by what follows it over travel."""
-        sign = self.replaced(SignSlot, s, values, s.sign)
+    def sign(self, s: Signals, values: Values) -> tuple[Array, Array]:
+        """(n,) what stands in the place of sign(xdot), by what follows it over travel, and (r,) how
+        far that is from steady as each record begins."""
+        sign = law = self.replaced(SignSlot, s, values, s.sign)
         for effect, stretched in self.of(HysteresisSlot):
             sign = stretched(sign, s, effect.local(values))
-        return sign
+        return sign, (sign - law)[s.starts[:-1]]
 
     def fields(self, s: Signals, values: Values) -> tuple[Array, Array]:
         """(n,) normalised steady yield force for either direction, on the piston's signals."""

@@ -57,6 +57,7 @@ class Prepared:
     """A model on given signals and shape parameters; only the amplitudes are open.
 
     gas, viscous, sign : (n,) shapes in place of x, xdot and sign(xdot)
+    unsteady : (r,) how far `sign` is from its law as each record begins
     fields : (n,) normalised steady yield force for either direction
     lags : (n,) factors of T_d while the yield force rises and while it falls, or None
     scale, of_speed : (n,) factors of groups; behind a spring, those of speed follow the piston's
@@ -68,6 +69,7 @@ class Prepared:
     gas: Array
     viscous: Array
     sign: Array
+    unsteady: Array
     fields: tuple[Array, Array]
     lags: tuple[Array, Array] | None
     scale: Factors
@@ -276,7 +278,7 @@ class Prepared:
         slide = dict(self.terms)[slides[0].key(slides[1])] if slides else ones
         force, stretch, v, own = march(
             self.gas, s.x, s.xdot, s.step, rises, falls, s.starts, s.compressing, s.rests,
-            held, slide, u_c, u_r, by, gain["gas"], gain["viscous"], gain["yield"],
+            held, slide, self.unsteady, u_c, u_r, by, gain["gas"], gain["viscous"], gain["yield"],
             SpeedLaws(grid, viscous, sign, friction, factor), memory,
             k[0], k[1], T[0], T[1], spring.compliance,
             self.gap + spring.play,
@@ -289,8 +291,7 @@ class Prepared:
         """Forces by group with a compliance in series with the groups that it carries."""
         from erdctl.model.at_speed import along
 
-        s, inner = self.signals, spring.whole
-        b = self._march(values, factors, spring)
+        s, inner, b = self.signals, spring.whole, self._march(values, factors, spring)
         out = {
             "viscous": along(b.speed, b.grid, b.viscous) * b.gain["viscous"],
             "other": along(b.speed, b.grid, b.friction),

@@ -225,9 +225,9 @@ def _moved(
 def march(
     x: Array, rod: Array, xdot: Array, step: Array, rises: Array, falls: Array, starts: Index,
     compressing: npt.NDArray[np.bool_], rests: npt.NDArray[np.bool_], beside: Array, slide: Array,
-    u_c: Array, u_r: Array, by: Array, g_gas: Array, g_visc: Array, g_yield: Array, d: SpeedLaws,
-    o: Other | None, k_c: float, k_r: float, T_c: float, T_r: float, s: float, gap: float,
-    mass: float, c: float,
+    unsteady: Array, u_c: Array, u_r: Array, by: Array, g_gas: Array, g_visc: Array,
+    g_yield: Array, d: SpeedLaws, o: Other | None, k_c: float, k_r: float, T_c: float, T_r: float,
+    s: float, gap: float, mass: float, c: float,
 ) -> tuple[Array, Array, Array, Array]:  # fmt: skip
     """Force of the spring (n,) [N], its stretch (n,) [m], the speed behind it (n,) [m/s], and (n,)
     what the piston's own motion adds to `beside` [N].
@@ -235,6 +235,7 @@ def march(
     x : (n,) in place of the deflection in the gas force;  rod, xdot : (n,) motion of the rod
     beside : (n,) forces of the damper that this makes [N];  slide : (n,) part of the friction that
         would follow its direction, of which a record begins with the first
+    unsteady : (r,) how far the hysteretic variable is from its law as a record begins
     u_c, u_r : (n,) steady yield force in either direction;  by : (n,) see `SignSlot`
     g_ : (n,) factors of the groups;  k_c, k_r : gas stiffness behind the spring
     s : compliance [m/N] > 0;  gap : free play [m]
@@ -264,7 +265,8 @@ def march(
         sheared = v if o is None else (v + o.lead * rod[first]) / by[first]
         law = value(d.sign, d.grid, sheared, way)
         smooth = law - (1.0 if sheared > 0.0 else -1.0) * 0.5 * (d.sign[0, 0] - d.sign[1, 0])
-        was = y * law
+        h = law + unsteady[r]
+        was = y * h
         if still:  # what rubs holds what it can of them
             held = g_yield[first] * d.factor[:, 0] * d.sign[:, 0]
             most, least = u_c[first] * held[0], u_r[first] * held[1]
@@ -274,7 +276,7 @@ def march(
             other += value(d.viscous, d.grid, v, way) * g_visc[first]
             other += was * g_yield[first] * value(d.factor, d.grid, v, way)
             other += value(d.friction, d.grid, v, way)
-        was, smooth, h = (0.0, 0.0, 0.0) if still else (was, smooth, law)
+        was, smooth, h = (0.0, 0.0, 0.0) if still else (was, smooth, h)
         soft = s / (1.0 + c * s / BEGUN)
         F = (k * x[first] + other) / (1.0 + k * soft)
         near, rate = np.searchsorted(d.grid, abs(v)) - 1, 0.0

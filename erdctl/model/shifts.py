@@ -139,5 +139,6 @@ class Shifts:
         if isinstance(slot, ViscousSlot):
             return replace(p, viscous=self.model.replaced(ViscousSlot, s, values, s.xdot))
         if isinstance(slot, SignSlot | HysteresisSlot):
-            return replace(p, sign=self.model.sign(s, values))
+            sign, unsteady = self.model.sign(s, values)
+            return replace(p, sign=sign, unsteady=unsteady)
         return p

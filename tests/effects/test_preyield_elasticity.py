@@ -34,7 +34,7 @@ def test_force_equals_an_ode_solver(rate: float, x_d: float) -> None:
     found = force("preyield_elasticity", s, {"x_d": x_d}, k_nom=0.0, c_vis=0.0)
     w = 2 * np.pi * frequency
     turns = (np.arange(6) * 2 + 1) / (4 * frequency)
-    F, way, expected = Y, 1.0, [Y]
+    F, way, expected = found[0], 1.0, [found[0]]
     for a, b in pairwise([0.0, *turns, s.t[-1]]):
         inside = s.t[(s.t > a) & (s.t <= b)]
         if b > a:
@@ -100,3 +100,22 @@ def test_a_step_of_the_control_acts_on_what_is_stretched(s_m: float) -> None:
     found = Model(tuple(get(name) for name in names)).force(s, values)
     error = (found - by_hand)[500:]
     assert np.sqrt(np.mean(error**2)) < 4e-3 * np.ptp(by_hand)
+
+
+@pytest.mark.parametrize("s_m", [0.0, 2e-6])
+@pytest.mark.parametrize("first", [0, 31, 60, 77])
+def test_a_record_begins_as_if_its_motion_had_gone_on_before(first: int, s_m: float) -> None:
+    """Of a long sine the part from the sample `first` of its third cycle on, and that alone. It
+    began with z steady: of a damper with 5 mm of travel the second after was off by a fifth of the
+    force, and a threshold of the field was named that took the yield force away there."""
+    long = sine(1.0, 0.01, 6.0, 100.0, duty=0.3)
+    a = 200 + first
+    alone = signals(long.xdot[a:], x=long.x[a:], step=0.01, duty=long.duty[a:])
+    model = Model((get("preyield_elasticity"), get("mount_compliance")))
+    values = APART | {"preyield_elasticity.x_d": 0.02, "mount_compliance.s_m": s_m}
+    values["release.sigma"] = values["compression.sigma"]  # so that F_ER is steady
+    whole, cut = (model.force(s, values) for s in (long, alone))
+    close = 0.03 * np.ptp(whole)
+    assert cut == pytest.approx(whole[a:], abs=close)
+    blind = model.past_alone().force(alone, values)  # as `simulate` and C, which see no future
+    assert np.abs(blind[:20] - whole[a : a + 20]).max() > 3.0 * close
