@@ -21,6 +21,7 @@ from erdctl.diagnose.forward_step import Exploration
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.record_levels import with_levels
+from erdctl.estimate.linearisation import jacobian
 
 
 def beyond_levels(
@@ -36,8 +37,8 @@ def beyond_levels(
         return True
     weight = np.minimum(worse.problem.block.weight, better.problem.block.weight)
     before, after, least = (float(np.dot(weight, h.residual**2)) for h in (worse, better, own[1]))
-    extra = len(better.model.quantities) - len(worse.model.quantities)
     records = len(problem.recording.names)
+    extra = _more_parameters(worse, better)
     return _chance(before, after, least, extra, records) < thresholds.CHANCE_OF_LEVELS
 
 
@@ -52,6 +53,21 @@ def not_of_records(x: Exploration, best: Hypothesis) -> Hypothesis:
             break
         best = ranked(labels)[0]
     return best
+
+
+def _more_parameters(worse: Hypothesis, better: Hypothesis) -> int:
+    """How many more parameters one has that the force depends on, at least one.
+
+    A lag under a control that every record holds takes nothing of any level.
+    """
+    quantities = better.model.quantities
+    new = [n for n in quantities if n not in worse.model.quantities]
+    block = better.problem.block
+    J = jacobian(better.model, block.signals, better.values, new)
+    sizes = [max(abs(better.values[n]), abs(quantities[n].start)) for n in new]
+    moved = np.sqrt(J**2 @ block.weight) * sizes
+    least = thresholds.MOVES * np.sqrt(float(np.dot(block.weight, block.force**2)))
+    return max(int(np.count_nonzero(moved > least)), 1)
 
 
 def _chance(before: float, after: float, least: float, extra: int, records: int) -> float:

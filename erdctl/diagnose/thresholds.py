@@ -69,6 +69,11 @@ CV_RIDGE = 0.05
 # them share would be no more than chance.
 CHANCE_OF_LEVELS, LEVELS_FROM = 2.5e-4, 5
 
+# Part of the force by which a change of a parameter as large as itself must change it.
+# Decides: whether a parameter counts as one that could take of the levels of records.
+# Origin: none; far above rounding, far below what shows.
+MOVES = 1e-6
+
 # Part of the mean square left that a gain and a zero of each record take.
 # Decides: whether that is said.
 # Origin: most of it; of six nulls of the plant, white, AR(1) and pink, the most had 0.06.

@@ -80,9 +80,8 @@ def _left(found: Diagnosis) -> str:
             f" {bench.steps}{_hum(left)}"
         )
     if cut or found.verdict is not Verdict.UNEXPLAINED:
-        rms = f"{found.carried.overall.rms:.3g} N rms"
-        rest = f"what remains, {rms}, is noise as far as these data tell{_hum(left)}"
-        rest += _of_records(found) + _begins(found) + _withdrawn(found)
+        rest = _noise(found) + _hum(left) + _of_records(found) + _begins(found)
+        rest += _withdrawn(found)
         if cut:
             limits = "; ".join(f.text for f in found.rig.cut)
             rest += f"; of what lay beyond a limit the log tells nothing: {limits}"
@@ -129,6 +128,20 @@ def _left(found: Diagnosis) -> str:
     words += sets_in_once_text(found) or _of_records(found)
     words += _hum(left) + _withdrawn(found)
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
+
+
+def _noise(found: Diagnosis) -> str:
+    """That what is left is noise, or nearly so beside all that was missing."""
+    left, rms = found.lack_of_fit, f"{found.carried.overall.rms:.3g} N rms"
+    noise, misfit = left.noise_rms, left.misfit_rms
+    if not left.significant or misfit <= thresholds.MISFIT_OVER_NOISE * noise:
+        return f"what remains, {rms}, is noise as far as these data tell"
+    share = misfit**2 / max(found.selection.base.score - noise**2, 1e-300)
+    return (
+        f"what remains, {rms}, is a noise of {noise:.3g} N and {misfit:.3g} N that motion and duty"
+        f" still predict, {100 * share:.2g} % of the square of what was missing: too little beside"
+        " that for a name"
+    )
 
 
 def _of_records(found: Diagnosis) -> str:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
+import literature_dampers
 import numpy as np
 import pytest
 import trajectories
@@ -20,6 +22,7 @@ from erdctl.diagnose.told import as_told
 from erdctl.diagnose.wording import remaining_text
 from erdctl.effects import get
 from erdctl.estimate.starts import fresh_start
+from erdctl.io.logs import read_logs
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 from erdctl.model.learned.curve import Curve
@@ -159,3 +162,21 @@ def test_levels_of_a_record_with_few_samples_of_weight_speak_against_nothing() -
     paper, rubbing = fit(problem), fit(problem, get("coulomb_friction"))
     assert compare_alike(problem, paper, rubbing).significant
     assert beyond_levels(problem, paper, rubbing)
+
+
+def test_a_lag_under_a_held_duty_is_no_parameter_that_takes_of_levels(tmp_path: Path) -> None:
+    """Dahl's damper in eight records, each with one duty of three: 43 % of the mean square, down
+    to the noise, was held for chance: the lag of the viscosity counted, which no held duty shows.
+    """
+    file = tmp_path / "dahl.parquet"
+    literature_dampers.log("dahl", 50, random=False).to_parquet(file)
+    problem = prepare(read_logs([str(file)], need_force=True, report=lambda line: None).recording)
+    paper, stretches = fresh_start(0.05, 0.4), {"preyield_elasticity.x_d": 2e-4}
+    steady = fit_hypothesis(problem, (get("preyield_elasticity"),), [{**paper, **stretches}])
+    growing = fit_hypothesis(
+        problem, (get("preyield_elasticity"), get("field_viscosity")),
+        [{**steady.values, "field_viscosity.r": 0.6, "field_viscosity.m": 2.0,
+          "field_viscosity.T_v": 0.02}],
+    )  # fmt: skip
+    assert compare_alike(problem, steady, growing).significant
+    assert beyond_levels(problem, steady, growing)
