@@ -107,8 +107,19 @@ def bleed_valve(k: Varied) -> Damper:
 DAMPERS = {d.__name__: d for d in (dahl, lugre, spencer, biviscous, bleed_valve)}
 
 
-def log(name: str, seed: int, *, random: bool, drive: int = 0, records: int = 8) -> pd.DataFrame:
-    """A log [8 times 10 s] of damper number `seed`; another `drive` has other motions."""
+def log(
+    name: str,
+    seed: int,
+    *,
+    random: bool,
+    drive: int = 0,
+    records: int = 8,
+    measured: bool = False,
+) -> pd.DataFrame:
+    """A log [8 times 10 s] of damper number `seed`; another `drive` has other motions.
+
+    measured : a deflection of 12 bits with half a bit of noise, and no velocity beside it
+    """
     values = np.random.default_rng([seed, *name.encode()])
     damper = DAMPERS[name](lambda value: value * float(np.exp(values.normal(0.0, 0.15))))
     g = np.random.default_rng([seed, drive, random, records])
@@ -124,7 +135,12 @@ def log(name: str, seed: int, *, random: bool, drive: int = 0, records: int = 8)
     x, v, u = (signal[:, t >= 0.0][:, ::every] for signal in (x, v, u))
     rows = {"t": np.tile(np.arange(x.shape[1]) / RATE, records), "x": x, "xdot": v, "duty": u}
     table = pd.DataFrame({key: np.ravel(value) for key, value in rows.items()})
-    return table.assign(force=force.ravel(), record=np.repeat(names, x.shape[1]))
+    table = table.assign(force=force.ravel(), record=np.repeat(names, x.shape[1]))
+    if measured:
+        bit = 2.0 * 1.2 * damper.stroke / 4096
+        table["x"] = bit * np.round(table["x"] / bit + 0.5 * g.normal(size=len(table)))
+        table = table.drop(columns="xdot")
+    return table
 
 
 def _grown(t: Array) -> tuple[Array, Array]:

@@ -4,6 +4,7 @@ asked for both kinds, other drives than those fitted; beside an expert's models 
 
     PYTHONPATH=.:tests python tests/diagnose/measure_literature_dampers.py FIRST END [NAME ...]
 
+With `measured` among the names logs have a deflection of 12 bits and no velocity.
 NRMSE over the range of the force of the drive that is asked for, whose noise is in it, without the
 first second of each record: what was before it no model knows.
 """
@@ -40,15 +41,15 @@ def error(r: Recording, force: Array) -> float:
     return rms / float(np.ptp(r.force))
 
 
-def row(name: str, seed: int, *, random: bool) -> str:
-    fitted = read(literature_dampers.log(name, seed, random=random))
+def row(name: str, seed: int, *, random: bool, measured: bool = False) -> str:
+    fitted = read(literature_dampers.log(name, seed, random=random, measured=measured))
     found = diagnose(fitted, catalogue(), limits=False)
     end = found.selection if found.learned is None else found.learned.selection
     laws = [law.law.name for law in found.learned.laws] if found.learned is not None else []
     said = "; ".join([", ".join(f.effect.name for f in found.findings), *laws])
     lines = [f"{name} {seed} {'rides' if random else 'sines'}: {found.verdict.value} [{said}]"]
     for other in (True, False):
-        held = read(literature_dampers.log(name, seed, random=other, drive=1))
+        held = read(literature_dampers.log(name, seed, random=other, drive=1, measured=measured))
         by_hand, force = expert(fitted, held)
         boxes = black_boxes(fitted, held, found.selection.base).items()
         lines.append(
@@ -63,10 +64,12 @@ def row(name: str, seed: int, *, random: bool) -> str:
 
 def main(first: int, end: int, *names: str) -> None:
     warnings.simplefilter("ignore")  # networks that have not converged
+    measured = "measured" in names
+    asked = [name for name in names if name != "measured"] or literature_dampers.DAMPERS
     for seed in range(first, end):
-        for name in names or literature_dampers.DAMPERS:
+        for name in asked:
             for random in (True, False):
-                print(row(name, seed, random=random), flush=True)
+                print(row(name, seed, random=random, measured=measured), flush=True)
 
 
 if __name__ == "__main__":
