@@ -91,6 +91,21 @@ def biviscous(k: Varied) -> Damper:
     return Damper(2, law, 0.012, 3.0)
 
 
+def kwok(k: Varied) -> Damper:
+    """Kwok et al. 2006: F = c xdot + k x + alpha tanh(beta xdot + delta sign(x)), in its values."""
+    c, x_k, alpha = (k(1232.0), k(1929.0)), k(5100.0), (k(32.0), k(918.0), k(244.0))
+    beta, delta = k(100.0), (k(0.58), k(0.3))
+
+    def law(s: Array, x: Array, v: Array, u: Array) -> tuple[Array, Array]:
+        q = s[0]
+        z = np.tanh(beta * v + (delta[0] + delta[1] * q) * np.sign(x))
+        force = (c[0] + c[1] * q) * v + x_k * x
+        force = force + (alpha[0] + alpha[1] * q - alpha[2] * q * q) * z
+        return np.array([(u - q) / 0.02]), force
+
+    return Damper(1, law, 0.012, 2.0)
+
+
 def bleed_valve(k: Varied) -> Damper:
     """A velocity curve with a knee, other in release, the field beside it, in series with oil."""
     slow, fast, knee, F, apart = k(2500.0), k(600.0), k(0.1), k(900.0), k(1.5)
@@ -104,7 +119,7 @@ def bleed_valve(k: Varied) -> Damper:
     return Damper(2, law, 0.02, 2.0)
 
 
-DAMPERS = {d.__name__: d for d in (dahl, lugre, spencer, biviscous, bleed_valve)}
+DAMPERS = {d.__name__: d for d in (dahl, lugre, spencer, biviscous, kwok, bleed_valve)}
 
 
 def log(

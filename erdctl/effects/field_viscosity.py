@@ -85,6 +85,8 @@ EFFECT = Effect(
         ),
     ),
     guesses=doubled,
+    # What yields and what flows each have a part without the field, beside the one that grows.
+    companions=("coulomb_friction",),
     c=CLaw(
         state=("field",),
         code="""
