@@ -58,9 +58,14 @@ def seems_no_scatter(best: Hypothesis, fault: Effect, f: float, having: Sequence
 
 
 def telling(best: Hypothesis, fault: Effect) -> tuple[int, ...]:
-    """Records that show a force which a fault takes a part of; best : with the fault."""
-    G, p = _products(best, fault)
-    return tuple(np.flatnonzero(_told(G, p)).tolist())
+    """Records that would show a force without the fault, which takes a part of it, or all.
+
+    best : with the fault
+    """
+    block = best.problem.block
+    force = _failing(best, fault, {**best.values, **fault.off})
+    power = np.add.reduceat(block.weight * force**2, block.signals.starts[:-1])
+    return tuple(np.flatnonzero(_tells(power)).tolist())
 
 
 def _scatter(best: Hypothesis, fault: Effect, having: Index) -> tuple[float, int]:
@@ -117,7 +122,10 @@ def _failing(best: Hypothesis, fault: Effect, values: Values) -> Array:
 
 def _told(G: Array, p: int) -> npt.NDArray[np.bool_]:
     """Which records say something of a gain."""
-    power = np.diag(G)[p:-1]
+    return _tells(np.diag(G)[p:-1])
+
+
+def _tells(power: Array) -> npt.NDArray[np.bool_]:
     return np.asarray(power > thresholds.TELLS_A_GAIN * power.max())
 
 

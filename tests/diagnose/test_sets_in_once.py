@@ -17,7 +17,7 @@ from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
 from erdctl.diagnose.hypothesis import fit_hypothesis
 from erdctl.diagnose.one_after_another import with_a_fault_once
 from erdctl.diagnose.problem import prepare
-from erdctl.diagnose.records_with_a_fault import apart
+from erdctl.diagnose.records_with_a_fault import apart, telling
 from erdctl.diagnose.residual.predictability import lack_of_fit_of
 from erdctl.diagnose.sets_in_once import SetsInOnce, sets_in_once
 from erdctl.diagnose.wording import remaining_text
@@ -280,3 +280,18 @@ def test_where_it_stays_the_first_that_tells_of_it_has_it_from_its_beginning() -
         (3, 4, 5), True, (30.0, 30.0), True
     )  # fmt: skip
     assert found.of_those((0, 2), begins) is found
+
+
+def test_a_record_of_which_a_fault_takes_all_tells_of_it(recordings: Any) -> None:
+    """There is no force left in it whose gain could be told; without the fault there would be."""
+    recording = recordings("electrical_fault", (NEVER, NEVER, 0.0, NEVER), 75, 0.0)
+    fault = get("electrical_fault")
+    order = (0, 1, 3, 2)
+    ordered = recording.select(order)
+    problem = prepare(replace(ordered, t=running_time(ordered.t, ordered.starts)))
+    begin = float(problem.recording.t[problem.recording.starts[3]])
+    start = {name: q.start for name, q in Model((fault,)).quantities.items()}
+    onset = {"electrical_fault.f": 0.0, "electrical_fault.t_0": begin, "electrical_fault.t_r": 0.0}
+    best = fit_hypothesis(problem, (fault,), [start | onset], 1)
+    assert best.values["electrical_fault.f"] == pytest.approx(0.0, abs=1e-6)
+    assert [order[k] for k in telling(best, fault)] == list(order)
