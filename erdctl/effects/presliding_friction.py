@@ -5,9 +5,9 @@
 x, xdot : stroke and speed of the piston [m], [m/s];  z : (n,) state, -1..1 [1]
 F_c : friction [N], F_c >= 0, off at 0;  x_d : pre-sliding distance [m], > 0
 Solved exactly along |x|, each side of a reversal for itself. A record that begins in motion has
-the z with which it comes by that place again in that direction, after two reversals at least, as if
-that had gone on before; where it never does, it has slid long (z = sign(xdot)). One that begins at
-rest has no force in its seal (z = 0).
+the z with which it comes by that place again in that direction, about as fast, after two reversals
+at least, as if that had gone on before; where it never does, it has slid long (z = sign(xdot)). One
+that begins at rest has no force in its seal (z = 0).
 Valid for rate-independent seals; LuGre adds a fall of friction with speed.
 In `simulate` and C, which know the past alone, a motion that goes on begins as one that has slid
 long; a fit looks where it comes by its first place again.

@@ -8,7 +8,9 @@ Valid where chains stretch before they break, and modulus and yield stress follo
 z is a matter of travel, where a lag is one of time, and a step of the control acts on what is
 stretched as on what yields. The Bouc-Wen loop with n = 1 and beta = 0, its height the yield force.
 Solved exactly along |x| for an input that is a straight line between samples, or, in a step in
-which the piston turns, jumps where it does. A record begins with z steady.
+which the piston turns, jumps where it does. A record that begins in motion has the z with which
+it comes by that place again, about as fast, or z steady where it never does; in `simulate` and C,
+which know the past alone, steady.
 Check: x_d = 0.1 mm: 0.1 mm after a reversal z = 1 - 2 exp(-1) = 0.2642.
 >>> s = signals([-0.1, 0.0, 0.1], step=2e-3)  # the reversal at the second sample
 >>> preyield_elasticity(np.array([-1.0, -1.0, 1.0]), s, {"x_d": 1e-4}).round(4).tolist()
