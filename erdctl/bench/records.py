@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from erdctl.bench.gaps import gaps_of
 from erdctl.core.quantiles import median
 from erdctl.core.recording import CHANNELS, Array, Recording
 from erdctl.core.stretches import Stretch
-
-GAP = 1.5  # steps of a record; a longer one has lost samples
 
 
 @dataclass(frozen=True)
@@ -113,14 +112,15 @@ def _record(name: str, t: Array, steps: Array, before: RecordSummary | None) -> 
             gap_at=None, last=float(t[-1]),
         )  # fmt: skip
     step = median(steps) if before is None else before.usual
-    long = steps > GAP * step
-    gaps = int(np.count_nonzero(long))
+    # Of a part the step to the sample ahead is one more.
+    found = gaps_of(t if len(t) > len(steps) else np.append(t, t[-1] + steps[-1]), steps, step)
+    gaps = len(found.at)
     # Rounded times make no gaps, so most records need no copy of their steps.
-    even = steps if gaps == 0 else steps[~long]
+    even = np.delete(steps, found.at) if gaps else steps
     away = 0.0
     if len(even):
         away = max(float(even.max()) - step, step - float(even.min())) / step
-    at = int(steps.argmax()) if gaps else None
+    at = int(found.at[steps[found.at].argmax()]) if gaps else None
     length = float(np.sum(steps)) if before is not None else float(t[-1] - t[0])
     return RecordSummary(
         name=name,
@@ -129,8 +129,8 @@ def _record(name: str, t: Array, steps: Array, before: RecordSummary | None) -> 
         step=step if gaps else length / len(steps),
         jitter=max(away, 0.0),
         gaps=gaps,
-        missing=int((np.round(steps[long] / step) - 1.0).sum()) if gaps else 0,
-        longest_gap=float(steps.max()) if gaps else 0.0,
+        missing=int(found.lost.sum()),
+        longest_gap=float(steps[found.at].max()) if gaps else 0.0,
         gap_at=None if at is None else float(t[at]),
         x=_NONE, xdot=_NONE, duty=_NONE, force=None, temperature=None,
         usual=step, first=float(t[0]), last=float(t[-1]),

@@ -190,7 +190,7 @@ def diagnose(
         if once and not free:
             fault = sets_in_once(selection.best, testable, lack_of_fit.misfit_rms)
         if selection.named and _matters(problem, selection, lack_of_fit):
-            part = part_taken(selection, lack_of_fit)
+            part = part_taken(selection, lack_of_fit, fault)
             if not earned(part):
                 withdrawn, found, taken = selection.named, (), part
                 selection, kept = selection.nothing, kept.nothing

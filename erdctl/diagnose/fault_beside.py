@@ -48,11 +48,6 @@ class FaultBeside:
         """Whether no misfit shows with it."""
         return not lack_of_fit_of(self.hypothesis).significant
 
-    @property
-    def rms(self) -> float:
-        """Of all that is left [N]."""
-        return float(np.sqrt(np.mean(self.hypothesis.residual**2)))
-
 
 def fault_beside(
     problem: Problem, named: Hypothesis, kinds: Iterable[Effect], recording: Recording

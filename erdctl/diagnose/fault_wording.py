@@ -55,7 +55,7 @@ def sets_in_once_text(found: Diagnosis) -> str:
     elif not once.whole and once.records == (once.record,):
         said += f"; for a law from that record alone: --where record={names[once.record]}"
     return (
-        f"; {said}; with it{also}, of {found.carried.overall.rms:.3g} N rms"
+        f"; {said}; with it{also}, of {found.selection.best.rms:.3g} N rms"
         f" {once.confirmed.rms:.3g} remain, and that {rest}"
     )
 

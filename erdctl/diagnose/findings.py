@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,13 +10,14 @@ import numpy as np
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import Comparison, compare
 from erdctl.diagnose.discriminating_drive import DiscriminatingDrive, discriminating_drive
-from erdctl.diagnose.hypothesis import Hypothesis
+from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.localisation import Region
 from erdctl.diagnose.residual.places import acting
-from erdctl.diagnose.residual.predictability import LackOfFit
+from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_of
 from erdctl.diagnose.resolved import away_from_turns
 from erdctl.diagnose.search import Selection
+from erdctl.diagnose.sets_in_once import SetsInOnce
 from erdctl.model.effect import Effect
 
 
@@ -101,13 +103,17 @@ def _left(hypothesis: Hypothesis) -> float:
     return float(np.average(hypothesis.cross_validated**2, weights=weight))
 
 
-def part_taken(selection: Selection, left: LackOfFit) -> float:
+def part_taken(selection: Selection, left: LackOfFit, fault: SetsInOnce | None = None) -> float:
     """The part of the misfit's square, beyond noise, that the chosen effects take [1].
 
     What stays in a record that is unlike the others acts there alone, and says nothing of what is
-    chosen for the others, however large it is.
+    chosen for the others, however large it is; nor does what a fault that sets in once leaves of
+    its records, and what it does to the fit of all.
     """
     both = selection.base, selection.best
+    if fault is not None and (others := fault.order[: fault.first]):
+        both = _of_records(both[0], others), _of_records(both[1], others)
+        left = lack_of_fit_of(both[1])
     weight = np.minimum(*(h.problem.block.weight for h in both))
     if left.loud is not None:
         weight = np.where(left.loud > 0.0, 0.0, weight)
@@ -116,6 +122,12 @@ def part_taken(selection: Selection, left: LackOfFit) -> float:
     before, after = (float(np.average(h.cross_validated**2, weights=weight)) for h in both)
     misfit = before - left.noise_rms**2
     return (before - after) / misfit if misfit > 0.0 else 1.0
+
+
+def _of_records(hypothesis: Hypothesis, records: Sequence[int]) -> Hypothesis:
+    """The same, fitted to some of the records."""
+    problem, start = hypothesis.problem.of(sorted(records)), hypothesis.values
+    return fit_hypothesis(problem, hypothesis.effects, [start], thresholds.STEPS_AGAIN)
 
 
 def earned(part: float) -> bool:

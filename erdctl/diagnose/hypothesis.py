@@ -87,6 +87,11 @@ class Hypothesis:
         return slips(self.model, [block], [finer], self.values, self.free)
 
     @property
+    def rms(self) -> float:
+        """Of what it leaves of these samples, by their weights [N]."""
+        return float(np.sqrt(np.average(self.residual**2, weights=self.problem.block.weight)))
+
+    @property
     def score(self) -> float:
         """Cross-validated mean square [N^2], on the hypothesis's own samples."""
         return float(np.average(self.cross_validated**2, weights=self.problem.block.weight))

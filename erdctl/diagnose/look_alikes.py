@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import compare, ranked
 from erdctl.diagnose.executor import Task
@@ -94,7 +92,7 @@ def look_alikes(
 
 def _taken(rest: Hypothesis, best: Hypothesis) -> float:
     """Part of the mean square of what a smaller hypothesis leaves that the best one takes."""
-    left = [np.average(h.residual**2, weights=h.problem.block.weight) for h in (best, rest)]
+    left = [h.rms**2 for h in (best, rest)]
     return float(1.0 - left[0] / max(left[1], 1e-300))
 
 

@@ -77,7 +77,7 @@ def _named(
         alike=finding.equivalent,
         beside=tuple(f.effect.name for f in again.findings if f is not finding),
         explained=again.verdict is not Verdict.UNEXPLAINED,
-        rms=again.carried.overall.rms,
+        rms=again.selection.best.rms,
     )
     left = parameters(again).estimates[fault.key(AMOUNT)].value
     named = replace(once, effect=fault, f=onset.f if left is None else left, confirmed=confirmed)
@@ -97,7 +97,7 @@ def _beside(found: Diagnosis, once: SetsInOnce, ordered: Recording) -> SetsInOnc
         alike=fault.alike,
         beside=tuple(e.name for e in found.selection.named),
         explained=fault.explained,
-        rms=fault.rms,
+        rms=fault.hypothesis.rms,
     )
     named = replace(once, effect=fault.effect, f=fault.onset.f, confirmed=confirmed)
     named_in = named.set_in(found.problem.recording, ordered.t, fault.at, fault.onset)

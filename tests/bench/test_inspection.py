@@ -78,12 +78,13 @@ def test_missing_samples_are_counted(lost: set[int]) -> None:
     assert record.gap_at in [pytest.approx(whole.t[r[0] - 1]) for r in runs]
 
 
-def test_jitter_is_no_gap() -> None:
+@pytest.mark.parametrize("steps", [0.2, 0.3, 0.45])
+def test_jitter_is_no_gap(steps: float) -> None:
     r = one()
-    t = r.t + np.random.default_rng(2).uniform(-1e-3, 1e-3, len(r))
+    t = r.t + 5e-3 * np.random.default_rng(2).uniform(-steps, steps, len(r))
     (record,) = inspect(replace(r, t=t), []).records
     assert record.gaps == 0
-    assert 0.3 < record.jitter <= 0.4
+    assert 1.5 * steps < record.jitter <= 2.01 * steps
 
 
 @pytest.mark.parametrize("rms", [0.05, 0.3, 2.0])

@@ -66,8 +66,9 @@ def _works(piece: Piece, channel: str, a: int, b: int) -> bool:
             ((v > 0).any() and (v < 0).any()) or np.ptp(x) > 0.2 * piece.stroke
         )
     if piece.recording.xdot_note == "measured":
-        travelled = float(np.abs(np.sum(piece.xdot[a : b - 1] * np.diff(piece.t[a:b]))))
-        return travelled > MOVED * piece.stroke
+        # To and fro as well: a channel may have stood at a limit over a whole turn.
+        travelled = np.cumsum(np.append(0.0, piece.xdot[a : b - 1] * np.diff(piece.t[a:b])))
+        return float(np.ptp(travelled)) > MOVED * piece.stroke
     force = piece.recording.force
     if force is None or np.ptp(piece.of("duty")[a:b]) > 0:
         return False

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from erdctl.bench.gaps import GAP, gaps_of
 from erdctl.bench.rig.fault import RigFault, marked
 from erdctl.bench.rig.pieces import Piece, resolution, widened
 from erdctl.core.quantiles import median
 
-GAP = 1.5  # steps
 SIGMAS = 10.0
 STEPS = 0.7  # of what the piston moves in a step at its effective speed
 RARE = 0.005
@@ -21,19 +21,16 @@ def gaps(found: Sequence[Piece]) -> list[RigFault]:
     out = []
     for p in found:
         steps = np.diff(p.t)
-        long = np.flatnonzero(steps > GAP * p.step)
-        if not len(long) or len(long) > 0.02 * len(p):
+        at, lost = gaps_of(p.t, steps, p.step)
+        if not len(at) or len(at) > 0.02 * len(p):
             continue
-        lost = int(np.round(steps[long] / p.step - 1.0).sum())
-        if not lost:
-            continue
-        at = int(long[steps[long].argmax()])
+        longest = int(at[steps[at].argmax()])
         out.append(
             RigFault(
                 "samples_missing",
                 p.record,
-                f"{lost} samples are missing in {len(long)} gaps of the time, the longest of"
-                f" {1e3 * steps[at]:.4g} ms at t = {p.t[at]:.6g} s",
+                f"{lost.sum()} samples are missing in {len(at)} gaps of the time, the longest of"
+                f" {1e3 * steps[longest]:.4g} ms at t = {p.t[longest]:.6g} s",
                 "the time is right, so fits go on; record at a rate that the recorder can keep",
             )
         )

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from erdctl.bench.rig.fault import RigFault, marked
-from erdctl.bench.rig.pieces import NEAR, Piece, largest_near, spread, widened
+from erdctl.bench.rig.pieces import NEAR, Piece, largest_near, resolution, spread, widened
 from erdctl.core.quantiles import median, medians, percentiles
 from erdctl.core.recording import Array, Index, Recording
 
@@ -17,6 +17,7 @@ SIGMAS = 8.0
 OVER = 3.0  # times what its surroundings vary by: noise with a memory has peaks, too
 RANGE = 0.04  # of the channel's range
 RANGE_X = 0.004  # the same of x, of which smaller ones harm
+COUNTS = 2.5  # steps of the recorder, of which one may flicker
 IN_STEPS = 1.5  # of what x rises in its steepest step there; a derived velocity smears a motion
 # Samples of all spikes, and the part of the stroke that most are within.
 RECURRING, ONE_PLACE, MOSTLY = 20, 0.1, 0.95
@@ -80,7 +81,8 @@ def _spikes(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault]) -
             # Where the piston turns, or touches rest, a sound force jumps there and back.
             away = ~(p.turning(WIDE + 1) | p.stepped(2 * NEAR))[at]
             at, height = at[away], height[away]
-        least = np.full(len(at), (RANGE if channel == "force" else RANGE_X) * width)
+        lowest = (RANGE if channel == "force" else RANGE_X) * width
+        least = np.full(len(at), max(lowest, COUNTS * resolution(p.of(channel))))
         if channel == "x":
             least = np.maximum(least, SIGMAS * p.unresolved[at])
             in_a_step = largest_near(np.abs(p.beyond), WIDE)[at]

@@ -37,6 +37,7 @@ PER_CYCLE = 24  # samples, of which the jumps at two reversals take a third of t
 GAIN, OFFSET, NOISE = 0.12, 0.04, 3.5  # least change: of 1, of the force's range, of the noise
 GROSS, UNCERTAIN = float(np.log(100.0)), 4.0  # a factor that no test has; one that it may have
 EXPLAINED, LIKE_OTHERS = 0.8, 1.5  # part of the misfit that a gain takes; times the others' rest
+BEYOND = 2.5  # times what a model misses of the others, which of a weak record may be all of it
 # Columns of the spring with the zero, of the viscous, and of the yield force with friction; the
 # part of a force from which a term is strong; the part of its change by which its gain may differ.
 TERMS = ([0, 1, 2], [3, 4], [5, 6, 7])
@@ -193,9 +194,11 @@ def _only_gain(rows: Sequence[Rows], index: int, ratio: float) -> bool:
     if abs(gain - ratio) > SAME_GAIN * abs(gain - 1.0):
         return False
     before, after = misfit(r, 1.0), misfit(r, gain)
+    missed = median([misfit(o, 1.0) for o in others])
     # What the model misses is multiplied as well; noise may come behind the amplifier.
-    usual = max(abs(gain) * median([misfit(o, 1.0) for o in others]), r.piece.noise("force")[0])
-    return after < LIKE_OTHERS * usual and after**2 < (1.0 - EXPLAINED) * before**2
+    usual = max(abs(gain) * missed, r.piece.noise("force")[0])
+    taken = after < LIKE_OTHERS * usual and after**2 < (1.0 - EXPLAINED) * before**2
+    return taken and before > BEYOND * missed
 
 
 def _one_gain(r: Rows, theta: Array) -> bool:
@@ -239,8 +242,14 @@ def _zeroed(rows: Sequence[Rows]) -> RigFault | None:
 def _only_zero(rows: Sequence[Rows], index: int) -> bool:
     """Whether a constant is most of what a record has beside a model of the others.
 
-    A zero moves all of a force; physics that is missing leaves a mean here and there as well.
+    A zero moves all of a force; physics that is missing leaves a mean here and there as well, and
+    where a gas is compressed a mean that a curve over the deflection makes.
     """
     r = rows[index]
     rest = (r.force - r.columns @ of_others(rows, index))[r.smooth]
-    return len(rest) > 0 and float(np.var(rest)) < (1.0 - ZERO_EXPLAINED) * float(np.mean(rest**2))
+    if not len(rest) or np.var(rest) > (1.0 - ZERO_EXPLAINED) * np.mean(rest**2):
+        return False
+    x = r.columns[r.smooth, 1] + r.columns[r.smooth, 2]
+    x = (x - x.mean()) / max(float(np.std(x)), 1e-12)
+    flat = np.linalg.lstsq(np.column_stack([np.ones_like(x), x, x * x]), rest, rcond=1e-9)[0][0]
+    return bool(flat / np.mean(rest) > ZERO_EXPLAINED)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from places import FIXTURES, SHARED
@@ -108,6 +110,24 @@ def test_spoiled_samples_have_no_weight(good: Recording) -> None:
     total = sum(float(b.weight.sum()) for b in pieces(kept, longest=500))
     plain = sum(float(b.weight.sum()) for b in pieces(good, longest=500))
     assert plain - 1.1 * np.count_nonzero(frozen) <= total < plain
+
+
+def test_a_deflection_that_stood_at_a_limit_over_one_turn(good: Recording) -> None:
+    """It went as far beyond as it came back, so that nothing seemed to move; once is no range."""
+    part = good.slices[chosen(good)]
+    x = good.x.copy()
+    top = part.start + int(np.argmax(x[part]))
+    limit = float(x[part].max()) - 0.2 * float(np.ptp(x))
+    first, last = top, top
+    while x[first - 1] > limit:
+        first -= 1
+    while x[last + 1] > limit:
+        last += 1
+    x[first : last + 1] = limit
+    rig = look(replace(good, x=x, xdot_note="measured"))
+    assert [(f.code, f.record) for f in rig.faults] == [("x_frozen", chosen(good))]
+    assert rig.faults[0].samples is not None
+    assert set(range(first, last + 1)) <= set(rig.faults[0].samples.tolist())
 
 
 @pytest.mark.parametrize("frequency", [0.5, 2.0, 6.0])
