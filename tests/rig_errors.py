@@ -183,6 +183,10 @@ def _velocity_lag(r: Recording, random: Random) -> Recording:
     return replace(r, xdot=xdot, xdot_note="measured")
 
 
+def _velocity_zero(r: Recording, random: Random) -> Recording:
+    return replace(r, xdot=r.xdot + 0.02 * float(np.std(r.xdot)), xdot_note="measured")
+
+
 def _everywhere(**factors: float) -> Spoil:
     def spoil(r: Recording, random: Random) -> Recording:
         return _with(r, **{name: f * getattr(r, name) for name, f in factors.items()})
@@ -229,4 +233,5 @@ ERRORS = {
     ),
     "noise of the velocity channel": _error(_velocity_noise, "velocity_noise", "log"),
     "delay of the velocity channel": _error(_velocity_lag, "velocity_lag", "log"),
+    "zero of the velocity channel": _error(_velocity_zero, "velocity_offset", "log"),
 }  # fmt: skip

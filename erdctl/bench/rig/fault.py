@@ -16,7 +16,7 @@ CODES = (
     "force_sign", "time_unit", "speed_unit", "stroke_unit", "force_unit", "duty_unit",
     "force_clipped", "x_clipped", "force_frozen", "x_frozen", "force_spikes", "x_spikes",
     "force_burst", "samples_missing", "x_jumps", "velocity_noise", "velocity_lag", "velocity_gain",
-    "record_gain", "record_offset", "record_lag", "record_noise",
+    "velocity_offset", "record_gain", "record_offset", "record_lag", "record_noise",
 )  # fmt: skip
 REFUSED = 3  # faults that one message tells
 VELOCITY_CODES = ("velocity_noise", "velocity_lag", "velocity_gain")
@@ -30,6 +30,7 @@ class RigFault:
     text : what, where and how much;  remedy : what to do about it
     samples : (k,) samples of the log that a fit leaves out, None for none
     when : times of the first and the last of them [s]
+    zero : of the velocity, which fits take off [m/s]
     blocks : whether no sample of the record (of the log) can be used
     """
 
@@ -40,6 +41,7 @@ class RigFault:
     samples: Index | None = None
     blocks: bool = False
     when: tuple[float, float] | None = None
+    zero: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,7 +123,8 @@ class Rig:
         """What of the recording a fit may use.
 
         Without the records that cannot be used, unless there are no others; samples at fault are
-        marked in `excluded`; a velocity channel at fault is left out for the derivative of x.
+        marked in `excluded`; a velocity channel at fault is left out for the derivative of x, or
+        has its zero taken off.
         """
         if self.recording is None:
             raise ValueError("a log that was read in stretches is not there to be used")
@@ -138,7 +141,11 @@ class Rig:
 
 
 def sound(recording: Recording, faults: Collection[RigFault]) -> Recording:
-    """The recording with the derivative of x in the place of a velocity channel at fault."""
+    """The recording with the derivative of x in the place of a velocity channel at fault, or with
+    that channel less its zero.
+    """
+    if zero := sum(f.zero for f in faults):
+        return replace(recording, xdot=recording.xdot - zero)
     if not any(f.code in VELOCITY_CODES for f in faults):
         return recording
     from erdctl.bench.differentiation import derive_xdot

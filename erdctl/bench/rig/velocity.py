@@ -1,4 +1,4 @@
-"""A velocity channel with a noise, a delay or a gain of its own, held against x."""
+"""A velocity channel with a noise, a delay, a gain or a zero of its own, held against x."""
 
 from __future__ import annotations
 
@@ -17,25 +17,29 @@ LATE = 2e-3  # s
 LATE_STEPS = 1.0
 LATE_CYCLE = 0.004  # of a cycle: it then moves the speed by 2.5 % of its amplitude
 GAIN = 0.05
+# Of the effective speed: within it a direction is wrong, so that it makes an error of some
+# 2 (2/pi 0.005)^(1/2), a tenth, of the yield force.
+ZERO = 0.005
 TAPS, LEAST_TAP = 4, 1e-12  # samples on either side; part of the largest direction of them
 SCATTER = 4.0  # standard errors between records
 REMEDY = "fits take the derivative of x in its place; leave the column out, or repair it"
 
 
 def check(found: Sequence[Piece]) -> list[RigFault]:
-    """Noise, lag and gain of a measured xdot.
+    """Noise, lag, gain and zero of a measured xdot.
 
-        x_{i+k} - x_i = (W + tau (xdot_{i+k} - xdot_i)) / g,   W = integral of xdot in between
+        x_{i+k} - x_i = (W + tau (xdot_{i+k} - xdot_i) - v_0 (t_{i+k} - t_i)) / g
 
-    by least squares, with k about a sixth of a cycle: x and xdot are each taken as they are, and
-    neither is filtered.
+    with W the integral of xdot in between, by least squares, with k about a sixth of a cycle: x and
+    xdot are each taken as they are, and neither is filtered.
     """
     if not found or found[0].recording.xdot_note != "measured":
         return []
     rows = [row for p in found if (row := _against_x(p)) is not None]
     if not rows:
         return []
-    gain, late, noise, derived, cycle, step = (np.array(c) for c in zip(*rows, strict=True))
+    columns = (np.array(c) for c in zip(*rows, strict=True))
+    gain, late, zero, noise, derived, cycle, step, speed = columns
     out = []
     part, better = median(noise), median(derived)
     if part > NOISE and part > QUIETER * better:
@@ -62,6 +66,15 @@ def check(found: Sequence[Piece]) -> list[RigFault]:
         out.append(
             RigFault("velocity_gain", None, f"xdot is {g:.3f} times the derivative of x", REMEDY)
         )
+    v_0, error = _middle(zero)
+    if not out and abs(v_0) > max(ZERO * median(speed), SCATTER * error):
+        out.append(
+            RigFault(
+                "velocity_offset", None,
+                f"xdot has a zero of {1e3 * v_0:+.3g} mm/s: by so much it is faster than x moves",
+                "fits take it off; set the velocity channel to zero at rest", zero=v_0,
+            )
+        )  # fmt: skip
     return out
 
 
@@ -95,8 +108,10 @@ def _middle(values: np.ndarray) -> tuple[float, float]:
     return middle, 1.25 * scatter / len(values) ** 0.5
 
 
-def _against_x(p: Piece) -> tuple[float, float, float, float, float, float] | None:
-    """Gain, lag [s], noise of xdot and of the derivative of x over speed, cycle [s], step [s]."""
+def _against_x(p: Piece) -> tuple[float, ...] | None:
+    """Gain, lag [s], zero [m/s], noise of xdot and of the derivative of x over speed, cycle [s],
+    step [s], speed [m/s].
+    """
     speed, swing = float(np.std(p.xdot)), float(np.std(p.x))
     if speed == 0.0 or swing == 0.0 or p.step <= 0.0:
         return None
@@ -119,7 +134,7 @@ def _against_x(p: Piece) -> tuple[float, float, float, float, float, float] | No
     size = np.abs(columns).max(axis=0)
     if not (size > 0).all():
         return None
-    first, second, _ = np.linalg.lstsq(columns / size, u, rcond=None)[0] / size
+    first, second, third = np.linalg.lstsq(columns / size, u, rcond=None)[0] / size
     if first <= 0.0:
         return None
     half = max(2, round(0.01 / p.step))
@@ -127,4 +142,5 @@ def _against_x(p: Piece) -> tuple[float, float, float, float, float, float] | No
     x_noise = p.noise("x")[0]
     derived = x_noise / p.step / (np.sum(np.arange(1, half + 1) ** 2) * 2.0) ** 0.5
     noise = noise if white > 1.2 else 0.0
-    return 1.0 / first, second / first, noise / speed, derived / speed, cycle, p.step
+    error = noise / speed, derived / speed
+    return 1.0 / first, second / first, -third / first, *error, cycle, p.step, speed

@@ -151,6 +151,37 @@ def test_a_noisy_velocity_is_replaced_by_one_that_a_force_has_no_need_to_smooth(
     assert off < 0.4 * before
 
 
+@pytest.mark.parametrize("zero", [0.01, -0.05])
+def test_the_zero_of_a_velocity_is_taken_off(good: Recording, zero: float) -> None:
+    """`velocity_noise` was named for it, where nothing else was hidden, and called `explained`."""
+    v_0 = zero * float(np.std(good.xdot))
+    rig = look(replace(good, xdot=good.xdot + v_0, xdot_note="measured"))
+    (fault,) = rig.faults
+    assert fault.code == "velocity_offset"
+    assert fault.zero == pytest.approx(v_0, rel=0.1)
+    np.testing.assert_allclose(rig.usable().xdot, good.xdot, atol=0.1 * abs(v_0))
+    accepted = rig.accept(["velocity_offset"]).usable()
+    np.testing.assert_array_equal(accepted.xdot, good.xdot + v_0)
+
+
+def test_a_rod_at_rest_has_no_frozen_deflection(
+    good: Recording, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The zero of its velocity, too little to be told as one, went on for long: "x stands still
+    while the damper works"."""
+    monkeypatch.setattr("erdctl.bench.rig.velocity.ZERO", np.inf)
+    part = good.slices[chosen(good)]
+    rests = slice(part.start, part.start + 2 * round(1.0 / (good.t[1] - good.t[0])))
+    x, xdot, force = good.x.copy(), good.xdot.copy(), good.force
+    assert force is not None
+    x[rests], xdot[rests] = x[rests.stop], 0.0
+    force = np.where(np.isin(np.arange(len(good)), np.r_[rests]), 0.0, force)
+    v_0 = 0.03 * float(np.std(good.xdot))
+    for zero in (0.0, v_0):
+        rig = look(replace(good, x=x, xdot=xdot + zero, force=force, xdot_note="measured"))
+        assert "x_frozen" not in {f.code for f in rig.faults}
+
+
 def test_a_velocity_at_fault_is_left_out(good: Recording) -> None:
     spoiled = ERRORS["noise of the velocity channel"].spoil(good, np.random.default_rng(0))
     kept = look(spoiled).usable()
