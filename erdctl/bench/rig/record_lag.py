@@ -18,6 +18,7 @@ LAG, LAG_STEPS = 2e-3, 2.0  # least lag: [s], samples
 # terms of the record's own.
 EXPLAINED, OWN_EXPLAINED = 0.5, 0.3
 LONGEST = 0.1  # s
+BUILDS_UP = (0.03, 0.1, 0.3)  # of the stroke: travels over which a force may do so
 
 
 def late(rows: Sequence[Rows]) -> RigFault | None:
@@ -49,7 +50,8 @@ def late(rows: Sequence[Rows]) -> RigFault | None:
         return None
     way = "later" if found.difference > 0 else "earlier"
     unit = cycles[found.index] if steady(rows) else 1.0
-    if not _itself_late(seen[found.index], found.difference * unit):
+    late_by = found.difference * unit
+    if not _itself_late(seen[found.index], late_by, loops=not steady(rows)):
         return None
     return RigFault(
         "record_lag", seen[found.index].piece.record,
@@ -59,15 +61,17 @@ def late(rows: Sequence[Rows]) -> RigFault | None:
     )  # fmt: skip
 
 
-def _itself_late(r: Rows, lag: float) -> bool:
+def _itself_late(r: Rows, lag: float, *, loops: bool) -> bool:
     """Whether a record is late (by so many seconds) by itself, whatever its spring, viscosity,
     yield force, friction and mass are.
 
     Of a smooth force any of these turns the phase as a lag does; where it jumps, none does.
+    loops : whether its force may build up over some travel after a turn, which others, under
+        another control, do not tell
     """
     t = r.piece.t[: len(r.force)]
     mass = np.gradient(r.piece.xdot[: len(t)], t)
-    terms = np.column_stack([r.columns, mass])
+    terms = np.column_stack([r.columns, mass, *([_building_up(r)] if loops else [])])
     shifted = np.column_stack([np.interp(t - lag, t, term) for term in terms.T])
 
     def misfit(columns: Array) -> float:
@@ -77,6 +81,20 @@ def _itself_late(r: Rows, lag: float) -> bool:
         return float(np.mean((F - A @ np.linalg.lstsq(A, F, rcond=1e-9)[0]) ** 2))
 
     return misfit(shifted) < (1.0 - OWN_EXPLAINED) * misfit(terms)
+
+
+def _building_up(r: Rows) -> Array:
+    """(n, 2 k) what friction and yield force lack until they slide, over some lengths of travel.
+
+    As of a spring that slips, -2 sign(xdot) exp(-s / x_p), s : travel since the last turn.
+    """
+    x, way = r.piece.x[: len(r.force)], r.columns[:, 7]
+    travel = np.append(0.0, np.cumsum(np.abs(np.diff(x))))
+    turned = np.append(True, way[1:] != way[:-1])
+    since = travel - travel[np.flatnonzero(turned)[np.cumsum(turned) - 1]]
+    jumps = np.column_stack([way, r.columns[:, 5] + r.columns[:, 6]])
+    parts = [np.exp(-since / (part * np.ptp(x)))[:, None] * jumps for part in BUILDS_UP]
+    return np.column_stack(parts)
 
 
 def _lag_of(

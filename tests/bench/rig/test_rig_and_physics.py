@@ -62,6 +62,13 @@ def test_a_weak_record_is_not_held_against_what_a_model_misses_of_the_strong() -
     assert look(recorded(case)).lines() == []
 
 
+def test_a_friction_that_builds_up_over_its_travel_is_not_late() -> None:
+    """Beside records with a field, two without one were said to be 60 and 72 ms late."""
+    case = plant.draw(440_087, known=frozenset(e.name for e in catalogue()))
+    assert [e["name"] for e in plant.key(case)["effects"]] == ["presliding_friction"]
+    assert look(recorded(case)).lines() == []
+
+
 def test_what_a_gas_adds_at_both_ends_is_no_zero() -> None:
     """Of the record with the longest stroke it was 36 N in the mean."""
     case = plant.draw(440_099, known=frozenset(e.name for e in catalogue()))
