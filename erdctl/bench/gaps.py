@@ -29,7 +29,7 @@ def gaps_of(t: Array, steps: Array, step: float) -> Gaps:
     """Where a record lost samples.
 
     t : (n,) its times, increasing [s];  steps : (n - 1,) of these [s];  step : the usual one [s]
-    Check: a sample that is 0.7 steps late, and two that are lost.
+    Check: a sample that is 0.7 steps late, and 2 that are lost behind sample 59.
     >>> t = np.arange(100.0)
     >>> t[30], t[60:] = 30.7, t[60:] + 2.0
     >>> found = gaps_of(t, np.diff(t), 1.0)
