@@ -19,6 +19,7 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.fault_beside import fault_beside
+from erdctl.diagnose.findings import earned, part_taken
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.records_with_a_fault import is_no_scatter, telling
 from erdctl.diagnose.residual.localisation import Region, said
@@ -41,8 +42,20 @@ def with_a_fault_once(run: Callable[..., Diagnosis], recording: Recording) -> Di
         # Where more is left there are laws to learn.
         left = found.verdict is Verdict.UNEXPLAINED
         return run(recording, once=False) if left else replace(found, once=None)
+    if _only_without_its_records(found, again):
+        found = run(recording, once=False, learning=False)
     places = (_place(found.problem.recording, once, once.confirmed.share), *found.mismatch)
     return replace(found, verdict=Verdict.UNEXPLAINED, once=once, mismatch=places)
+
+
+def _only_without_its_records(found: Diagnosis, again: Diagnosis) -> bool:
+    """Whether names take most but for the records with the fault, and a search with it lacks one:
+    it bent a little like the fault, which spoilt the search without.
+    """
+    if not found.findings or earned(part_taken(found.selection, found.lack_of_fit)):
+        return False
+    said = {f.effect.name for f in again.findings}
+    return any(said.isdisjoint((f.effect.name, *f.equivalent)) for f in found.findings)
 
 
 def _place(recording: Recording, once: SetsInOnce, share: float) -> Region:

@@ -232,6 +232,26 @@ def test_what_the_second_search_does_not_name_is_not_said(recordings: Any) -> No
     assert "sets_in_once" not in to_json(answer)
 
 
+def test_a_name_that_no_search_with_the_fault_has_is_not_kept_for_it(recordings: Any) -> None:
+    """Of two records one with the fault: what bent a little like it took most of the other."""
+    recording = recordings("oil_leakage", STAYS)
+    calls: list[dict[str, Any]] = []
+
+    def run(r: Recording, **options: Any) -> Diagnosis:
+        calls.append(options)
+        candidates = [*FAULTS, get("preyield_viscosity")]
+        found = diagnose(r, candidates, **{"limits": False, **options})
+        with_the_fault = options.get("once") is False and options.get("limits") is False
+        kept = [f for f in found.findings if f.effect.sets_in or not with_the_fault]
+        return replace(found, findings=tuple(kept))
+
+    answer = with_a_fault_once(run, recording)
+    assert calls[2:] == [{"once": False, "learning": False}]
+    assert answer.once is not None
+    assert answer.once.effect.name == "oil_leakage"
+    assert answer.findings == ()  # as most of the misfit stays in the records with the fault
+
+
 def test_a_record_that_shows_nothing_of_the_force_is_not_accused() -> None:
     """An electrical fault takes as much of a record without a duty as if that had none: a log with
     the fault in record 5 of six (a car, seed 472) was said to have it in 3 as well."""
