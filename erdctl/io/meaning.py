@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from erdctl.io.named import NAMES, is_about, is_called, of_several, suits
+from erdctl.io.named import NAMES, is_about, is_called, may_be_control, of_several, plainly, suits
 from erdctl.io.sources import TableSource
 from erdctl.io.spelling import stated
 from erdctl.io.stored import si
@@ -26,14 +26,25 @@ class Meant:
 
     def suggestion(self, source: TableSource) -> str:
         """An option that would say it."""
-        name = self.likely[0]
-        unit = "" if unit_of_column(source, name) else f"[{si(self.target)}]"
-        return f'--map "{self.target}={name}{unit}"'
+        return f'--map "{self.target}={in_a_unit(source, self.likely[0], self.target)}"'
 
 
 def unit_of_column(source: TableSource, column: str) -> str | None:
     """The unit that the file states for a column, in a field of its own or in the name."""
     return source.units.get(column) or stated(column)[1]
+
+
+def in_a_unit(source: TableSource, column: str, target: str) -> str:
+    """A column as `--map` takes it: with the unit that its name hints at, where it states none."""
+    unit = unit_of_column(source, column)
+    if unit and suits(unit, target):
+        return column
+    if target != "duty" or (unit is None and is_called(column, target)):
+        return f"{column}[{si(target)}]"
+    words = set(plainly(column).replace("%", " % ").split())
+    if words & {"%", "pct", "percent", "prozent"}:
+        return f"{column}[%]"
+    return f"{column}[UNIT]"
 
 
 def meant(source: TableSource, target: str, taken: Collection[str]) -> Meant:
@@ -64,6 +75,11 @@ def meant(source: TableSource, target: str, taken: Collection[str]) -> Meant:
     exact = [c for c in bare if is_called(stated(c)[0], target) and len(c.strip()) > 1]
     if exact and not fitting:
         return Meant(target, None, tuple(exact), "its unit is not stated")
+    if target == "duty" and not exact:
+        some = [c for c in free if may_be_control(stated(c)[0], unit_of_column(source, c))]
+        if some:
+            why = "its unit or its damper is not plain; --map duty=0 if none of it is the control"
+            return Meant(target, None, tuple(some), why)
     return Meant(target, None, (*fitting, *bare), "")
 
 

@@ -49,6 +49,13 @@ _ABOUT = {
     for target, known in NAMES.items()
 }  # fmt: skip
 
+_CONTROL = ("duty", "pwm", "tastgrad", "tastverh")  # how a word about it begins
+_BESIDE_CONTROL = {
+    "carrier", "period", "periode", "status", "state", "enable",
+    "enabled", "on", "time", "zeit", "temperature", "temp", "id", "channel", "kanal",
+}  # fmt: skip
+_FREQUENCIES = ("Hz", "kHz", "MHz")
+
 
 def plainly(name: str) -> str:
     """A name without the ways of writing it: `Duty_Cycle`, `duty-cycle` and `DUTY CYCLE`.
@@ -58,6 +65,21 @@ def plainly(name: str) -> str:
     """
     name = re.sub(r"(?<=[a-zä-ü])(?=[A-Z])", " ", name.strip())
     return " ".join(re.split(r"[\s_\-.:]+", name)).strip().casefold()
+
+
+def may_be_control(name: str, unit: str | None) -> bool:
+    """Whether a column may hold a duty, however it is called: then the duty is not 0.
+
+    A command counts as well, since nothing measures a duty; what a PWM has beside it does not.
+
+    >>> [may_be_control(n, None) for n in ("Duty %", "PWM_FL", "duty command", "PWM frequency")]
+    [True, True, True, False]
+    """
+    words = plainly(name).split()
+    about = any(word.startswith(_CONTROL) for word in words)
+    other = unit in _FREQUENCIES or any(suits(unit or "1", t) for t in UNITS if t != "duty")
+    beside = any(word in _BESIDE_CONTROL or "freq" in word for word in words)
+    return about and not other and not beside
 
 
 def is_called(name: str, target: str) -> bool:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.core.messages import shown
 from erdctl.io.maps import parse_maps
-from erdctl.io.meaning import Meant, meant, unit_of_column
+from erdctl.io.meaning import Meant, in_a_unit, meant, unit_of_column
 from erdctl.io.plan import plan_columns
 from erdctl.io.project.corners import CarCorner, corners_of
 from erdctl.io.project.names import label_lines
@@ -172,10 +172,8 @@ def _known(
 def _unclear(out: Columns, source: TableSource, one: Meant, names: Sequence[str]) -> None:
     why = one.why or "may be it"
     for name in names[:4]:
-        unit = "" if unit_of_column(source, name) else f"[{si(one.target) or '%'}]"
-        out.unclear.append(
-            f"# {one.target} = {_quoted(name + unit)}  # {_comment(why)}; complete it"
-        )
+        written = _quoted(in_a_unit(source, name, one.target))
+        out.unclear.append(f"# {one.target} = {written}  # {_comment(why)}; complete it")
 
 
 def _text(source: TableSource, given: TextOptions) -> list[str]:
