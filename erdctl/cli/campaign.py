@@ -151,7 +151,7 @@ def command(
     project = IN_FORCE.get()
     if groups and pattern is None and project is None:
         raise UsageProblem("--group-by takes labels: say with --label what a path says of its log")
-    found = _without_table(find_logs(logs), output)
+    found = _without_table(find_logs(logs, report=say), output)
     planned = plan(found, asked, *_as_said(pattern, project, groups))
     folder = keep or _stem(output)
     with journal(folder) as kept:

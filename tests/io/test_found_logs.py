@@ -36,6 +36,15 @@ def test_each_log_once_in_order(lab: Path) -> None:
     assert find_logs(["gone.csv"]) == ["gone.csv"]  # which is for its row to say
 
 
+def test_what_a_folder_may_hold_besides(lab: Path) -> None:
+    for name in ("a/3.LVM", "a/4.tsv", "a/5.log", "a/6.csv.gz", "a/.7.log"):
+        (lab / name).write_text(name)
+    said: list[str] = []
+    assert find_logs(["a"], report=said.append) == ["a/1.csv", "a/2.parquet", "a/3.LVM", "a/4.tsv"]
+    assert said == ["left out in a: 1 .gz, 1 .log; if these are logs, name them, as by a pattern"]
+    assert find_logs(["a/*.log"], report=said.append) == ["a/5.log"]
+
+
 @pytest.mark.parametrize("place", ["c/*.csv", "empty", "file:///no/such/*.csv"])
 def test_nothing_there(place: str, lab: Path) -> None:
     (lab / "empty").mkdir()

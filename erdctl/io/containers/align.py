@@ -200,8 +200,9 @@ def _moved(column: _Column, rows: Array, place: str, *, same: bool) -> pa.Array:
     if same:
         first = int(np.searchsorted(time, rows[0]))
         return _arrow(values[first : first + len(rows)])
-    before = np.clip(np.searchsorted(time, rows, side="right") - 1, 0, len(time) - 1)
     slack = _EARLY * _step(rows)
+    # The last digits of a clock decide nothing: what changes with a row is its value.
+    before = np.clip(np.searchsorted(time, rows + slack, side="right") - 1, 0, len(time) - 1)
     out = (rows < time[0] - slack) | (rows > time[-1] + slack)
     if column.held:
         return _arrow(values[before], out if column.target is None else None)

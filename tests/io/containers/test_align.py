@@ -110,6 +110,13 @@ def test_a_duty_that_is_logged_on_change_is_held() -> None:
     assert got["duty"].to_pylist() == [0.1] * 2 + [0.2] * 498 + [0.3] * 500
 
 
+@pytest.mark.parametrize("ahead", [-1e-12, 0.0, 1e-12])
+def test_the_last_digits_of_a_clock_decide_no_held_value(ahead: float) -> None:
+    time, own = np.arange(2000) * 0.002, np.arange(200) * 0.02
+    got = table(force=(time, time), x=(time, time), duty=(own + ahead, own))
+    assert np.allclose(got["duty"].to_numpy(), 0.02 * (np.arange(1991) // 10), rtol=0, atol=1e-9)
+
+
 @pytest.mark.parametrize(
     ("series", "words"),
     [
