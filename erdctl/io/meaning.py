@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 
+from erdctl.core.errors import InputProblem
 from erdctl.io.named import NAMES, is_about, is_called, may_be_control, of_several, plainly, suits
 from erdctl.io.sources import TableSource
 from erdctl.io.spelling import stated
-from erdctl.io.stored import si
+from erdctl.io.stored import from_stored, si
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,21 @@ class Meant:
 def unit_of_column(source: TableSource, column: str) -> str | None:
     """The unit that the file states for a column, in a field of its own or in the name."""
     return source.units.get(column) or stated(column)[1]
+
+
+def one_unit(source: TableSource, column: str, target: str) -> str | None:
+    """The same for a contract column. Raises InputProblem where field and name differ."""
+    field, name = source.units.get(column), stated(column)[1]
+    if field and name and suits(name, target):
+        by_field = from_stored(field, target, column, source.name)
+        if by_field != from_stored(name, target, column, source.name):
+            raise InputProblem(
+                f"in {field} by its own field and in {name} by its name; say which it is:"
+                f' --map "{target}={column}[{field}]" or [{name}]',
+                file=source.name,
+                column=column,
+            )
+    return field or name
 
 
 def in_a_unit(source: TableSource, column: str, target: str) -> str:

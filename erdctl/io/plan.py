@@ -10,7 +10,7 @@ import pyarrow as pa
 from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.io.instants import in_seconds
 from erdctl.io.maps import Mapping
-from erdctl.io.meaning import Meant, blocks, meant, unit_of_column
+from erdctl.io.meaning import Meant, blocks, meant, one_unit, unit_of_column
 from erdctl.io.problems import Problems
 from erdctl.io.roles import Roles
 from erdctl.io.sources import TableSource, read_source
@@ -138,7 +138,7 @@ class _Stated:
     def conversion(self, target: str, column: str) -> Conversion:
         if target == RECORD:
             return Conversion()
-        unit = unit_of_column(self.source, column)
+        unit = one_unit(self.source, column, target)
         if unit is None:
             if self.source.layout is not None and target != "duty":
                 self.assumed.append(f"{column} as {si(target)}")
