@@ -40,12 +40,13 @@ def header_of(
     """
     width = found.width
     above = [n for n in range(found.start - 1, after, -1) if lines[n - 1].strip()]
-    if options.header == 0:
-        return Header(_numbered(width), 0, 0, {})
     units_line = options.units or 0
-    if options.units is None and above:
-        units_line = _units_line(lines, above, found)
+    if options.units is None and options.header != 0:
+        below = _units_line(lines, above, found) if above else 0
+        units_line = _units_above(lines, above, below, found, options, file) or below
     units = _cells(lines[units_line - 1], found.separator, width) if units_line else []
+    if options.header == 0:
+        return Header(_numbered(width), 0, units_line, _by_name(_numbered(width), units))
     if options.header:
         line = options.header
         if line > len(lines) or line >= found.start:
@@ -142,14 +143,51 @@ def _units_line(lines: Sequence[str], above: Sequence[int], found: Structure) ->
     """The line directly above the samples, if it holds units and names are above it."""
     if len(above) < 2:
         return 0
-    units = _cells(lines[above[0] - 1], found.separator, found.width)
+    units = _units_in(lines[above[0] - 1], found, every=False)
     names = _cells(lines[above[1] - 1], found.separator, found.width)
-    if not any(units) or abs(len(units) - len(names)) > 1 or not _are_names(names):
+    if abs(len(units) - len(names)) > 1 or not _are_names(names):
         return 0
-    spelt = [unit_spelt(cell) for cell in units if cell]
+    return above[0] if any(units) else 0
+
+
+def _units_above(
+    lines: Sequence[str],
+    above: Sequence[int],
+    below: int,
+    found: Structure,
+    options: TextOptions,
+    file: str,
+) -> int:
+    """A line above the names that holds units, and as many as there are columns.
+
+    below : the line of units directly above the samples, 0 for none
+    Raises InputProblem if several lines do, and not with the same units.
+    """
+    named = options.header or next((n for n in above if n != below), 0)
+    rows = {n: _units_in(lines[n - 1], found) for n in above if n not in (named, below)}
+    rows = {n: units for n, units in rows.items() if set(units) - {"1", "", None}}
+    if below:
+        rows = {below: _units_in(lines[below - 1], found, every=False), **rows}
+    if len({tuple(units) for units in rows.values()}) > 1:
+        first, second = list(rows)[:2]
+        raise InputProblem(
+            f"other units than in row {first}; say which hold: --text units={first} or --text"
+            f" units={second}",
+            file=file,
+            row=second,
+        )
+    return next(iter(rows), 0)
+
+
+def _units_in(line: str, found: Structure, *, every: bool = True) -> list[str | None]:
+    """The units of a line, one a column; none if it holds anything else for the most part."""
+    cells = _cells(line, found.separator, found.width)
+    units = [unit_spelt(cell) for cell in cells]
+    if every and len(units) != found.width:
+        return []
     # One that nobody knows does not make names of the others; it will be refused as a unit.
-    known = sum(unit is not None for unit in spelt)
-    return above[0] if any(spelt) and known > 0.6 * len(spelt) else 0
+    filled = [unit for cell, unit in zip(cells, units, strict=True) if cell]
+    return units if sum(unit is not None for unit in filled) > 0.6 * len(filled) else []
 
 
 def _fitted(names: list[str], found: Structure, line: int, file: str) -> list[str]:

@@ -1,0 +1,83 @@
+"""Texts once read otherwise than they say: units, comments, thousands, what is cut off."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pytest
+
+from erdctl.core.errors import InputProblem
+from erdctl.io.convert import read_converted
+
+N = 40
+LINES = [f"{i * 0.005:.3f};{i * 1e-4:.4f};{10 + i * 0.125:.3f};0.2" for i in range(N)]
+NAMES = "t;x;force;duty"
+FORCE = 10 + np.arange(N) * 0.125
+
+Converted = Callable[..., tuple[pa.Table, str]]
+
+
+@pytest.fixture
+def read(tmp_path: Path) -> Converted:
+    """All columns of a text, and what was said."""
+
+    def read(
+        *lines: str, between: str = ";", end: str = "\n", text: str | None = None,
+        maps: tuple[str, ...] = (),
+    ) -> tuple[pa.Table, str]:  # fmt: skip
+        path = tmp_path / "lab.csv"
+        path.write_text(("\n".join(lines) + end).replace(";", between), newline="")
+        said: list[str] = []
+        table = read_converted(str(path), text=text, maps=maps, say=said.append)
+        return table, "\n".join(said).replace(f"{path}: ", "")
+
+    return read
+
+
+def force_of(found: tuple[pa.Table, str]) -> np.ndarray:
+    return found[0].column("force").to_numpy()
+
+
+# --- units
+
+
+@pytest.mark.parametrize("between", [";", ",", "\t", "|", "  "])
+def test_units_above_the_names(read: Converted, between: str) -> None:
+    found = read("s;mm;kN;-", NAMES, *LINES, between=between)
+    assert "header in line 2, units in line 1" in found[1]
+    assert np.allclose(force_of(found), FORCE * 1e3)
+    assert np.allclose(found[0].column("x").to_numpy(), np.arange(N) * 1e-7)
+
+
+@pytest.mark.parametrize(
+    ("above", "text"),
+    [
+        (["s;m;kN;-", "", "Rig 7", NAMES], None),
+        (["# s;m;kN;-", NAMES], None),
+        (["s;m;kN;-", NAMES], "header=2"),
+        (["s;m;kN;-", "A;B;C;D", NAMES], None),
+        (["s;m;kN;-", NAMES, "s;m;kN;-"], None),
+    ],
+)
+def test_units_above_the_names_wherever_they_are(
+    read: Converted, above: list[str], text: str | None
+) -> None:
+    assert np.allclose(force_of(read(*above, *LINES, text=text)), FORCE * 1e3)
+
+
+def test_units_above_and_below_that_differ(read: Converted) -> None:
+    lines = ["s;m;kN;-", NAMES, "s;m;N;-", *LINES]
+    with pytest.raises(InputProblem, match=r"row 1: other units than in row 3; .*units=1"):
+        read(*lines)
+    assert np.allclose(force_of(read(*lines, text="header=2,units=3")), FORCE)
+    assert np.allclose(force_of(read(*NAMES.splitlines(), *LINES)), FORCE)
+
+
+def test_units_without_names(read: Converted) -> None:
+    lines = ["s;m;kN;-", NAMES, *LINES]
+    found = read(*lines, text="header=none,units=1", maps=("force=column_3",))
+    assert "no header row, units in line 1" in found[1]
+    assert np.allclose(force_of(found), FORCE * 1e3)
