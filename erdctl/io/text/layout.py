@@ -228,7 +228,8 @@ def _dialect(
                     yield cell, line
 
     evidence = evidence_of(numbers((row.line, row.cells) for row in found.samples))
-    if not evidence.decimal and not options.decimal and found.separator != ",":
+    asked = found.separator != "," or "," in evidence.either
+    if not evidence.decimal and not options.decimal and asked:
         evidence = evidence_of(numbers(_rows(data, encoding, mark, found, file)))
     return Dialect(found.separator, *settle(evidence, found.separator, options, file))
 

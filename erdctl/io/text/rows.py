@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import io
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import replace
 from itertools import islice
 
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem
 from erdctl.io.problems import Wrong, problem_of
-from erdctl.io.text.cells import NUMBER, cells_of, comment_of, kind_of
+from erdctl.io.text.cells import cells_of, comment_of
 from erdctl.io.text.labview import END
 from erdctl.io.text.layout import Data, TextLayout
+from erdctl.io.text.numerals import otherwise
 from erdctl.io.text.stamps import form_of, kind
 
 BEYOND = 100_000  # rows that are looked through after the first error, for those of other columns
@@ -83,7 +83,9 @@ def explained(
                 continue
             if form is None and (not cell or number.match(cell)):
                 continue
-            expected = f"a number{_hint(cell, layout)}" if form is None else f"a {kind(form)}"
+            expected = (
+                f"a number{otherwise(cell, layout.dialect)}" if form is None else f"a {kind(form)}"
+            )
             said = f"found '{cell[:40]}', expected {expected}"
             found[name] = Wrong(said if cell else f"empty, expected {expected}", line, name)
     if found:
@@ -100,15 +102,3 @@ def _wrong_count(count: int, layout: TextLayout, line: int) -> Wrong:
         " cut off",
         line,
     )
-
-
-def _hint(cell: str, layout: TextLayout) -> str:
-    dialect = layout.dialect
-    other = "," if dialect.decimal == "." else "."
-    called = {",": "comma", ".": "point"}
-    if other not in cell or kind_of(cell) != NUMBER:
-        return ""
-    said = f" with a decimal {called[dialect.decimal]}"
-    if replace(dialect, thousands=other).number.match(cell):
-        said += f"; if the {called[other]} separates thousands: --text thousands={called[other]}"
-    return said

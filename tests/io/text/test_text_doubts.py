@@ -81,3 +81,42 @@ def test_units_without_names(read: Converted) -> None:
     found = read(*lines, text="header=none,units=1", maps=("force=column_3",))
     assert "no header row, units in line 1" in found[1]
     assert np.allclose(force_of(found), FORCE * 1e3)
+
+
+# --- thousands
+
+
+US = [f'{i * 0.005:.3f};0.001;"{950 + 10 * i:,d}";0.2' for i in range(N)]
+NEWTONS = 950.0 + 10 * np.arange(N)
+
+
+@pytest.mark.parametrize("late", [0, 60, 500])
+def test_quoted_commas_may_separate_thousands(read: Converted, late: int) -> None:
+    lines = [f"{0.005 * (i - late):.3f};0.001;900;0.2" for i in range(late)] + US
+    said = "--text thousands=comma" if late else "'1,000' beside numbers with a decimal point"
+    with pytest.raises(InputProblem, match=f"row {late + 7}[:,].*{said}") as caught:
+        read(NAMES, *lines, between=",")
+    assert "1.000" not in str(caught.value)
+    found = read(NAMES, *lines, between=",", text="thousands=comma")
+    assert np.array_equal(force_of(found)[late:], NEWTONS)
+
+
+def test_quoted_commas_and_no_decimal_sign(read: Converted) -> None:
+    lines = [
+        re.sub("^[^;]*;0.001", f"{i};0", line).replace("0.2", "1") for i, line in enumerate(US)
+    ]
+    with pytest.raises(InputProblem, match=r"row 7: '1,000' may be 1.000 or 1000, and no number"):
+        read(NAMES, *lines, between=",")
+    decimal = force_of(read(NAMES, *lines, between=",", text="decimal=comma"))
+    assert np.array_equal(decimal[5:], NEWTONS[5:] / 1e3)
+    late = [*lines * 11, "999;0.5;1;1"]
+    with pytest.raises(InputProblem, match=r"row 7: '1,000' beside numbers with a decimal point"):
+        read(NAMES, *late, between=",")
+
+
+@pytest.mark.parametrize(("sign", "called"), [("'", "apostrophe"), (" ", "space")])
+def test_other_thousands_that_begin_late(read: Converted, sign: str, called: str) -> None:
+    lines = [*LINES * 12, f"9.000;0.001;1{sign}076.5;0.2"]
+    words = f"row {len(lines) + 1}, column 'force': .*--text thousands={called}"
+    with pytest.raises(InputProblem, match=words):
+        read(NAMES, *lines)
