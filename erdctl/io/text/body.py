@@ -12,7 +12,7 @@ import pyarrow as pa
 from erdctl.core.errors import InputProblem
 from erdctl.core.memory import check_threads
 from erdctl.io.csv_out import as_csv_text
-from erdctl.io.text.cells import NUMBER, between_thousands, cells_of
+from erdctl.io.text.cells import COMMENT, NUMBER, between_thousands, cells_of
 from erdctl.io.text.encoding import UTF8, decoded
 from erdctl.io.text.labview import END
 from erdctl.io.text.layout import STEPS, Data, TextLayout
@@ -100,7 +100,7 @@ def _lines(data: Data, layout: TextLayout, file: str, notes: list[str]) -> bytes
         body = _one_segment(body, layout, file)
     body = _ended(body, separator, notes)
     if layout.comment is not None:
-        body = re.sub(rb"(?m)^[ \t]*(?:#|%|//)[^\n]*(?:\n|\Z)", b"", body)
+        body = re.sub(rb"(?m)^" + COMMENT.encode() + rb"[^\n]*(?:\n|\Z)", b"", body)
     if b'"' in body and (separator == " " or layout.ragged or re.search(rb'[ \t]"|"[ \t]', body)):
         return _rewritten(body, layout)
     if separator != "\t" and (b"\n " in body or b"\n\t" in body):

@@ -20,7 +20,17 @@ _ANY_NUMBER = re.compile(
     r"(?:[.,]\d*)?(?:[eE][+-]?\d+)?|inf(?:inity)?|nan)",
     re.IGNORECASE | re.ASCII,
 )
-COMMENTS = ("#", "%", "//")
+# A comment, unless its sign is a cell of its own behind an empty first one (tabs, a unit of %), or
+# it begins with an error or a cell too narrow of a spreadsheet (#N/A, #DIV/0!, #WERT!, ####): that
+# is a sample.
+COMMENT = (
+    r"(?![ ]*\t[ \t]*(?:[#%][ ]*\t|%[ ]*$))[ \t]*"
+    r"(?!#(?:N/A|NV|GETTING_DATA|[^\sa-z;,|#]+[!?]|##+)"
+    r"(?:[ ]*[;,|\t][;,|\t ]*[^;,|\t\s]|[ ]+[-+.0-9]))"
+    r"(#|%|//)"
+)
+_COMMENT = re.compile(COMMENT)
+_ALONE = re.compile(r"[ \t]*(?:[#%])[ ]*[;,|\t]")
 # A cell in quotes that its line leaves open, and the end of one; lines that it may go over.
 _OPEN = re.compile(r'(?:^|.*[,;\t| ])"(?:[^"]|"")*')
 _CLOSE = re.compile(r'(?:[^"]|"")*"[ ]*(?:[,;\t|].*)?')
@@ -105,6 +115,15 @@ def kind_of(cell: str) -> str:
 
 
 def comment_of(line: str) -> str | None:
-    """The sign that makes a line a comment."""
-    start = line.lstrip()
-    return next((sign for sign in COMMENTS if start.startswith(sign)), None)
+    """The sign that makes a line a comment.
+
+    >>> [comment_of(line) for line in ("# a", "#N/A;1;2", "\\t%\\tN")]
+    ['#', None, None]
+    """
+    found = _COMMENT.match(line)
+    return found[1] if found else None
+
+
+def stands_alone(line: str) -> bool:
+    """Whether the sign of a comment is a cell of its own: a unit of %, a column called #."""
+    return _ALONE.match(line) is not None

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from erdctl.core.errors import InputProblem
 from erdctl.io.spelling import stated, unit_spelt
-from erdctl.io.text.cells import NUMBER, STAMP, cells_of, comment_of, kind_of
+from erdctl.io.text.cells import NUMBER, STAMP, cells_of, comment_of, kind_of, stands_alone
 from erdctl.io.text.options import TextOptions
 from erdctl.io.text.structure import Structure
 
@@ -87,7 +87,9 @@ def header_of(
 def _cells(line: str, separator: str, width: int) -> list[str]:
     """The cells of a line above the samples, which may be a comment or separated otherwise."""
     sign = comment_of(line)
-    texts = [line] if sign is None else [line.strip()[len(sign) :].strip(), line.strip()]
+    whole = line if sign is None else line.strip()
+    without = whole if sign is None else whole[len(sign) :].strip()
+    texts = [whole, without] if stands_alone(line) else [without, whole]
     # Names above columns of blanks may be separated by what they are not.
     tried = [separator, "\t", ";", ","] if separator == " " else [separator]
     for text in texts:
@@ -98,7 +100,7 @@ def _cells(line: str, separator: str, width: int) -> list[str]:
         exact = [cells for cells in found if len(cells) == width]
         if exact:
             return exact[0]
-    return cells_of(texts[0], separator)
+    return cells_of(without, separator)
 
 
 def _are_names(cells: Sequence[str]) -> bool:

@@ -102,9 +102,7 @@ def test_quoted_commas_may_separate_thousands(read: Converted, late: int) -> Non
 
 
 def test_quoted_commas_and_no_decimal_sign(read: Converted) -> None:
-    lines = [
-        re.sub("^[^;]*;0.001", f"{i};0", line).replace("0.2", "1") for i, line in enumerate(US)
-    ]
+    lines = [f'{i};0;"{950 + 10 * i:,d}";1' for i in range(N)]
     with pytest.raises(InputProblem, match=r"row 7: '1,000' may be 1.000 or 1000, and no number"):
         read(NAMES, *lines, between=",")
     decimal = force_of(read(NAMES, *lines, between=",", text="decimal=comma"))
@@ -120,3 +118,41 @@ def test_other_thousands_that_begin_late(read: Converted, sign: str, called: str
     words = f"row {len(lines) + 1}, column 'force': .*--text thousands={called}"
     with pytest.raises(InputProblem, match=words):
         read(NAMES, *lines)
+
+
+# --- comments, and what looks like one
+
+ERRORS = ["#N/A", "#NV", "#DIV/0!", "#VALUE!", "#WERT!", "#NAME?", "#¡VALOR!", "########"]
+
+
+@pytest.mark.parametrize("between", [";", ",", "\t", "|", " "])
+@pytest.mark.parametrize("cell", ERRORS)
+def test_errors_of_a_spreadsheet_are_no_comments(read: Converted, between: str, cell: str) -> None:
+    for at in (0, 5, N - 1):
+        lines = LINES.copy()
+        lines[at] = cell + lines[at][5:]
+        with pytest.raises(InputProblem, match=f"row {at + 3}.*") as caught:
+            read("# rig 7", NAMES, *lines, between=between)
+        assert at == 0 or f"column 't': found '{cell}'" in str(caught.value)
+
+
+COMMENTS = ["#", "# N/A;1;2;3", "#0.1;2;3;4", "## a", "% b", "// c", "###;;;"]
+
+
+@pytest.mark.parametrize("comment", COMMENTS)
+def test_comments_are_left_out(read: Converted, comment: str) -> None:
+    found = read("# rig 7", NAMES, *LINES[:7], comment, *LINES[7:])
+    assert np.array_equal(force_of(found), FORCE)
+    assert "lines with # left out" in found[1]
+
+
+@pytest.mark.parametrize("between", ["\t", ";"])
+@pytest.mark.parametrize("before", ["n;", ""])
+def test_units_of_percent_are_no_comment(read: Converted, between: str, before: str) -> None:
+    empty = before.replace("n", "")
+    lines = [f"{before}0.2;{10 + i};{5 * i}" for i in range(N)]
+    table, said = read(f"{before}duty;force;t", f"{empty}%;N;ms", *lines, between=between)
+    assert "header in line 1, units in line 2" in said
+    assert "left out" not in said
+    assert np.allclose(table.column("duty").to_numpy(), 0.002)
+    assert np.allclose(table.column("t").to_numpy(), np.arange(N) * 0.005)
