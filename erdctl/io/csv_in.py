@@ -32,8 +32,8 @@ _NOT_UTF8 = re.compile("[\udc80-\udcff]")
 _SEPARATORS = {";": "semicolons", "\t": "tabs", "|": "bars", " ": "spaces"}
 
 
-def column_names(data: Data, file: str) -> list[str]:
-    """Names in the header row.
+def header_of(data: Data, file: str) -> tuple[int, list[str]]:
+    """Line of the header row, and the names in it.
 
     Raises InputProblem if there is none, if it is not UTF-8, or not separated by commas.
     """
@@ -58,7 +58,7 @@ def column_names(data: Data, file: str) -> list[str]:
                     file=file,
                     row=line,
                 )
-    return names
+    return line, names
 
 
 def read(

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 
 from erdctl.io.text.options import FORMS_OF
 from erdctl.io.text.stamps import is_stamp
@@ -82,6 +84,25 @@ def cells_of(line: str, separator: str) -> list[str]:
     return [cell.strip() for cell in rows[0]] if rows else []
 
 
+def whole_lines(lines: Iterable[str]) -> Iterator[tuple[int, str]]:
+    """Lines and their numbers from 1; a cell in quotes that goes over several makes them one.
+
+    >>> list(whole_lines(['0,"a', 'b",1', '2,c,3']))
+    [(1, '0,"a\\nb",1'), (3, '2,c,3')]
+    """
+    source, ahead, number = iter(lines), deque[str](), 1
+    while ahead or (ahead := deque(islice(source, 1))):
+        line, taken = ahead.popleft(), 1
+        if line.count('"') % 2 and _OPEN.fullmatch(line):
+            ahead.extend(islice(source, max(0, LONGEST - 1 - len(ahead))))
+            last = next((k for k, other in enumerate(ahead, 1) if other.count('"') % 2), 0)
+            if last and _CLOSE.fullmatch(ahead[last - 1]):
+                line = "\n".join([line, *[ahead.popleft() for _ in range(last)]])
+                taken += last
+        yield number, line
+        number += taken
+
+
 def unbroken(lines: Sequence[str]) -> list[str]:
     """Lines (n,) with each cell in quotes that goes over several of them in its first one.
 
@@ -89,18 +110,9 @@ def unbroken(lines: Sequence[str]) -> list[str]:
     >>> unbroken(['0,"a', 'b",1', '2,c,3'])
     ['0,"a\\nb",1', '', '2,c,3']
     """
-    out = list(lines)
-    at = 0
-    while at < len(out):
-        end = at + 1
-        if out[at].count('"') % 2 and _OPEN.fullmatch(out[at]):
-            beyond = range(at + 1, min(at + LONGEST, len(out)))
-            last = next((k for k in beyond if out[k].count('"') % 2), None)
-            if last is not None and _CLOSE.fullmatch(out[last]):
-                end = last + 1
-                whole = "\n".join(out[at:end])
-                out[at:end] = [whole, *[""] * (last - at)]
-        at = end
+    out = [""] * len(lines)
+    for number, line in whole_lines(lines):
+        out[number - 1] = line
     return out
 
 

@@ -17,6 +17,7 @@ from erdctl.io.text.cells import (
     comment_of,
     kind_of,
     unbroken,
+    whole_lines,
 )
 from erdctl.io.text.encoding import CALLED, LINE_END, UTF8, decoded, encoding_of
 from erdctl.io.text.labview import LabView, labview_of
@@ -87,7 +88,7 @@ class TextLayout:
         """Whether it is what the contract calls CSV."""
         return (
             self.encoding == UTF8 and self.dialect == Dialect() and not self.header.units
-            and self.header.line > 0 and self.header.units_line == 0 and not self.ragged
+            and self.header.verbatim and self.header.units_line == 0 and not self.ragged
             and self.comment is None and self.labview is None and self.options == TextOptions()
             and self.start > self.header.line and not self.above
         )  # fmt: skip
@@ -242,7 +243,7 @@ def _rows(
             content = stream.read()
     else:
         content = bytes(data)
-    for number, line in enumerate(LINE_END.split(decoded(content[mark:], encoding, file)), 1):
+    for number, line in whole_lines(LINE_END.split(decoded(content[mark:], encoding, file))):
         if number >= found.start and line.strip() and comment_of(line) is None:
             yield number, cells_of(line, found.separator)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ from erdctl.io.text.options import TextOptions
 from erdctl.io.text.structure import Structure
 
 NUMBERED = "column_{}"
+_NO_UNIT = {"1", "", None}
 
 
 @dataclass(frozen=True)
@@ -21,12 +23,14 @@ class Header:
 
     names : one a column;  line, units_line : in the file, 0 for none
     units : column -> unit, out of a row of units
+    verbatim : the names are the cells of their line, without blanks or names given to empty ones
     """
 
     names: tuple[str, ...]
     line: int
     units_line: int
     units: dict[str, str]
+    verbatim: bool = False
 
 
 def header_of(
@@ -59,10 +63,10 @@ def header_of(
     else:
         line = next((n for n in above if n != units_line), 0)
         names = _cells(lines[line - 1], found.separator, width) if line else []
-        if any(kind_of(cell) in (NUMBER, STAMP) for cell in names) and _named_above(
-            lines, above, line, found
-        ):
-            _refuse_values(names, line, found, file, least=1)
+        higher = [_cells(lines[n - 1], found.separator, width) for n in above if n < line]
+        named = any(len(cells) == width and not _are_spoilt(cells) for cells in higher)
+        if named and _are_spoilt(names) and len(names) >= found.shortest:
+            raise _neither(line, found, file)
         if not _are_names(names) or _is_title(names, line, lines, found):
             if line and comment_of(lines[line - 1]) is None:
                 _refuse_values(names, line, found, file)
@@ -81,7 +85,8 @@ def header_of(
                 file=file,
                 column=name,
             )
-    return Header(whole, line, units_line, by_name)
+    verbatim = tuple(next(csv.reader([lines[line - 1]], delimiter=found.separator), ())) == whole
+    return Header(whole, line, units_line, by_name, verbatim)
 
 
 def _cells(line: str, separator: str, width: int) -> list[str]:
@@ -120,25 +125,28 @@ def _is_title(names: Sequence[str], line: int, lines: Sequence[str], found: Stru
     return (apart and (unlike or found.separator == " ")) or (unlike and comment)
 
 
-def _named_above(lines: Sequence[str], above: Sequence[int], line: int, found: Structure) -> bool:
-    """Whether a line with values in it stands below one of as many names."""
-    higher = next((n for n in above if n < line), 0)
-    names = _cells(lines[higher - 1], found.separator, found.width) if higher else []
-    return len(names) == found.width and not any(kind_of(cell) in (NUMBER, STAMP) for cell in names)
+def _are_spoilt(cells: Sequence[str]) -> bool:
+    """Whether cells are hardly names but a spoilt sample: `---;ERR;ERR`, `0.0;---`."""
+    filled = [cell for cell in cells if cell]
+    worded = all(re.search(r"[^\W\d_]", cell) for cell in filled)
+    values = any(kind_of(cell) in (NUMBER, STAMP) for cell in filled)
+    return values or not worded or len(set(filled)) < len(filled)
 
 
-def _refuse_values(
-    cells: Sequence[str], line: int, found: Structure, file: str, *, least: int = 2
-) -> None:
+def _neither(line: int, found: Structure, file: str) -> InputProblem:
+    return InputProblem(
+        f"neither names nor values like those below it (row {found.start}); say which line"
+        " holds the names, --text header=LINE, or --text header=none, and mend or remove this",
+        file=file,
+        row=line,
+    )
+
+
+def _refuse_values(cells: Sequence[str], line: int, found: Structure, file: str) -> None:
     """A line of values above the samples that is not like them is not left out in silence."""
     values = sum(kind_of(cell) in (NUMBER, STAMP) for cell in cells)
-    if line == found.start - 1 and values >= least and len(cells) >= found.shortest:
-        raise InputProblem(
-            f"neither names nor values like those below it (row {found.start}); say which line"
-            " holds the names, --text header=LINE, or --text header=none, and mend or remove this",
-            file=file,
-            row=line,
-        )
+    if line == found.start - 1 and values >= 2 and len(cells) >= found.shortest:
+        raise _neither(line, found, file)
 
 
 def _units_line(lines: Sequence[str], above: Sequence[int], found: Structure) -> int:
@@ -149,7 +157,7 @@ def _units_line(lines: Sequence[str], above: Sequence[int], found: Structure) ->
     names = _cells(lines[above[1] - 1], found.separator, found.width)
     if abs(len(units) - len(names)) > 1 or not _are_names(names):
         return 0
-    return above[0] if any(units) else 0
+    return above[0] if set(units) - _NO_UNIT else 0  # a row of nothing but `-` states none
 
 
 def _units_above(
@@ -167,7 +175,7 @@ def _units_above(
     """
     named = options.header or next((n for n in above if n != below), 0)
     rows = {n: _units_in(lines[n - 1], found) for n in above if n not in (named, below)}
-    rows = {n: units for n, units in rows.items() if set(units) - {"1", "", None}}
+    rows = {n: units for n, units in rows.items() if set(units) - _NO_UNIT}
     if below:
         rows = {below: _units_in(lines[below - 1], found, every=False), **rows}
     if len({tuple(units) for units in rows.values()}) > 1:

@@ -10,7 +10,7 @@ import pyarrow as pa
 
 from erdctl.core.errors import InputProblem
 from erdctl.io.problems import Wrong, problem_of
-from erdctl.io.text.cells import cells_of, comment_of
+from erdctl.io.text.cells import cells_of, comment_of, whole_lines
 from erdctl.io.text.labview import END
 from erdctl.io.text.layout import Data, TextLayout
 from erdctl.io.text.numerals import otherwise
@@ -30,8 +30,7 @@ def samples_of(data: Data, layout: TextLayout) -> Iterator[tuple[int, list[str]]
         ) as text,
     ):
         stream.seek(layout.mark)
-        for number, whole in enumerate(text, 1):
-            line = whole.rstrip("\n")
+        for number, line in whole_lines(line.rstrip("\n") for line in text):
             if number < layout.start or is_empty(line, layout):
                 continue
             # A segment of a LabVIEW file has its own block, and the names again.
@@ -43,8 +42,9 @@ def samples_of(data: Data, layout: TextLayout) -> Iterator[tuple[int, list[str]]
 
 
 def is_empty(line: str, layout: TextLayout) -> bool:
-    """Whether a line holds nothing: blank, or a comment."""
-    return not line.strip() or (layout.comment is not None and comment_of(line) is not None)
+    """Whether a line holds nothing: blank, or a comment. Tabs alone are a row of empty cells."""
+    blank = not line.strip(" ") if layout.dialect.separator == "\t" else not line.strip()
+    return blank or (layout.comment is not None and comment_of(line) is not None)
 
 
 def row_of(data: Data, layout: TextLayout, sample: int) -> int:

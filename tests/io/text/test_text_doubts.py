@@ -156,3 +156,69 @@ def test_units_of_percent_are_no_comment(read: Converted, between: str, before: 
     assert "left out" not in said
     assert np.allclose(table.column("duty").to_numpy(), 0.002)
     assert np.allclose(table.column("t").to_numpy(), np.arange(N) * 0.005)
+
+
+# --- which row
+
+
+@pytest.mark.parametrize("between", [";", ",", "\t"])
+def test_a_word_among_clock_times(read: Converted, between: str) -> None:
+    lines = [f"10:00:00.{5 * i:03d};0.001;5.5" for i in range(N)]
+    lines[20] = "abc" + lines[20][12:]
+    with pytest.raises(InputProblem, match="row 22, column 't': found 'abc', expected a time"):
+        read("t;x;force", *lines, between=between)
+
+
+NOTED = [line + (';"a\nb"' if i % 5 == 4 else ";c") for i, line in enumerate(LINES)]
+
+
+@pytest.mark.parametrize("between", [";", ",", "\t", "|"])
+def test_rows_below_cells_of_several_lines(read: Converted, between: str) -> None:
+    found = read(NAMES + ";note", *NOTED, between=between)
+    assert np.array_equal(force_of(found), FORCE)
+    assert found[0].column("note")[4].as_py() == "a\nb"
+    bad = [*NOTED[:30], "0.150;0.003;ERR;0.2;c", *NOTED[31:]]
+    with pytest.raises(InputProblem, match="row 38, column 'force': found 'ERR'") as caught:
+        read(NAMES + ";note", *bad, between=between)
+    assert " cells where" not in str(caught.value)
+    back = [*NOTED[:30], NOTED[28], *NOTED[31:]]
+    with pytest.raises(InputProblem, match="row 38, column 't': "):
+        read(NAMES + ";note", *back, between=between)
+
+
+@pytest.mark.parametrize("between", [";", ",", "\t"])
+@pytest.mark.parametrize("blank", [";;;", "   ", ""])
+def test_rows_below_an_empty_one(read: Converted, between: str, blank: str) -> None:
+    lines = [*LINES[:10], blank, *LINES[10:]]
+    row = 13 if blank == ";;;" else 23
+    lines[20] = "0.045" + lines[20][5:]
+    with pytest.raises(InputProblem, match=f"row {row}, column 't': "):
+        read("Rig 7", NAMES.replace("x", "x "), *lines, between=between)
+
+
+@pytest.mark.parametrize("between", [";", ","])
+@pytest.mark.parametrize(
+    "bad", ["---;---;---;---", "ERR;OVL;---;xx", ";ERR;ERR;ERR", "-;-;-;-", "0.0;---;---;---"]
+)
+def test_first_samples_without_values(read: Converted, between: str, bad: str) -> None:
+    for times in (1, 2):
+        with pytest.raises(InputProblem, match=r"row [23](: neither names nor values|, column)"):
+            read(NAMES, *[bad] * times, *LINES, between=between)
+
+
+@pytest.mark.parametrize("between", [";", ","])
+def test_a_name_that_comes_twice_has_its_row(read: Converted, between: str) -> None:
+    with pytest.raises(InputProblem, match="row 2: columns 1 and 2 are both called 't'; rename"):
+        read("" if between == "," else "Rig 7", "t;t;force;duty", *LINES, between=between)
+
+
+@pytest.mark.parametrize("names", ["t, x, force, stamp", "t,x,force,", "t,x,,stamp"])
+def test_names_that_are_not_their_cells(read: Converted, names: str) -> None:
+    lines = [f"{i * 0.005:.3f},{i * 1e-4:.4f},{i + 0.5},2022-04-{1 + i % 28:02d}" for i in range(N)]
+    table, _ = read(names, *lines)
+    assert np.allclose(table.column("x").to_numpy(), np.arange(N) * 1e-4)
+    assert np.allclose(table.column(2).to_numpy().astype(float), np.arange(N) + 0.5)
+    assert table.column(3)[0].as_py() == "2022-04-01"
+    lines[30] = "0.150,abc" + lines[30][12:]
+    with pytest.raises(InputProblem, match="row 32, column 'x': found 'abc'"):
+        read(names, *lines)
