@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,10 +12,12 @@ import pytest
 
 from erdctl.core.errors import InputProblem
 from erdctl.io.convert import read_converted
+from erdctl.io.logs import read_logs
 
 N = 40
 LINES = [f"{i * 0.005:.3f};{i * 1e-4:.4f};{10 + i * 0.125:.3f};0.2" for i in range(N)]
 NAMES = "t;x;force;duty"
+SAMPLES = [";".join(line.split(";")[1:3]) for line in LINES]
 FORCE = 10 + np.arange(N) * 0.125
 
 Converted = Callable[..., tuple[pa.Table, str]]
@@ -156,6 +159,28 @@ def test_units_of_percent_are_no_comment(read: Converted, between: str, before: 
     assert "left out" not in said
     assert np.allclose(table.column("duty").to_numpy(), 0.002)
     assert np.allclose(table.column("t").to_numpy(), np.arange(N) * 0.005)
+
+
+# --- a stated interval
+
+
+@pytest.mark.parametrize(
+    ("rate", "interval"),
+    [
+        ("1,000 Hz", None), ("1 000 Hz", None), ("200,200", None), ("1'000 Hz", "0.001"),
+        ("1,000,000 Hz", "1e-06"), ("1,000.0 Hz", "0.001"), ("0,5 kHz", "0.002"),
+        ("200 Hz", "0.005"), ("1.000 Hz", "1"),
+        ("200 Hz\nSampling time: 12:30:05", "0.005"),
+    ],
+)  # fmt: skip
+def test_a_rate_is_said_only_if_it_is_clear(
+    rate: str, interval: str | None, tmp_path: Path
+) -> None:
+    (tmp_path / "rate.csv").write_text("\n".join([f"Sample rate: {rate}", "x;force", *SAMPLES]))
+    with pytest.raises(InputProblem) as caught:
+        read_logs([str(tmp_path / "rate.csv")], need_force=True, report=str)
+    found = re.search("interval=(.*) makes a time of it", str(caught.value))
+    assert (found and found[1]) == interval
 
 
 # --- which row
