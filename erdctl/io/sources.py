@@ -178,6 +178,11 @@ def read_source(
 
     def read() -> pa.Table:
         text = source.text
+        if source.format is Format.CSV and roles is not None:
+            from erdctl.io.text.cut_off import cut_off
+
+            if note := cut_off(source.data, text):
+                roles.say(note)
         if text is not None and not (text.ordinary and text.forms.keys().isdisjoint(numbers)):
             from erdctl.io.text.body import read_text
 

@@ -13,6 +13,8 @@ import pytest
 from erdctl.core.errors import InputProblem
 from erdctl.io.convert import read_converted
 from erdctl.io.logs import read_logs
+from erdctl.io.roles import Roles
+from erdctl.io.sources import open_source, read_source
 
 N = 40
 LINES = [f"{i * 0.005:.3f};{i * 1e-4:.4f};{10 + i * 0.125:.3f};0.2" for i in range(N)]
@@ -247,3 +249,27 @@ def test_names_that_are_not_their_cells(read: Converted, names: str) -> None:
     lines[30] = "0.150,abc" + lines[30][12:]
     with pytest.raises(InputProblem, match="row 32, column 'x': found 'abc'"):
         read(names, *lines)
+
+
+# --- cut off
+
+
+@pytest.mark.parametrize("between", [";", ",", "\t", " "])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "utf-16-le"])
+def test_a_last_cell_that_is_cut_off(tmp_path: Path, between: str, encoding: str) -> None:
+    text = "\n".join([NAMES, *LINES * 200])
+    force = "\n".join(["t;x;force", *[line[:-4] for line in LINES]])
+    path = tmp_path / "cut.csv"
+    for whole, cuts in ((text, (0, 1)), (force, (0, 1, 2, 3, 4)), (force + "\n", (0, 2, 4))):
+        for cut in cuts:
+            path.write_bytes(whole[: len(whole) - cut].replace(";", between).encode(encoding))
+            source, said = open_source(str(path)), []
+            read_source(source, roles=Roles(say=said.append), numbers=source.columns)
+            assert any("cut off there" in line for line in said) == (cut > whole.endswith("\n"))
+
+
+@pytest.mark.parametrize("last", ["0.2", "0.25", "", "-10.2e3"])
+def test_a_missing_line_end_alone_is_not_remarked_on(read: Converted, last: str) -> None:
+    lines = [re.sub("0.2$", f"{i * i / 64:g}", line) for i, line in enumerate(LINES)]
+    lines[-1] = f"{lines[-1].rpartition(';')[0]};{last}"
+    assert "cut off" not in read(NAMES.replace("duty", "p"), *lines, end="")[1]
