@@ -70,6 +70,15 @@ class TableSource:
         return sample + 1
 
     @property
+    def remarks(self) -> Collection[str]:
+        """What to say of the file before it is read."""
+        if self.format is Format.CSV:
+            from erdctl.io.text.cut_off import cut_off
+
+            return cut_off(self.data, self.text)
+        return () if self.layout is None else self.layout.notes
+
+    @property
     def size(self) -> int:
         """Number of bytes."""
         return os.path.getsize(self.data) if isinstance(self.data, str) else len(self.data)
@@ -178,11 +187,6 @@ def read_source(
 
     def read() -> pa.Table:
         text = source.text
-        if source.format is Format.CSV and roles is not None:
-            from erdctl.io.text.cut_off import cut_off
-
-            if note := cut_off(source.data, text):
-                roles.say(note)
         if text is not None and not (text.ordinary and text.forms.keys().isdisjoint(numbers)):
             from erdctl.io.text.body import read_text
 

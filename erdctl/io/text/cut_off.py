@@ -16,7 +16,7 @@ FEWEST = 20  # rows that show how the last column is written
 MOST = 400
 
 
-def cut_off(data: str | bytearray, layout: TextLayout | None) -> str | None:
+def cut_off(data: str | bytearray, layout: TextLayout | None) -> list[str]:
     """What to say of a last line that ends within its last cell, as far as it shows.
 
     layout : how the text is written, None for plain CSV
@@ -28,23 +28,23 @@ def cut_off(data: str | bytearray, layout: TextLayout | None) -> str | None:
     tail, whole = _tail(data)
     text = tail.decode(layout.encoding if layout else UTF8, errors="replace")
     if not text.rstrip(" \t") or text[-1] in "\r\n":
-        return None
+        return []
     dialect = layout.dialect if layout else Dialect()
     lines = LINE_END.split(text)[0 if whole else 1 :]
     rows = [cells_of(line, dialect.separator) for line in lines[-MOST:]]
     last = rows[-1][-1]
     above = [r[-1] for r in rows[:-1] if len(r) == len(rows[-1]) and kind_of(r[-1]) == NUMBER]
     if len(above) < FEWEST or kind_of(last) != NUMBER:
-        return None
+        return []
     decimals = {len(cell.partition(dialect.decimal)[2]) for cell in above}
     shorter = len(last.partition(dialect.decimal)[2]) < min(decimals) and len(decimals) == 1
     if shorter or (len(set(above)) == 1 and above[0].startswith(last) and above[0] != last):
-        return (
+        return [
             f"the last line has no line end, and its last cell '{last}' is shorter than all others"
             f" of its column, as '{above[-1]}': the file has probably been cut off there; copy it"
             " again, or remove that line"
-        )
-    return None
+        ]
+    return []
 
 
 def _tail(data: str | bytearray) -> tuple[bytes, bool]:
