@@ -44,8 +44,9 @@ def command(
     and one line says what was assumed. Where two readings are possible, the command stops and names
     the key of --text that decides. Columns are taken for those of a bench log where name and unit
     are clear, as in `Displacement (mm)`; else --map says it, for a file in volts with a factor.
-    A time that does not grow and records that come back are refused, as by every other command;
-    values out of range are converted with a warning.
+    Runs whose time begins anew become records, as for every other command, and a column `record`
+    names them. A time that falls in another way and records that come back are refused, as by every
+    other command; values out of range are converted with a warning.
 
     Time bases: channels with several rates are resampled to the times of force (without it, of x),
     motion and force linearly, the duty held; a gap that would be bridged is refused. The command

@@ -12,17 +12,22 @@ from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Index, running_time
 from erdctl.core.stretches import LONG
+from erdctl.io.arrays import runs_of_text
 from erdctl.io.batches import in_portions, long_source, read_batches
 from erdctl.io.checks import Place, check_growth, check_values
 from erdctl.io.columns import to_numbers
+from erdctl.io.joins import names_of_runs, restarts
 from erdctl.io.maps import parse_maps
 from erdctl.io.memory import check_fits
-from erdctl.io.outline import ByColumn, place_behind
+from erdctl.io.names_of_logs import stem
+from erdctl.io.outline import ByColumn, Outline, outline, place_behind
 from erdctl.io.plan import ColumnPlan, in_contract_names, plan_columns, read_planned
 from erdctl.io.sources import TableSource, open_source
 from erdctl.io.stored import si, units_apart, with_unit
 from erdctl.io.text.options import TextOptions, TextSpec, parse_text_options
 from erdctl.io.units import RECORD, Conversion
+
+_NAMED = "a column 'record' that names them is written"
 
 if TYPE_CHECKING:
     from erdctl.io.project.reading import ProjectReading
@@ -41,7 +46,7 @@ def read_converted(
     """All columns of a file; those of the contract under its names and in SI, others as they are.
 
     Nothing is required of it: it need not be a whole log. But where it has a time or records, they
-    must be in order, as every other command demands.
+    must be in order, as every other command demands; runs whose time begins anew become records.
     maps, text : options `--map` and `--text`;  project : what a project file says besides
     goes_on : the time goes on from record to record, where it began anew
     say : takes a line for all that was assumed
@@ -68,10 +73,29 @@ def read_converted(
     table = _in_si(table, plan, source.name, note)
     if rows := table.num_rows:
         place = Place(source.name, lambda sample: source.row_of(sample, rows))
+        table, plan = _with_runs(table, plan, source, place, note)
         _Checks(plan, warn or say).add(table, place)
     if goes_on:
         table = _going_on(table, plan, source)
     return units_apart(table)
+
+
+def _with_runs(
+    table: pa.Table,
+    plan: ColumnPlan,
+    source: TableSource,
+    place: Place,
+    note: Callable[[str], None],
+) -> tuple[pa.Table, ColumnPlan]:
+    """The table with a column `record` for runs that follow one another, if it has none."""
+    if "t" not in plan or RECORD in plan:
+        return table, plan
+    starts = restarts(to_numbers(table.column("t"), plan["t"][0], place))
+    if starts is None:
+        return table, plan
+    names = names_of_runs(starts, stem(source.path), place, note, named=_NAMED)
+    column = runs_of_text(names, np.diff(starts), pa.string())
+    return table.append_column(RECORD, column), plan | {RECORD: (RECORD, Conversion())}
 
 
 def _going_on(table: pa.Table, plan: ColumnPlan, source: TableSource) -> pa.Table:
@@ -107,19 +131,24 @@ def converted_in_parts(
     assert source.schema is not None
     if "t" in plan and pa.types.is_temporal(source.schema.field(plan["t"][0]).type):
         return None
+    found = None
+    if "t" in plan and RECORD not in plan:
+        found = outline(source, plan, (), (), stem(path), said.append, named=_NAMED)
     for line in said:
         say(f"{source.name}: {line}")
-    return _parts(source, plan, say, warn, progress)
+    return _parts(source, plan, found, say, warn, progress)
 
 
 def _parts(
     source: TableSource,
     plan: ColumnPlan,
+    runs: Outline | None,
     say: Callable[[str], None],
     warn: Callable[[str], None],
     progress: Progress,
 ) -> Iterator[pa.Table]:
-    checks, rows = _Checks(plan, warn), 0
+    divided = runs is not None and runs.named
+    checks, rows = _Checks(plan | ({RECORD: (RECORD, Conversion())} if divided else {}), warn), 0
     labels = [plan[RECORD][0]] if RECORD in plan else []
     for table in in_portions(read_batches(source, source.columns, labels), LONG):
         progress("converting", part_of(f"{source.rows} rows", rows + 1, source.rows or 1))
@@ -128,6 +157,10 @@ def _parts(
         if not rows:
             for line in said:
                 say(f"{source.name}: {line}")
+        if runs is not None and runs.named:
+            edges = np.clip(runs.starts - rows, 0, table.num_rows)
+            column = runs_of_text(runs.names, np.diff(edges), pa.string())
+            table = table.append_column(RECORD, column)
         checks.add(table, place_behind(source.name, rows))
         rows += table.num_rows
         yield units_apart(_own_labels(table, source, plan))

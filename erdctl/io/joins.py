@@ -102,14 +102,18 @@ def runs(
 
 
 def names_of_runs(
-    starts: Index, stem: str, place: Place, say: Callable[[str], None]
+    starts: Index,
+    stem: str,
+    place: Place,
+    say: Callable[[str], None],
+    named: str = "a column 'record' would name them",
 ) -> tuple[str, ...]:
-    """Names for runs told apart by their time, which is said."""
+    """Names for runs told apart by their time, which is said; named : what names them."""
     names = tuple(f"{stem}:{i}" for i in range(1, len(starts)))
     rows = ", ".join(str(place.row_of(int(i))) for i in starts[1:-1][:5].tolist())
     more = "" if len(starts) <= 7 else ", ..."
     say(
         f"time begins anew in row {rows}{more}; taken as {len(names)} records, {names[0]} to"
-        f" {names[-1]}; a column 'record' would name them"
+        f" {names[-1]}; {named}"
     )
     return names

@@ -37,19 +37,20 @@ def outline(
     where: Sequence[Where],
     stem: str,
     say: Callable[[str], None],
+    **named: str,
 ) -> Outline | None:
     """The records of a log, or None if only some of its rows are wanted.
 
-    choosing : columns that say which damper a row is of
+    choosing : columns that say which damper a row is of;  named : as of `names_of_runs`
     Raises InputProblem for records that come back, and for several dampers.
     """
     column, convert = plan[RECORD] if RECORD in plan else plan["t"]
-    names = list(dict.fromkeys([column, *choosing]))
-    labels = [c for c in names if c != column or RECORD in plan]
+    looked = list(dict.fromkeys([column, *choosing]))
+    labels = [c for c in looked if c != column or RECORD in plan]
     chosen = {name: dict[str | None, None]() for name in choosing}
     look: ByColumn | _Times = ByColumn(column) if RECORD in plan else _Times()
     rows = 0
-    for table in read_batches(source, names, labels):
+    for table in read_batches(source, looked, labels):
         place = place_behind(source.name, rows)
         values = table.column(column)
         if isinstance(look, ByColumn):
@@ -68,7 +69,9 @@ def outline(
     starts = look.runs(rows)
     if starts is None:
         return Outline(np.array([0, rows], dtype=np.intp), (stem,), False)
-    return Outline(starts, names_of_runs(starts, stem, place_behind(source.name, 0), say), True)
+    return Outline(
+        starts, names_of_runs(starts, stem, place_behind(source.name, 0), say, **named), True
+    )
 
 
 def place_behind(file: str, rows: int) -> Place:

@@ -65,6 +65,10 @@ def _is_value(cell: str) -> bool:
 
 
 def _is_foreign(column: Sequence[str]) -> bool:
-    """Whether texts of a column are numbers with a decimal comma, or dates and times."""
+    """Whether most texts of a column are numbers with a decimal comma, or dates and times.
+
+    Not all: a word among clock times is an error of its row, not the times of theirs.
+    """
     texts = [cell for cell in column if cell and not _is_value(cell)]
-    return bool(texts) and all(_FOREIGN.search(cell) and "\n" not in cell for cell in texts)
+    foreign = sum(bool(_FOREIGN.search(cell)) and "\n" not in cell for cell in texts)
+    return 2 * foreign > len(texts)

@@ -269,9 +269,8 @@ def read_planned(
     The channels of a container come on one time base, and a time of their own in seconds.
     Raises InputProblem for whole numbers of a sensor whose scale nobody states.
     """
-    if source.layout is not None:
-        for note in source.layout.notes:
-            say(note)
+    for remark in source.remarks:
+        say(remark)
     clock, seconds = plan.get("t", ("t", Conversion()))
     notes: list[str] = []
     hear = say if source.text is None else notes.append
@@ -287,8 +286,8 @@ def read_planned(
         )
     finally:
         if source.text is not None:
-            taken = _taken(plan, source)
-            say("read as: " + ", ".join([source.text.read_as, *notes, *([taken] if taken else [])]))
+            said = [f"read as: {source.text.read_as}", *notes, _taken(plan, source)]
+            say(", ".join(filter(None, said)))
     if clock in table.column_names and (found := in_seconds(table.column(clock), clock)):
         at = table.column_names.index(clock)
         table = table.set_column(at, with_unit(pa.field(clock, pa.float64()), si("t")), found[0])

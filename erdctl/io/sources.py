@@ -70,6 +70,15 @@ class TableSource:
         return sample + 1
 
     @property
+    def remarks(self) -> Collection[str]:
+        """What to say of the file before it is read."""
+        if self.format is Format.CSV:
+            from erdctl.io.text.cut_off import cut_off
+
+            return cut_off(self.data, self.text)
+        return () if self.layout is None else self.layout.notes
+
+    @property
     def size(self) -> int:
         """Number of bytes."""
         return os.path.getsize(self.data) if isinstance(self.data, str) else len(self.data)
@@ -111,7 +120,7 @@ def _opened(
     else:
         head = bytes(data[:64])
     found = by_content(head, path, name)
-    schema, rows, units, written = None, None, dict[str, str](), None
+    schema, rows, units, written, line = None, None, dict[str, str](), None, 0
     if found in CONTAINERS:
         from erdctl.io.containers.isolated import open_isolated
 
@@ -126,9 +135,9 @@ def _opened(
         plain = text is None and is_plain(data)
         written = None if plain else _recognised(data, name, text or assumed)
         if written is not None:
-            columns, units = list(written.columns), written.units
+            columns, units, line = list(written.columns), written.units, written.header.line
         else:
-            columns = csv_in.column_names(data, name)
+            line, columns = csv_in.header_of(data, name)
     else:
         schema, columns, units, rows = guarded(
             name, found, lambda: _described(data, found, name, whole)
@@ -141,6 +150,7 @@ def _opened(
                 f"columns {columns.index(column) + 1} and {i + 1} are both called '{column}';"
                 " rename one",
                 file=name,
+                row=line or None,
             )
     return TableSource(
         path, name, found, data, tuple(columns), schema, units, text=written, rows=rows

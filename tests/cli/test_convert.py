@@ -147,6 +147,41 @@ def test_a_time_that_does_not_grow_is_refused(
     assert not out.exists()
 
 
+@pytest.mark.parametrize("suffix", ["csv", "parquet", "in parts"])
+def test_runs_whose_time_begins_anew_become_records(
+    tmp_path: Path, suffix: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As `inspect` and all others take them; one row out of order is none, and refused."""
+    t = np.concatenate([np.arange(30) * 0.25, np.arange(20) * 0.25])
+    names = ["log:1"] * 30 + ["log:2"] * 20
+    log = tmp_path / f"log.{suffix.replace('in parts', 'parquet')}"
+    if suffix == "in parts":
+        monkeypatch.setattr("erdctl.io.batches.SMALL", 0)
+        monkeypatch.setattr("erdctl.io.batches.STREAMED", 1)
+        monkeypatch.setattr("erdctl.io.convert.LONG", 7)
+
+    def write(t: np.ndarray) -> None:
+        table = pa.table({"t": t, "p": t + 1.0})
+        if suffix == "csv":
+            log.write_text("t,p\n" + "".join(f"{a},{a + 1}\n" for a in t))
+        else:
+            pq.write_table(table, log, row_group_size=9)
+
+    write(t)
+    result = erdctl("convert", log, tmp_path / "out.parquet")
+    row = 32 if suffix == "csv" else 31
+    assert f"time begins anew in row {row}; taken as 2 records" in result.stderr
+    found = pq.read_table(tmp_path / "out.parquet")
+    assert found["record"].to_pylist() == names
+    assert found["t"].to_pylist() == t.tolist()
+    on = erdctl("convert", "--running-time", log, "-").stdout.splitlines()
+    assert [float(line.split(",")[0]) for line in on[1:]] == (np.arange(50) * 0.25).tolist()
+    t[10] = t[8]
+    write(t)
+    refused = erdctl("convert", log, tmp_path / "no.parquet", code=3)
+    assert "column 't': time must grow" in refused.stderr
+
+
 def test_records_that_come_back_are_refused(tmp_path: Path) -> None:
     log, out = tmp_path / "log.csv", tmp_path / "out.parquet"
     log.write_text("t,record\n0,a\n0,b\n1,a\n")

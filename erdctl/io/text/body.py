@@ -12,7 +12,7 @@ import pyarrow as pa
 from erdctl.core.errors import InputProblem
 from erdctl.core.memory import check_threads
 from erdctl.io.csv_out import as_csv_text
-from erdctl.io.text.cells import NUMBER, between_thousands, cells_of
+from erdctl.io.text.cells import COMMENT, NUMBER, between_thousands, cells_of, whole_lines
 from erdctl.io.text.encoding import UTF8, decoded
 from erdctl.io.text.labview import END
 from erdctl.io.text.layout import STEPS, Data, TextLayout
@@ -100,11 +100,11 @@ def _lines(data: Data, layout: TextLayout, file: str, notes: list[str]) -> bytes
         body = _one_segment(body, layout, file)
     body = _ended(body, separator, notes)
     if layout.comment is not None:
-        body = re.sub(rb"(?m)^[ \t]*(?:#|%|//)[^\n]*(?:\n|\Z)", b"", body)
+        body = re.sub(rb"(?m)^" + COMMENT.encode() + rb"[^\n]*(?:\n|\Z)", b"", body)
     if b'"' in body and (separator == " " or layout.ragged or re.search(rb'[ \t]"|"[ \t]', body)):
         return _rewritten(body, layout)
-    if separator != "\t" and (b"\n " in body or b"\n\t" in body):
-        body = re.sub(rb"(?m)^[ \t]+\n", b"", body)
+    if b"\n " in body or b"\n\t" in body:
+        body = re.sub(rb"(?m)^[ ]+\n" if separator == "\t" else rb"(?m)^[ \t]+\n", b"", body)
     if separator == " ":
         body = re.sub(rb"(?m)^[ \t]+|[ \t]+$", b"", body)
         body = re.sub(rb"[ \t]+", b"\t", body)
@@ -146,7 +146,7 @@ def _rewritten(body: bytes, layout: TextLayout) -> bytes:
     out = io.StringIO()
     writer = csv.writer(out, delimiter=_between(layout), lineterminator="\n")
     width = len(layout.header.names)
-    for line in body.decode(errors="surrogateescape").split("\n"):
+    for _, line in whole_lines(body.decode(errors="surrogateescape").split("\n")):
         cells = cells_of(line, layout.dialect.separator)
         if cells:
             short = layout.shortest <= len(cells) < width
@@ -184,7 +184,7 @@ def _parsed(
     return pc.read_csv(
         pa.py_buffer(body),
         read_options=pc.ReadOptions(block_size=BLOCK, column_names=list(layout.header.names)),
-        parse_options=pc.ParseOptions(delimiter=_between(layout)),
+        parse_options=pc.ParseOptions(delimiter=_between(layout), newlines_in_values=b'"' in body),
         convert_options=pc.ConvertOptions(
             column_types={
                 c: pa.float64() if direct and c in numbers else pa.string() for c in columns

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 
 from erdctl.io.text.options import FORMS_OF
 from erdctl.io.text.stamps import is_stamp
@@ -20,7 +22,17 @@ _ANY_NUMBER = re.compile(
     r"(?:[.,]\d*)?(?:[eE][+-]?\d+)?|inf(?:inity)?|nan)",
     re.IGNORECASE | re.ASCII,
 )
-COMMENTS = ("#", "%", "//")
+# A comment, unless its sign is a cell of its own behind an empty first one (tabs, a unit of %), or
+# it begins with an error or a cell too narrow of a spreadsheet (#N/A, #DIV/0!, #WERT!, ####): that
+# is a sample.
+COMMENT = (
+    r"(?![ ]*\t[ \t]*(?:[#%][ ]*\t|%[ ]*$))[ \t]*"
+    r"(?!#(?:N/A|NV|GETTING_DATA|[^\sa-z;,|#]+[!?]|##+)"
+    r"(?:[ ]*[;,|\t][;,|\t ]*[^;,|\t\s]|[ ]+[-+.0-9]))"
+    r"(#|%|//)"
+)
+_COMMENT = re.compile(COMMENT)
+_ALONE = re.compile(r"[ \t]*(?:[#%])[ ]*[;,|\t]")
 # A cell in quotes that its line leaves open, and the end of one; lines that it may go over.
 _OPEN = re.compile(r'(?:^|.*[,;\t| ])"(?:[^"]|"")*')
 _CLOSE = re.compile(r'(?:[^"]|"")*"[ ]*(?:[,;\t|].*)?')
@@ -72,6 +84,25 @@ def cells_of(line: str, separator: str) -> list[str]:
     return [cell.strip() for cell in rows[0]] if rows else []
 
 
+def whole_lines(lines: Iterable[str]) -> Iterator[tuple[int, str]]:
+    """Lines and their numbers from 1; a cell in quotes that goes over several makes them one.
+
+    >>> list(whole_lines(['0,"a', 'b",1', '2,c,3']))
+    [(1, '0,"a\\nb",1'), (3, '2,c,3')]
+    """
+    source, ahead, number = iter(lines), deque[str](), 1
+    while ahead or (ahead := deque(islice(source, 1))):
+        line, taken = ahead.popleft(), 1
+        if line.count('"') % 2 and _OPEN.fullmatch(line):
+            ahead.extend(islice(source, max(0, LONGEST - 1 - len(ahead))))
+            last = next((k for k, other in enumerate(ahead, 1) if other.count('"') % 2), 0)
+            if last and _CLOSE.fullmatch(ahead[last - 1]):
+                line = "\n".join([line, *[ahead.popleft() for _ in range(last)]])
+                taken += last
+        yield number, line
+        number += taken
+
+
 def unbroken(lines: Sequence[str]) -> list[str]:
     """Lines (n,) with each cell in quotes that goes over several of them in its first one.
 
@@ -79,18 +110,9 @@ def unbroken(lines: Sequence[str]) -> list[str]:
     >>> unbroken(['0,"a', 'b",1', '2,c,3'])
     ['0,"a\\nb",1', '', '2,c,3']
     """
-    out = list(lines)
-    at = 0
-    while at < len(out):
-        end = at + 1
-        if out[at].count('"') % 2 and _OPEN.fullmatch(out[at]):
-            beyond = range(at + 1, min(at + LONGEST, len(out)))
-            last = next((k for k in beyond if out[k].count('"') % 2), None)
-            if last is not None and _CLOSE.fullmatch(out[last]):
-                end = last + 1
-                whole = "\n".join(out[at:end])
-                out[at:end] = [whole, *[""] * (last - at)]
-        at = end
+    out = [""] * len(lines)
+    for number, line in whole_lines(lines):
+        out[number - 1] = line
     return out
 
 
@@ -105,6 +127,15 @@ def kind_of(cell: str) -> str:
 
 
 def comment_of(line: str) -> str | None:
-    """The sign that makes a line a comment."""
-    start = line.lstrip()
-    return next((sign for sign in COMMENTS if start.startswith(sign)), None)
+    """The sign that makes a line a comment.
+
+    >>> [comment_of(line) for line in ("# a", "#N/A;1;2", "\\t%\\tN")]
+    ['#', None, None]
+    """
+    found = _COMMENT.match(line)
+    return found[1] if found else None
+
+
+def stands_alone(line: str) -> bool:
+    """Whether the sign of a comment is a cell of its own: a unit of %, a column called #."""
+    return _ALONE.match(line) is not None

@@ -17,8 +17,10 @@ from erdctl.io.text.cells import (
     comment_of,
     kind_of,
     unbroken,
+    whole_lines,
 )
 from erdctl.io.text.encoding import CALLED, LINE_END, UTF8, decoded, encoding_of
+from erdctl.io.text.interval import stated_interval
 from erdctl.io.text.labview import LabView, labview_of
 from erdctl.io.text.names import Header, header_of
 from erdctl.io.text.numerals import evidence_of, settle
@@ -33,12 +35,6 @@ HEAD = 1 << 18  # bytes that the recognition looks at
 STEPS = "t"  # what the time is called where the file has none
 _SEPARATORS = {",": "commas", ";": "semicolons", "\t": "tabs", "|": "bars", " ": "blanks"}
 _EXCEL = re.compile(r'"?sep=(.)"?[,;|\s]*', re.IGNORECASE)
-_RATE = re.compile(
-    r"(?:sampl\w*|scan|abtast\w*|acquisition)[ _-]?(?:(?P<of>interval\w*|period|time|rate|freq\w*)|"
-    r"(?<=intervall)|(?<=rate)|(?<=frequenz))?(?:[ _]*[(\[](?P<unit>[A-Za-zµ]+)[)\]])?"
-    r"\s*[:=;,\t ]\s*(?P<value>[0-9]+(?:[.,][0-9]+)?(?:[eE][+-]?[0-9]+)?)\s*(?P<after>[A-Za-zµ]*)",
-    re.IGNORECASE,
-)
 
 
 @dataclass(frozen=True)
@@ -87,7 +83,7 @@ class TextLayout:
         """Whether it is what the contract calls CSV."""
         return (
             self.encoding == UTF8 and self.dialect == Dialect() and not self.header.units
-            and self.header.line > 0 and self.header.units_line == 0 and not self.ragged
+            and self.header.verbatim and self.header.units_line == 0 and not self.ragged
             and self.comment is None and self.labview is None and self.options == TextOptions()
             and self.start > self.header.line and not self.above
         )  # fmt: skip
@@ -166,7 +162,7 @@ def recognise(data: Data, file: str, options: TextOptions) -> TextLayout | None:
     return TextLayout(
         encoding, mark, dialect, header, kinds, _shortest(found, header, kinds), found.start,
         found.comment, labview, options, forms, _dates(found, header.names, forms),
-        _interval(lines[: found.start - 1]),
+        stated_interval(lines[: found.start - 1], dialect.decimal),
     )  # fmt: skip
 
 
@@ -228,7 +224,8 @@ def _dialect(
                     yield cell, line
 
     evidence = evidence_of(numbers((row.line, row.cells) for row in found.samples))
-    if not evidence.decimal and not options.decimal and found.separator != ",":
+    asked = found.separator != "," or "," in evidence.either
+    if not evidence.decimal and not options.decimal and asked:
         evidence = evidence_of(numbers(_rows(data, encoding, mark, found, file)))
     return Dialect(found.separator, *settle(evidence, found.separator, options, file))
 
@@ -241,22 +238,6 @@ def _rows(
             content = stream.read()
     else:
         content = bytes(data)
-    for number, line in enumerate(LINE_END.split(decoded(content[mark:], encoding, file)), 1):
+    for number, line in whole_lines(LINE_END.split(decoded(content[mark:], encoding, file))):
         if number >= found.start and line.strip() and comment_of(line) is None:
             yield number, cells_of(line, found.separator)
-
-
-def _interval(lines: Sequence[str]) -> float | None:
-    """Seconds between samples as the block above the header states it, if it does so clearly."""
-    found = set()
-    for line in lines:
-        said = _RATE.match(line.strip().lstrip("#%/ "))
-        if said is None or said["of"] is None:
-            continue
-        value = float(said["value"].replace(",", "."))
-        unit = (said["unit"] or said["after"] or "").lower()
-        rate = said["of"].lower().startswith(("rate", "freq"))
-        scale = {"": 1.0, "hz": 1.0, "khz": 1e3, "s": 1.0, "sec": 1.0, "ms": 1e-3}.get(unit)
-        if value > 0.0 and scale is not None and (unit in ("", "hz", "khz")) == (rate or not unit):
-            found.add(round(1.0 / (value * scale), 12) if rate else value * scale)
-    return found.pop() if len(found) == 1 else None

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import csv
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from erdctl.core.errors import InputProblem
 from erdctl.io.spelling import stated, unit_spelt
-from erdctl.io.text.cells import NUMBER, STAMP, cells_of, comment_of, kind_of
+from erdctl.io.text.cells import NUMBER, STAMP, cells_of, comment_of, kind_of, stands_alone
 from erdctl.io.text.options import TextOptions
 from erdctl.io.text.structure import Structure
 
 NUMBERED = "column_{}"
+_NO_UNIT = {"1", "", None}
 
 
 @dataclass(frozen=True)
@@ -21,12 +23,14 @@ class Header:
 
     names : one a column;  line, units_line : in the file, 0 for none
     units : column -> unit, out of a row of units
+    verbatim : the names are the cells of their line, without blanks or names given to empty ones
     """
 
     names: tuple[str, ...]
     line: int
     units_line: int
     units: dict[str, str]
+    verbatim: bool = False
 
 
 def header_of(
@@ -40,12 +44,13 @@ def header_of(
     """
     width = found.width
     above = [n for n in range(found.start - 1, after, -1) if lines[n - 1].strip()]
-    if options.header == 0:
-        return Header(_numbered(width), 0, 0, {})
     units_line = options.units or 0
-    if options.units is None and above:
-        units_line = _units_line(lines, above, found)
+    if options.units is None and options.header != 0:
+        below = _units_line(lines, above, found) if above else 0
+        units_line = _units_above(lines, above, below, found, options, file) or below
     units = _cells(lines[units_line - 1], found.separator, width) if units_line else []
+    if options.header == 0:
+        return Header(_numbered(width), 0, units_line, _by_name(_numbered(width), units))
     if options.header:
         line = options.header
         if line > len(lines) or line >= found.start:
@@ -58,10 +63,10 @@ def header_of(
     else:
         line = next((n for n in above if n != units_line), 0)
         names = _cells(lines[line - 1], found.separator, width) if line else []
-        if any(kind_of(cell) in (NUMBER, STAMP) for cell in names) and _named_above(
-            lines, above, line, found
-        ):
-            _refuse_values(names, line, found, file, least=1)
+        higher = [_cells(lines[n - 1], found.separator, width) for n in above if n < line]
+        named = any(len(cells) == width and not _are_spoilt(cells) for cells in higher)
+        if named and _are_spoilt(names) and len(names) >= found.shortest:
+            raise _neither(line, found, file)
         if not _are_names(names) or _is_title(names, line, lines, found):
             if line and comment_of(lines[line - 1]) is None:
                 _refuse_values(names, line, found, file)
@@ -80,13 +85,16 @@ def header_of(
                 file=file,
                 column=name,
             )
-    return Header(whole, line, units_line, by_name)
+    verbatim = tuple(next(csv.reader([lines[line - 1]], delimiter=found.separator), ())) == whole
+    return Header(whole, line, units_line, by_name, verbatim)
 
 
 def _cells(line: str, separator: str, width: int) -> list[str]:
     """The cells of a line above the samples, which may be a comment or separated otherwise."""
     sign = comment_of(line)
-    texts = [line] if sign is None else [line.strip()[len(sign) :].strip(), line.strip()]
+    whole = line if sign is None else line.strip()
+    without = whole if sign is None else whole[len(sign) :].strip()
+    texts = [whole, without] if stands_alone(line) else [without, whole]
     # Names above columns of blanks may be separated by what they are not.
     tried = [separator, "\t", ";", ","] if separator == " " else [separator]
     for text in texts:
@@ -97,7 +105,7 @@ def _cells(line: str, separator: str, width: int) -> list[str]:
         exact = [cells for cells in found if len(cells) == width]
         if exact:
             return exact[0]
-    return cells_of(texts[0], separator)
+    return cells_of(without, separator)
 
 
 def _are_names(cells: Sequence[str]) -> bool:
@@ -117,39 +125,79 @@ def _is_title(names: Sequence[str], line: int, lines: Sequence[str], found: Stru
     return (apart and (unlike or found.separator == " ")) or (unlike and comment)
 
 
-def _named_above(lines: Sequence[str], above: Sequence[int], line: int, found: Structure) -> bool:
-    """Whether a line with values in it stands below one of as many names."""
-    higher = next((n for n in above if n < line), 0)
-    names = _cells(lines[higher - 1], found.separator, found.width) if higher else []
-    return len(names) == found.width and not any(kind_of(cell) in (NUMBER, STAMP) for cell in names)
+def _are_spoilt(cells: Sequence[str]) -> bool:
+    """Whether cells are hardly names but a spoilt sample: `---;ERR;ERR`, `0.0;---`."""
+    filled = [cell for cell in cells if cell]
+    worded = all(re.search(r"[^\W\d_]", cell) for cell in filled)
+    values = any(kind_of(cell) in (NUMBER, STAMP) for cell in filled)
+    return values or not worded or len(set(filled)) < len(filled)
 
 
-def _refuse_values(
-    cells: Sequence[str], line: int, found: Structure, file: str, *, least: int = 2
-) -> None:
+def _neither(line: int, found: Structure, file: str) -> InputProblem:
+    return InputProblem(
+        f"neither names nor values like those below it (row {found.start}); say which line"
+        " holds the names, --text header=LINE, or --text header=none, and mend or remove this",
+        file=file,
+        row=line,
+    )
+
+
+def _refuse_values(cells: Sequence[str], line: int, found: Structure, file: str) -> None:
     """A line of values above the samples that is not like them is not left out in silence."""
     values = sum(kind_of(cell) in (NUMBER, STAMP) for cell in cells)
-    if line == found.start - 1 and values >= least and len(cells) >= found.shortest:
-        raise InputProblem(
-            f"neither names nor values like those below it (row {found.start}); say which line"
-            " holds the names, --text header=LINE, or --text header=none, and mend or remove this",
-            file=file,
-            row=line,
-        )
+    if line == found.start - 1 and values >= 2 and len(cells) >= found.shortest:
+        raise _neither(line, found, file)
 
 
 def _units_line(lines: Sequence[str], above: Sequence[int], found: Structure) -> int:
     """The line directly above the samples, if it holds units and names are above it."""
     if len(above) < 2:
         return 0
-    units = _cells(lines[above[0] - 1], found.separator, found.width)
+    units = _units_in(lines[above[0] - 1], found, every=False)
     names = _cells(lines[above[1] - 1], found.separator, found.width)
-    if not any(units) or abs(len(units) - len(names)) > 1 or not _are_names(names):
+    if abs(len(units) - len(names)) > 1 or not _are_names(names):
         return 0
-    spelt = [unit_spelt(cell) for cell in units if cell]
+    return above[0] if set(units) - _NO_UNIT else 0  # a row of nothing but `-` states none
+
+
+def _units_above(
+    lines: Sequence[str],
+    above: Sequence[int],
+    below: int,
+    found: Structure,
+    options: TextOptions,
+    file: str,
+) -> int:
+    """A line above the names that holds units, and as many as there are columns.
+
+    below : the line of units directly above the samples, 0 for none
+    Raises InputProblem if several lines do, and not with the same units.
+    """
+    named = options.header or next((n for n in above if n != below), 0)
+    rows = {n: _units_in(lines[n - 1], found) for n in above if n not in (named, below)}
+    rows = {n: units for n, units in rows.items() if set(units) - _NO_UNIT}
+    if below:
+        rows = {below: _units_in(lines[below - 1], found, every=False), **rows}
+    if len({tuple(units) for units in rows.values()}) > 1:
+        first, second = list(rows)[:2]
+        raise InputProblem(
+            f"other units than in row {first}; say which hold: --text units={first} or --text"
+            f" units={second}",
+            file=file,
+            row=second,
+        )
+    return next(iter(rows), 0)
+
+
+def _units_in(line: str, found: Structure, *, every: bool = True) -> list[str | None]:
+    """The units of a line, one a column; none if it holds anything else for the most part."""
+    cells = _cells(line, found.separator, found.width)
+    units = [unit_spelt(cell) for cell in cells]
+    if every and len(units) != found.width:
+        return []
     # One that nobody knows does not make names of the others; it will be refused as a unit.
-    known = sum(unit is not None for unit in spelt)
-    return above[0] if any(spelt) and known > 0.6 * len(spelt) else 0
+    filled = [unit for cell, unit in zip(cells, units, strict=True) if cell]
+    return units if sum(unit is not None for unit in filled) > 0.6 * len(filled) else []
 
 
 def _fitted(names: list[str], found: Structure, line: int, file: str) -> list[str]:

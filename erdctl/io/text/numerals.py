@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from erdctl.core.errors import InputProblem
+from erdctl.io.text.cells import NUMBER, Dialect, kind_of
 from erdctl.io.text.options import DECIMALS, FORMS_OF, THOUSANDS, TextOptions
 
 _CALLED = {sign: name for name, sign in (*THOUSANDS.items(), *DECIMALS.items())}
@@ -78,7 +79,7 @@ def settle(found: SignsProven, separator: str, options: TextOptions, file: str) 
     sure = [sign for sign in found.thousands if sign != decimal]
     if len(sure) > 1:
         raise _contradiction(found.thousands[sure[0]], found.thousands[sure[1]], file=file)
-    if not sure and other in found.either and separator != COMMA:
+    if not sure and other in found.either:
         cell, line = found.either[other]
         raise InputProblem(
             f"'{cell}' beside numbers with a decimal {_CALLED[decimal]}: if the {_CALLED[other]}"
@@ -99,8 +100,9 @@ def _decimal(found: SignsProven, separator: str, file: str) -> str:
         raise _contradiction(*list(signs.values())[:2], file=file)
     if signs:
         return next(iter(signs))
-    # Commas that separate cells are no decimal signs; without any sign there is nothing to decide.
-    if separator == COMMA or not found.either:
+    # Where commas separate cells, 1.234 is a number as the contract writes it, but "1,234" in
+    # quotes may be either; without any sign there is nothing to decide.
+    if not found.either or (separator == COMMA and COMMA not in found.either):
         return POINT
     if len(found.either) > 1:
         raise _contradiction(*list(found.either.values())[:2], file=file)
@@ -129,3 +131,26 @@ def evidence_of(numbers: Iterable[tuple[str, int]]) -> SignsProven:
     for cell, line in numbers:
         out.add(cell, line)
     return out
+
+
+def otherwise(cell: str, dialect: Dialect) -> str:
+    """What to say of a cell that is a number in another notation, "" if it is none.
+
+    Check: 1,5 can only be 1.5; 1,076 may be 1076 as well, so none of the two is said to be meant.
+    >>> otherwise("1,5", Dialect())
+    ' with a decimal point: 1.5'
+    >>> otherwise("1,076", Dialect())
+    ' with a decimal point; if the comma separates thousands: --text thousands=comma'
+    """
+    if kind_of(cell) != NUMBER:
+        return ""
+    said = f" with a decimal {_CALLED[dialect.decimal]}"
+    for called, sign in THOUSANDS.items():
+        new = sign not in ("", dialect.decimal, dialect.thousands)
+        if new and replace(dialect, thousands=sign).number.match(cell):
+            return f"{said}; if the {called} separates thousands: --text thousands={called}"
+    other = COMMA if dialect.decimal == POINT else POINT
+    if other not in cell:
+        return ""
+    once = cell.count(other) == 1 and dialect.decimal not in cell
+    return f"{said}: {cell.replace(other, dialect.decimal)}" if once else said

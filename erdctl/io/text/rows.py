@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import io
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import replace
 from itertools import islice
 
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem
 from erdctl.io.problems import Wrong, problem_of
-from erdctl.io.text.cells import NUMBER, cells_of, comment_of, kind_of
+from erdctl.io.text.cells import cells_of, comment_of, whole_lines
 from erdctl.io.text.labview import END
 from erdctl.io.text.layout import Data, TextLayout
+from erdctl.io.text.numerals import otherwise
 from erdctl.io.text.stamps import form_of, kind
 
 BEYOND = 100_000  # rows that are looked through after the first error, for those of other columns
@@ -30,8 +30,7 @@ def samples_of(data: Data, layout: TextLayout) -> Iterator[tuple[int, list[str]]
         ) as text,
     ):
         stream.seek(layout.mark)
-        for number, whole in enumerate(text, 1):
-            line = whole.rstrip("\n")
+        for number, line in whole_lines(line.rstrip("\n") for line in text):
             if number < layout.start or is_empty(line, layout):
                 continue
             # A segment of a LabVIEW file has its own block, and the names again.
@@ -43,8 +42,9 @@ def samples_of(data: Data, layout: TextLayout) -> Iterator[tuple[int, list[str]]
 
 
 def is_empty(line: str, layout: TextLayout) -> bool:
-    """Whether a line holds nothing: blank, or a comment."""
-    return not line.strip() or (layout.comment is not None and comment_of(line) is not None)
+    """Whether a line holds nothing: blank, or a comment. Tabs alone are a row of empty cells."""
+    blank = not line.strip(" ") if layout.dialect.separator == "\t" else not line.strip()
+    return blank or (layout.comment is not None and comment_of(line) is not None)
 
 
 def row_of(data: Data, layout: TextLayout, sample: int) -> int:
@@ -83,7 +83,9 @@ def explained(
                 continue
             if form is None and (not cell or number.match(cell)):
                 continue
-            expected = f"a number{_hint(cell, layout)}" if form is None else f"a {kind(form)}"
+            expected = (
+                f"a number{otherwise(cell, layout.dialect)}" if form is None else f"a {kind(form)}"
+            )
             said = f"found '{cell[:40]}', expected {expected}"
             found[name] = Wrong(said if cell else f"empty, expected {expected}", line, name)
     if found:
@@ -100,15 +102,3 @@ def _wrong_count(count: int, layout: TextLayout, line: int) -> Wrong:
         " cut off",
         line,
     )
-
-
-def _hint(cell: str, layout: TextLayout) -> str:
-    dialect = layout.dialect
-    other = "," if dialect.decimal == "." else "."
-    called = {",": "comma", ".": "point"}
-    if other not in cell or kind_of(cell) != NUMBER:
-        return ""
-    said = f" with a decimal {called[dialect.decimal]}"
-    if replace(dialect, thousands=other).number.match(cell):
-        said += f"; if the {called[other]} separates thousands: --text thousands={called[other]}"
-    return said

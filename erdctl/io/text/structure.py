@@ -7,7 +7,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from erdctl.core.errors import InputProblem
-from erdctl.io.text.cells import EMPTY, NUMBER, STAMP, TEXT, cells_of, comment_of, kind_of
+from erdctl.io.text.cells import (
+    EMPTY,
+    NUMBER,
+    STAMP,
+    TEXT,
+    cells_of,
+    comment_of,
+    kind_of,
+    stands_alone,
+)
 from erdctl.io.text.options import SEPARATORS
 
 ROWS = 400  # looked at to tell what a column holds
@@ -85,7 +94,9 @@ def structure_of(
     usual, _ = Counter(len(row.cells) for row in samples).most_common(1)[0]
     width = max(len(row.cells) for row in samples if _texts_beyond(row, usual))
     columns = [[row.kinds[j] for row in samples if j < len(row.kinds)] for j in range(width)]
-    comment = next((c for c in map(comment_of, lines) if c is not None), None)
+    # `%;mm;kN` are units, and used; only what is left out is said to be.
+    signs = (comment_of(line) for line in lines if not stands_alone(line))
+    comment = next((sign for sign in signs if sign is not None), None)
     return Structure(
         chosen,
         tuple(samples),
