@@ -96,3 +96,20 @@ def test_too_much_memory(log: Path, converted: Read, monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(isolated, "_START", start)
     with pytest.raises((ComputationProblem, InputProblem), match=r"more memory|damaged"):
         converted(log)
+
+
+@pytest.mark.usefixtures("fresh")
+def test_no_memory_for_the_table(
+    log: Path, converted: Read, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Half of it is sent: only the exit code is left to say why it ends."""
+    fails = (
+        "import pyarrow as pa\n"
+        "def no(*_): raise pa.lib.ArrowMemoryError('malloc of size 256 failed')\n"
+        "import erdctl.io.containers.child as c; c.pa.ipc.new_stream = no\n"
+    )
+    monkeypatch.setattr(
+        isolated, "_START", isolated._START.replace("from erd", f"\n{fails}from erd")
+    )
+    with pytest.raises(ComputationProblem, match="takes more memory than a sound tdms"):
+        converted(log)
