@@ -59,10 +59,10 @@ def damper_columns(columns: Sequence[str]) -> list[str]:
 def damper_of(group: str) -> str | None:
     """The damper that the name of a group of channels says: a corner of a car, or its number.
 
-    >>> [damper_of(n) for n in ("FL", "run3_FrontLeft", "Damper_12", "run_1", "cold")]
-    ['FL', 'front left', 'Damper_12', None, None]
+    >>> [damper_of(n) for n in ("FL", "/run3_FrontLeft/data", "Damper_12", "run_1")]
+    ['FL', 'front left', 'Damper_12', None]
     """
-    words = plainly(group).split()
+    words = plainly(group.replace("/", " ")).split()
     for corner in (*words, *(f"{a} {b}" for a, b in pairwise(words))):
         if corner in _CORNERS:
             return group if words == [corner] else corner

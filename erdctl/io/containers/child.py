@@ -25,9 +25,6 @@ _PIPE = 1 << 20  # bytes in a pipe, where the system lets one choose
 
 def serve() -> None:
     """Answer until nobody asks any more."""
-    # The pool that Arrow takes by itself reserves a gigabyte with its first bytes: all that the
-    # limit leaves to a small file.
-    pa.set_memory_pool(pa.system_memory_pool())
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for who asks
     questions, answers = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     _widen(answers)

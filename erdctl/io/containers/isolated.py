@@ -37,6 +37,8 @@ _LIBRARIES = {
     Format.HDF5: ("h5py", "hdf5", "HDF5 files"),
     Format.TDMS: ("nptdms", "tdms", "NI TDMS files"),
 }
+# Arrow's own pool reserves a gigabyte with its first bytes: more than the limit leaves by then.
+_SETTINGS = {"OPENBLAS_NUM_THREADS": "1", "ARROW_DEFAULT_MEMORY_POOL": "system"}
 _PROBLEMS = {p.__name__: p for p in (UsageProblem, ComputationProblem)}
 
 
@@ -199,7 +201,7 @@ class _ReadingProcess:
                     stdin=subprocess.PIPE,
                     stdout=subprocess.PIPE,
                     stderr=subprocess.DEVNULL,  # what libraries say is said in one line by erdctl
-                    env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
+                    env=os.environ | _SETTINGS,
                 )
             except OSError as error:
                 raise ComputationProblem(

@@ -75,11 +75,12 @@ class _Reader:
 
         outer : what the structs around it say of fields of these names
         """
-        said = outer.and_of(node)
+        said, low = outer.and_of(node), _lowered(node)
+        heads = [h for v in node.values() if (h := _heads(low, v)) is not None]
         own: list[Channel] = []
         inside: list[ChannelGroup] = []
         for key, value in node.items():
-            if _low(key) in _UNITS and not _is_numeric(value):
+            if (_low(key) in _UNITS and not _is_numeric(value)) or any(value is h for h in heads):
                 continue
             if isinstance(value, dict) and _title(value.get(RECORD)):  # one that has a name
                 inside += self.records(key, [value], said)
@@ -95,6 +96,8 @@ class _Reader:
                     own += [c for p in parts if p is not None for c in p]
                 else:
                     inside += self.records(key, value, said)
+            elif (names := _heads(low, value)) is not None:
+                own += [_channel(str(h), _of(low, i), value[:, i]) for i, h in enumerate(names)]
             elif _is_vector(value):
                 own.append(_channel(key, None, value))
             elif isinstance(value, np.ndarray) and value.ndim > 1 and value.size:
@@ -139,11 +142,10 @@ class _Reader:
         if "signals" in low:
             return self.signals(name, node, low)
         key = next((k for k in _DATA if _is_numeric(low.get(k))), None)
-        heads = next((low[h] for h in _HEADS if isinstance(low.get(h), list)), None)
         if key is None:
             return None
         data = low[key]
-        if data.ndim == 2 and heads is not None and data.shape[1] == len(heads):
+        if (heads := _heads(low, data)) is not None:
             columns = [_channel(str(h), _of(low, i), data[:, i]) for i, h in enumerate(heads)]
             return list(with_clock(name, columns, self.file).channels)
         clock = _clock(node, low)
@@ -269,6 +271,14 @@ def _unit(low: Mapping[str, Node]) -> str | None:
     if own or not isinstance(about, dict):
         return own
     return _text(next((v for k, v in about.items() if _low(k) in _UNITS), None))
+
+
+def _heads(low: Mapping[str, Node], matrix: Node) -> list[Any] | None:
+    """The names of the columns of a matrix that stand beside it."""
+    if not _is_numeric(matrix) or matrix.ndim != 2:
+        return None
+    lists = [low[h] for h in _HEADS if isinstance(low.get(h), list)]
+    return next((h for h in lists if len(h) == matrix.shape[1]), None)
 
 
 def _of(low: Mapping[str, Node], index: int) -> str | None:

@@ -205,6 +205,18 @@ def test_several_rates(mat: Write, converted: Read, said: list[str]) -> None:
 def test_a_matrix_with_column_headers(mat: Write, converted: Read) -> None:
     bench = {"data": np.stack([T, X, F], 1), "colheaders": cells(["t", "x", "force"])}
     check(converted(mat({"bench": bench})))
+    check(converted(mat(bench)))
+    check(
+        converted(
+            mat(
+                {
+                    "M": bench["data"] * [1e3, 1.0, 1.0],
+                    "names": bench["colheaders"],
+                    "units": cells(["ms", "m", "N"]),
+                }
+            )
+        )
+    )
 
 
 def test_own_names(mat: Write, converted: Read) -> None:

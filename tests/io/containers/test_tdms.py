@@ -123,13 +123,6 @@ def test_without_the_library(tdms: Write, converted: Read, monkeypatch: pytest.M
         converted(path)
 
 
-@pytest.mark.parametrize("count", [2, 8, 64, 127])
-def test_a_few_samples(tdms: Write, converted: Read, count: int) -> None:
-    """Of so small a file Arrow's own pool reserves more than the limit leaves."""
-    short = {"x": (X[:count], wave(1e-3, "m")), "force": (F[:count], wave(1e-3, "N"))}
-    assert np.array_equal(converted(tdms({"bench": short}))["force"], F[:count])
-
-
 def test_an_increment_in_another_unit(tdms: Write, converted: Read) -> None:
     step = wave(1.0, wf_xunit_string="ms", wf_start_offset=5.0)
     assert np.allclose(
