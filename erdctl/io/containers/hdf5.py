@@ -57,16 +57,16 @@ def read(file: Any, name: str) -> tuple[list[ChannelGroup], list[str]]:
     parts = _absorbed([_part(f, notes, name) for f in found], notes, name)
     choices = [p.choice for p in parts if p.choice.clock is not None]
     only = choices[0] if len(choices) == 1 else Choice()
+    timed = [_timed(p, parts, only, notes) for p in parts]
     titles = [p.found.title for p in parts]
     groups = []
-    for part in parts:
+    for part, channels in zip(parts, timed, strict=True):
+        if len(channels) == 1 and any(channels[0] in c for c in timed if c is not channels):
+            continue  # the time of other groups, and nothing else
         title = part.found.title
         label = title if titles.count(title) == 1 else part.found.path
         mark = attribute(part.found.attributes, (_MARK,))
         label = mark if isinstance(mark, str) else label
-        channels = [s.channel for s in part.series]
-        if channels and not part.choice.sure:
-            channels = _timed(part, parts, only, notes)
         groups.append(with_clock(label, channels, name, record=mark is not None))
     return groups, notes
 
@@ -205,12 +205,14 @@ def _absorbed(parts: Sequence[_Part], notes: list[str], file: str) -> list[_Part
 
 
 def _timed(part: _Part, parts: Sequence[_Part], only: Choice, notes: list[str]) -> list[Channel]:
-    """The channels of a group without a time that is surely one: with that of a group around it,
-    or with what attributes say."""
+    """The channels of a group; where none of them is surely their time, with that of a group
+    around it, or with what attributes say of them or of a group around them."""
     channels = [s.channel for s in part.series]
-    around = [p for p in parts if part.found.path.startswith(p.found.path) and p.choice.clock]
-    inner = max(around, key=lambda p: len(p.found.path), default=None)
-    nearest = inner.choice if inner else only
+    if not channels or part.choice.sure:
+        return channels
+    around = [p for p in parts if part.found.path.startswith(p.found.path)]
+    around.sort(key=lambda p: len(p.found.path), reverse=True)
+    nearest = next((p.choice for p in around if p.choice.clock is not None), only)
     counts = {c.count for c in channels}
     if nearest.clock is None or nearest.clock in channels or nearest.clock.count not in counts:
         nearest = Choice()
@@ -218,7 +220,7 @@ def _timed(part: _Part, parts: Sequence[_Part], only: Choice, notes: list[str]) 
     if nearest.sure or (outer and any(c.timed for c in channels)):
         return [*outer, *channels]
     steps = {s.step for s in part.series if s.step is not None}
-    shared = part.step
+    shared = next((p.step for p in around if p.step is not None), None)
     if shared is None and len(steps) == 1 and len(counts) == 1:
         shared = next(iter(steps))  # stated once, for vectors of one length
     every = [s.step or shared for s in part.series]

@@ -86,6 +86,26 @@ def test_a_group_that_is_one_channel_has_an_interval(
     assert np.array_equal(table["x"], X)
 
 
+@pytest.mark.parametrize("where", ["/", "runs", "runs/cold"])
+def test_an_interval_of_a_group_around(
+    file: Callable[..., Path], converted: Read, where: str
+) -> None:
+    log = {"runs/cold/force": (F, {"unit": "N"}), "runs/cold/x": (X, {"unit": "m"})}
+    assert np.allclose(converted(file(log, {where: {"fs": 1000.0}}))["t"], T)
+
+
+def test_a_temperature_around_channels_with_an_interval(
+    file: Callable[..., Path], converted: Read, said: list[str]
+) -> None:
+    log = {"T": (20.0 + T, {}), "run/force": (F, {}), "run/x": (X, {})}
+    assert np.allclose(converted(file(log, {"run": {"dt": 1e-3}}))["t"], T)
+    assert any("'T' is left out: it has no time" in line for line in said)
+    said.clear()
+    log = {"Time": (T, {}), "run/force": (F, {}), "run/x": (X, {})}
+    assert np.array_equal(converted(file(log))["t"], T)
+    assert not any("left out" in line for line in said)
+
+
 def test_units_of_intervals(file: Callable[..., Path], converted: Read) -> None:
     about = {"fs": 1.0, "fs_unit": "kHz"}
     assert np.allclose(converted(file({"force": (F, about), "x": (X, about)}))["t"], T)
