@@ -143,6 +143,12 @@ def test_times_that_begin_anew_grow() -> None:
     assert clock_of([channel("T", unsigned)]).clock is None
 
 
+def test_times_that_do_not_grow_are_still_named_so() -> None:
+    """What is wrong with them is then said of them, and nothing else takes their place."""
+    still = [channel("time", [1, 1, 1]), t := channel("t", [2, 2, 2]), channel("T", [1, 2, 3])]
+    assert clock_of(still).clock is t
+
+
 def test_a_wrong_unit_on_the_only_time_is_said(converted: Read, tdms: Write) -> None:
     with pytest.raises(InputProblem, match="column 'time': stored with unit 'N'"):
         converted(tdms({"bench": {"time": (T, {"unit_string": "N"}), "x": X, "force": F}}))

@@ -15,6 +15,8 @@ from shapes import F, T, X
 
 from erdctl.core.errors import ComputationProblem, InputProblem
 from erdctl.io.containers import isolated
+from erdctl.io.containers.opening import guarded
+from erdctl.io.formats import Format
 from erdctl.io.sources import open_source, read_source
 
 Write = Callable[..., Path]
@@ -120,3 +122,14 @@ def test_a_few_samples(tdms: Write, converted: Read) -> None:
     """Arrow's own pool would reserve more than the limit leaves to so small a file."""
     step = {"wf_increment": 1e-3, "unit_string": "m"}
     assert np.array_equal(converted(tdms({"log": {"x": (X[:8], step)}}))["x"], X[:8])
+
+
+def test_a_library_that_takes_want_of_memory_for_damage() -> None:
+    def read() -> None:
+        try:
+            raise MemoryError
+        except MemoryError as error:
+            raise ValueError("cannot read") from error
+
+    with pytest.raises(MemoryError):
+        guarded("log.tdms", Format.TDMS, read)
