@@ -36,7 +36,8 @@ def command(
 
     Units: one that the file states is converted to SI; one given with --map overrides it; one of
     the wrong kind is refused; without any, SI is assumed. Whole numbers without unit and scaling
-    are refused, since they may be counts of a converter. Units are stored in the header of CSV
+    are refused, since they may be counts of a converter; a gain or offset in the file is applied to
+    whole numbers only, and it is said. Units are stored in the header of CSV
     (`p [bar]`; columns of a bench log are SI and have plain names), in field metadata of Parquet
     and Arrow, as the channel's unit in MDF4 and TDMS, and in the struct `units` of MAT.
 
@@ -48,9 +49,13 @@ def command(
     names them. A time that falls in another way and records that come back are refused, as by every
     other command; values out of range are converted with a warning.
 
-    Time bases: channels with several rates are resampled to the times of force (without it, of x),
-    motion and force linearly, the duty held; a gap that would be bridged is refused. The command
-    says what it did. Libraries: MAT v5 to v7 needs none, the others pip install 'erdctl[formats]'.
+    Time bases: the time is the channel t or time (also T or Time, if its unit or its values do not
+    speak against it; where two may be it, --map says which), else the file's own sampling interval.
+    Channels with several rates are resampled to the times of force (without it, of x), motion and
+    force linearly, the duty held; a gap that would be bridged is refused. The command says what it
+    did. Groups of the same channels are records; where they are called after several dampers (FL,
+    FR), --where chooses one. Libraries: MAT v5 to v7 needs none, the others pip install
+    'erdctl[formats]'.
 
     \b
     Examples:

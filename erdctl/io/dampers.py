@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import pyarrow as pa
@@ -19,6 +20,12 @@ NAMES = (
     "shock", "shock absorber", "part", "part number", "serial", "serial number", "dämpfer",
     "prüfling",
 )  # fmt: skip
+DAMPER = "damper"
+_CORNERS = {
+    "fl", "fr", "rl", "rr", "vl", "vr", "hl", "hr", "front left", "front right", "rear left",
+    "rear right", "vorne links", "vorne rechts", "hinten links", "hinten rechts",
+}  # fmt: skip
+_OF_ONE = {"damper", "specimen", "dut", "shock", "serial", "sn", "dämpfer", "prüfling"}
 _MOST = 1000  # different values; more are no dampers
 
 
@@ -47,6 +54,19 @@ def parse_where(specs: Sequence[str]) -> tuple[Where, ...]:
 def damper_columns(columns: Sequence[str]) -> list[str]:
     """Columns that by their names say which damper a row is of."""
     return [c for c in columns if plainly(c) in NAMES]
+
+
+def damper_of(group: str) -> str | None:
+    """The damper that the name of a group of channels says: a corner of a car, or its number.
+
+    >>> [damper_of(n) for n in ("FL", "/run3_FrontLeft/data", "Damper_12", "run_1")]
+    ['FL', 'front left', 'Damper_12', None]
+    """
+    words = plainly(group.replace("/", " ")).split()
+    for corner in (*words, *(f"{a} {b}" for a, b in pairwise(words))):
+        if corner in _CORNERS:
+            return group if words == [corner] else corner
+    return group if len(words) > 1 and words[0] in _OF_ONE else None
 
 
 def needed_columns(columns: Sequence[str], where: Sequence[Where], file: str) -> list[str]:

@@ -87,6 +87,10 @@ def by_content(head: bytes, path: str, name: str) -> Format:
     promised = by_suffix(path) or found
     if {promised, found} == {Format.MAT, Format.HDF5}:
         return found  # .mat of another program than MATLAB, or the other way round
+    if promised is Format.MAT and found is Format.CSV and b"\0\0" in head[:4]:
+        raise InputProblem(
+            "this is MATLAB 4, which is not read; save it with -v7 from MATLAB", file=name
+        )
     if promised is not found:
         raise InputProblem(
             f"not {promised.value}, though its name says so: it begins like {found.value}; if it is"

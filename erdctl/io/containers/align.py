@@ -26,6 +26,7 @@ from erdctl.core.recording import Array
 from erdctl.io.arrays import arrow, runs_of_text
 from erdctl.io.containers.channels import TIME, Layout, Member
 from erdctl.io.containers.usable import checked, numbers, sound
+from erdctl.io.dampers import DAMPER
 from erdctl.io.roles import Roles
 from erdctl.io.stored import with_units
 from erdctl.io.units import RECORD
@@ -75,8 +76,10 @@ def aligned(layout: Layout, wanted: Sequence[str], roles: Roles, file: str) -> p
     table = pa.table({c: _joined(p) for c, p in whole.items()})
     if RECORD in wanted and RECORD not in whole:
         names = [str(name) for name, _ in layout.records]
-        kind = pa.string()
-        table = table.append_column(RECORD, runs_of_text(names, np.array(lengths), kind))
+        table = table.append_column(RECORD, runs_of_text(names, np.array(lengths), pa.string()))
+    if layout.dampers and DAMPER in wanted:
+        whose = runs_of_text(layout.dampers, np.array(lengths), pa.string())
+        table = table.append_column(DAMPER, whose)
     said.tell()
     units = {c: u for c, u in layout.units.items() if c in table.column_names}
     return with_units(table, units | ({clock: "s"} if clock in whole else {}))
@@ -130,6 +133,8 @@ def _load(
                 raise InputProblem(found, file=place, column=name)
             said(f"left {name}", f"'{name}' is left out: {found}")
             continue
+        if samples.said is not None:
+            said(f"samples {name}", f"'{name}': {samples.said}")
         out.append(_Column(name, target, *found))
     if not out and own is not None:
         out.append(_Column(clock, TIME, times[own.group], times[own.group]))

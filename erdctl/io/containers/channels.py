@@ -4,28 +4,32 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
-from functools import cache
+from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 import numpy.typing as npt
 
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array
-from erdctl.io.stored import from_stored, stored_unit
-from erdctl.io.units import RECORD, name_and_unit
+from erdctl.io.dampers import DAMPER, damper_of
+from erdctl.io.named import plainly
+from erdctl.io.stored import stored_unit
+from erdctl.io.units import RECORD
 
-CLOCKS = ("t", "time")  # channels that hold the time of their group, in any case of letters
 TIME = "t"  # the column that a container's own time bases become
 
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """values : (n,) numbers, logicals or text;  time : (n,) [s], None if the file has none."""
+    """values : (n,) numbers, logicals or text;  time : (n,) [s], None if the file has none.
+
+    why : there is no time, where there is more to say than that;  said : what was done to them
+    """
 
     values: npt.NDArray[Any]
     time: Array | None = None
+    why: str | None = None
+    said: str | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +54,7 @@ class ChannelGroup:
     clock : the channel that their time was taken from, as the file calls it, and clock_unit what
     it was in (None: nothing is said, s was assumed)
     record : the file says that this is a record, whatever the others hold
+    notes : what was assumed
     """
 
     name: str
@@ -57,6 +62,7 @@ class ChannelGroup:
     clock: str | None = None
     clock_unit: str | None = "s"
     record: bool = False
+    notes: tuple[str, ...] = ()
 
     @property
     def timed(self) -> bool:
@@ -77,7 +83,7 @@ class Layout:
 
     records : name (None: the file does not tell records apart) and its channels by column
     units : of the columns that have one;  clocks : names that `t` has in the file
-    notes : what was left out
+    notes : what was left out;  dampers : of each record, where they are of several
     """
 
     records: tuple[tuple[str | None, dict[str, Member]], ...]
@@ -85,55 +91,15 @@ class Layout:
     units: dict[str, str]
     clocks: frozenset[str]
     notes: tuple[str, ...]
-
-
-def with_clock(
-    name: str, channels: Sequence[Channel], file: str, *, record: bool = False
-) -> ChannelGroup:
-    """A group whose channels take their time from the one called `t` or `time`, if there is one.
-
-    Channels that have a time of their own keep it.
-    """
-    clock = next((c for c in channels if name_and_unit(c.name)[0].casefold() in CLOCKS), None)
-    if clock is None:
-        return ChannelGroup(name, tuple(channels), record=record)
-
-    @cache
-    def seconds() -> Array:
-        values = clock.load().values
-        if values.dtype.kind == "m":
-            return np.asarray(values / np.timedelta64(1, "ns") * 1e-9, np.float64)
-        if values.dtype.kind not in "iuf":
-            raise InputProblem(
-                "expected numbers to be the time; points of time must be exported as seconds from"
-                " the first one",
-                file=file,
-                column=clock.name,
-            )
-        convert = from_stored(stored_unit(clock.unit) or "s", TIME, clock.name, file)
-        return convert(np.asarray(values, np.float64))
-
-    def under(channel: Channel) -> Channel:
-        def load() -> Samples:
-            own = channel.load()
-            return own if own.time is not None else Samples(own.values, seconds())
-
-        return replace(channel, load=load, timed=True)
-
-    return ChannelGroup(
-        name,
-        tuple(under(c) for c in channels if c is not clock),
-        clock=clock.name,
-        clock_unit=stored_unit(clock.unit),
-        record=record,
-    )
+    dampers: tuple[str, ...] = ()
 
 
 def arrange(groups: Iterable[ChannelGroup], file: str, notes: Sequence[str] = ()) -> Layout:
     """The table that the groups of a file make.
 
-    Groups with the same channels are records of one test after another; other groups belong to
-    one record, and a name that several of them have becomes GROUP/NAME.
+    Groups with the same channels are records of one test after another, and have a column `damper`
+    where they are called after several dampers; other groups belong to one record, and a name that
+    several of them have becomes GROUP/NAME.
     Raises InputProblem if there are no channels.
     """
     found = [g for g in groups if g.channels]
@@ -146,33 +112,52 @@ def arrange(groups: Iterable[ChannelGroup], file: str, notes: Sequence[str] = ()
         rest = ", ".join(g.name for g in found if not g.record)
         said.append(f"only its records are read; left out: {rest}")
         found = marked
+    said += dict.fromkeys(note for g in found for note in g.notes)
     timed = any(g.timed for g in found)
     names = [{c.name for c in g.channels} for g in found]
     records: list[tuple[str | None, dict[str, Member]]]
     if marked or (len(found) > 1 and all(n == names[0] for n in names)):
-        common, some = set.intersection(*names), set.union(*names)
+        members = [_of_record(g, timed=timed) for g in found]
+        common, some = set.intersection(*map(set, members)), set().union(*members)
         if some - common:
             said.append(f"not in every record, left out: {', '.join(sorted(some - common))}")
-        members = [_members([(0, g)], common, timed=timed) for g in found]
+        members = [{c: m for c, m in one.items() if c in common} for one in members]
         records = list(zip(_unique([g.name for g in found]), members, strict=True))
     else:
-        records = [(None, _members(list(enumerate(found)), set().union(*names), timed=timed))]
+        records = [(None, _together(found, timed=timed))]
+    dampers = _dampers(found) if len(records) > 1 and not marked else ()
     first = records[0][1]
     columns = [*([TIME] if timed else []), *first]
     if records[0][0] is not None and RECORD not in first:
         columns.append(RECORD)
+    if dampers:
+        columns.append(DAMPER)
     units = _units(records, file)
     clock_units = {g.clock_unit for g in found if g.timed}
     if timed and None not in clock_units:
         units[TIME] = "s" if len(clock_units) > 1 else str(clock_units.pop())
     clocks = frozenset(g.clock for g in found if g.clock is not None) - {TIME}
-    return Layout(tuple(records), tuple(columns), units, clocks, tuple(said))
+    return Layout(tuple(records), tuple(columns), units, clocks, tuple(said), dampers)
 
 
-def _members(
-    groups: Sequence[tuple[int, ChannelGroup]], only: set[str], *, timed: bool
-) -> dict[str, Member]:
-    chosen = [(i, g, c) for i, g in groups for c in g.channels if c.name in only]
+def _dampers(groups: Sequence[ChannelGroup]) -> tuple[str, ...]:
+    """Whose records these are, where their names say so of all, and of more than one damper."""
+    if any(plainly(c.name) == DAMPER for c in groups[0].channels):
+        return ()
+    found = [d for g in groups if (d := damper_of(g.name)) is not None]
+    return tuple(found) if len(found) == len(groups) and len(set(found)) > 1 else ()
+
+
+def _of_record(group: ChannelGroup, *, timed: bool) -> dict[str, Member]:
+    """The channels of a record, by names that do not depend on what the record is called."""
+    taken = [TIME] if timed else []
+    names = _unique([*taken, *(c.name for c in group.channels)])[len(taken) :]
+    members = [Member(0, c) for c in group.channels]
+    return dict(zip(names, members, strict=True))
+
+
+def _together(groups: Sequence[ChannelGroup], *, timed: bool) -> dict[str, Member]:
+    chosen = [(i, g, c) for i, g in enumerate(groups) for c in g.channels]
     count = Counter(c.name for _, _, c in chosen)
     names = [
         f"{g.name}/{c.name}" if count[c.name] > 1 or (timed and c.name == TIME) else c.name

@@ -12,10 +12,9 @@ from typing import Any, BinaryIO
 import pyarrow as pa
 
 from erdctl.core.errors import ComputationProblem, ErdctlError, InputProblem, UsageProblem
-from erdctl.core.memory import gigabytes
 from erdctl.io.containers.align import aligned
 from erdctl.io.containers.channels import Layout
-from erdctl.io.containers.limits import limit
+from erdctl.io.containers.limits import OUT_OF_MEMORY, limit, too_much
 from erdctl.io.containers.opening import check_samples, guarded, open_container
 from erdctl.io.formats import Format
 from erdctl.io.roles import Roles
@@ -40,13 +39,17 @@ def serve() -> None:
         except ErdctlError as error:
             reply, table = {"problem": _kind(error), "text": str(error)}, None
         except MemoryError:
-            reply, table = {"problem": "ComputationProblem", "text": server.too_much()}, None
+            text = too_much(server.name, server.format, server.size)
+            reply, table = {"problem": "ComputationProblem", "text": text}, None
         if "problem" in reply:
             server.layout = None
         answers.write(json.dumps(reply).encode() + b"\n")
         if table is not None:
-            with pa.ipc.new_stream(answers, table.schema) as writer:
-                writer.write_table(table)
+            try:
+                with pa.ipc.new_stream(answers, table.schema) as writer:
+                    writer.write_table(table)
+            except MemoryError:
+                os._exit(OUT_OF_MEMORY)  # half a table is sent: no other answer would be read
             del table
         answers.flush()
 
@@ -91,12 +94,6 @@ class _Answering:
             "clocks": sorted(self.layout.clocks),
             "notes": self.layout.notes,
         }
-
-    def too_much(self) -> str:
-        return (
-            f"{self.name}: reading its {gigabytes(self.size)} takes more memory than a sound"
-            f" {self.format.value} of that size needs; it is damaged, or has to be split"
-        )
 
 
 def _kind(error: ErdctlError) -> str:

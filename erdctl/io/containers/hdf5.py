@@ -6,37 +6,43 @@
     (n, k) with an attribute of k names
 
 Units are attributes `unit` or `units`. Time is a vector t or time of the group, of one around it,
-or the only one of the file; else an attribute says the interval or the rate. Nothing outside of the
-file is opened: links to others, virtual and external datasets are left out, and it is said.
-A log goes out as a group for each record.
+or the only one of the file; else an attribute of each dataset, or of the group, says the interval
+or the rate. Nothing outside of the file is opened: links to others, virtual and external datasets
+are left out, and it is said. A log goes out as a group for each record, in their order.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, BinaryIO
 
 import numpy as np
 
 from erdctl.core.errors import InputProblem
-from erdctl.io.containers.channels import CLOCKS, Channel, ChannelGroup, Samples, with_clock
+from erdctl.io.containers.channels import Channel, ChannelGroup, Samples
+from erdctl.io.containers.clocks import Choice, clock_of, is_called_clock, with_clock
 from erdctl.io.containers.hdf5_walk import Hdf5Group, attribute, attributes, walked
 from erdctl.io.containers.outgoing import Columns
+from erdctl.io.containers.scaling import scaling
 from erdctl.io.extras import need
-from erdctl.io.units import name_and_unit
+from erdctl.io.units import factor_between
 
 _UNITS = ("unit", "units", "unit_string")
 _HEADS = (
     "names", "columns", "channels", "colheaders", "labels", "column_names", "channel_names",
     "fields", "header",
 )  # fmt: skip
-_FACTORS = ("scale_factor", "scale", "gain", "factor", "slope")
-_OFFSETS = ("add_offset", "offset", "bias")
+_FILL = ("_fillvalue", "missing_value")  # what stands for no sample, by netCDF
 _STEPS = ("dt", "sampling_interval", "sample_interval", "increment", "wf_increment")  # [s]
 _RATES = ("fs", "sample_rate", "samplerate", "sampling_rate", "sampling_frequency")  # [Hz]
+_ALIKE = 1e-3  # of an interval: the same, written twice
 _DATA = ("data", "values", "value", "samples", "signal")
 _MARK = "erdctl_record"  # attribute of a group that is a record even if it is the only one
+_NAME = (
+    "erdctl_name"  # attribute of a dataset: the name of a column that cannot be that of a dataset
+)
 
 
 def library() -> Any:
@@ -48,73 +54,93 @@ def read(file: Any, name: str) -> tuple[list[ChannelGroup], list[str]]:
     """The groups with vectors in them; file : path or stream."""
     opened = library().File(file, "r", locking=False)
     found, notes = walked(opened)
-    parts = [_Part(f, *_channels(f, notes, name)) for f in found]
-    parts = _absorbed(parts)
-    clocks = [p.clock for p in parts if p.clock is not None]
-    only = clocks[0] if len(clocks) == 1 else None
+    parts = _absorbed([_part(f, notes, name) for f in found], notes, name)
+    choices = [p.choice for p in parts if p.choice.clock is not None]
+    only = choices[0] if len(choices) == 1 else Choice()
+    timed = [_timed(p, parts, only, notes) for p in parts]
     titles = [p.found.title for p in parts]
     groups = []
-    for part in parts:
+    for part, channels in zip(parts, timed, strict=True):
+        if len(channels) == 1 and any(channels[0] in c for c in timed if c is not channels):
+            continue  # the time of other groups, and nothing else
         title = part.found.title
         label = title if titles.count(title) == 1 else part.found.path
-        channels = list(part.channels)
-        if part.clock is None and channels:
-            channels = _timed(part, parts, only, notes)
-        record = attribute(part.found.attributes, (_MARK,)) is not None
-        groups.append(with_clock(label, channels, name, record=record))
+        mark = attribute(part.found.attributes, (_MARK,))
+        label = mark if isinstance(mark, str) else label
+        groups.append(with_clock(label, channels, name, record=mark is not None))
     return groups, notes
 
 
 @dataclass(frozen=True, eq=False)
+class _Series:
+    """A channel, and the interval that is stated for it alone [s]."""
+
+    channel: Channel
+    step: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
 class _Part:
-    """A group with the channels that were made of its datasets."""
+    """A group with what was made of its datasets; step : the interval that is stated for all."""
 
     found: Hdf5Group
-    channels: tuple[Channel, ...]
-    of_data: bool  # its only vector beside the time is called like `data`
+    series: tuple[_Series, ...]
+    step: float | None
+
+    @cached_property
+    def choice(self) -> Choice:
+        return clock_of([s.channel for s in self.series])
 
     @property
-    def clock(self) -> Channel | None:
-        return next((c for c in self.channels if _is_clock(c)), None)
+    def of_data(self) -> bool:
+        """Whether its only vector beside the time is called like `data`."""
+        named = [s.channel.name for s in self.series if not is_called_clock(s.channel)]
+        return len(named) == 1 and named[0].casefold() in _DATA
 
 
-def _is_clock(channel: Channel) -> bool:
-    return name_and_unit(channel.name)[0].casefold() in CLOCKS
-
-
-def _channels(found: Hdf5Group, notes: list[str], file: str) -> tuple[tuple[Channel, ...], bool]:
-    out: list[Channel] = []
+def _part(found: Hdf5Group, notes: list[str], file: str) -> _Part:
+    out: list[_Series] = []
     for key, data in found.datasets:
         about = attributes(data)
-        unit = _unit(attribute(about, _UNITS))
-        if data.dtype.names:
-            units = _texts(attribute(about, _UNITS))
-            for i, column in enumerate(data.dtype.names):
-                if data.dtype[column].shape or data.ndim != 1:
-                    notes.append(f"'{found.path}{key}.{column}' is no series of values, left out")
-                    continue
-                own = _unit(attribute(about, (f"{column}_unit", f"{column}_units")))
-                own = own or (units[i] if len(units) == len(data.dtype.names) else None)
-                out.append(_channel(column, own, data, about, file, field=column))
-            continue
-        lengths = [n for n in data.shape if n > 1]
-        if not lengths:
-            continue  # a single value says something about the test
-        if len(lengths) == 1:
-            out.append(_channel(key, unit, data, about, file))
-            continue
-        heads = _texts(attribute(about, _HEADS)) or _beside(found, key)
-        if data.ndim != 2 or len(heads) not in data.shape:
-            size = " x ".join(map(str, data.shape))
-            notes.append(f"'{found.path}{key}' ({size}) has no names for its columns, left out")
-            continue
-        units, across = _texts(attribute(about, _UNITS)), data.shape[1] == len(heads)
-        for i, head in enumerate(heads):
-            own = units[i] if len(units) == len(heads) else unit
-            where = (slice(None), i) if across else (i, slice(None))
-            out.append(_channel(head, own, data, about, file, where=where))
-    series = [c for c in out if not _is_clock(c)]
-    return tuple(out), len(series) == 1 and series[0].name.casefold() in _DATA
+        own = about.get(_NAME)
+        key = own if isinstance(own, str) else key
+        step = _step(about, found.path + key, file)
+        out += [_Series(c, step) for c in _channels(found, key, data, about, notes, file)]
+    return _Part(found, tuple(out), _step(found.attributes, found.path, file))
+
+
+def _channels(
+    found: Hdf5Group, key: str, data: Any, about: dict[str, Any], notes: list[str], file: str
+) -> list[Channel]:
+    """What a dataset holds."""
+    out: list[Channel] = []
+    unit = _unit(attribute(about, _UNITS))
+    units = _texts(attribute(about, _UNITS))
+    if data.dtype.names:
+        for i, column in enumerate(data.dtype.names):
+            if data.dtype[column].shape or data.ndim != 1:
+                notes.append(f"'{found.path}{key}.{column}' is no series of values, left out")
+                continue
+            own = _unit(attribute(about, (f"{column}_unit", f"{column}_units")))
+            own = own or (units[i] if len(units) == len(data.dtype.names) else None)
+            out.append(_channel(column, own, data, about, notes, file, field=column))
+        return out
+    lengths = [n for n in data.shape if n > 1]
+    if not lengths:
+        return out  # a single value says something about the test
+    if len(lengths) == 1:
+        return [_channel(key, unit, data, about, notes, file)]
+    heads = _texts(attribute(about, _HEADS)) or _beside(found, key)
+    if data.ndim != 2 or len(heads) not in data.shape:
+        size = " x ".join(map(str, data.shape))
+        notes.append(f"'{found.path}{key}' ({size}) has no names for its columns, left out")
+        return out
+    across = data.shape[1] == len(heads)
+    for i, head in enumerate(heads):
+        own = units[i] if len(units) == len(heads) else unit
+        where = (slice(None), i) if across else (i, slice(None))
+        out.append(_channel(head, own, data, about, notes, file, where=where))
+    return out
 
 
 def _beside(found: Hdf5Group, key: str) -> list[str]:
@@ -128,42 +154,35 @@ def _channel(
     unit: str | None,
     data: Any,
     about: dict[str, Any],
+    notes: list[str],
     file: str,
     *,
     field: str | None = None,
     where: Any = ...,
 ) -> Channel:
     count = data.shape[0] if field else max(data.shape)
-    factor, offset = (_scale(about, kinds, name, file) for kinds in (_FACTORS, _OFFSETS))
+    kind = data.dtype[field].kind if field else data.dtype.kind
+    scale = scaling(about, name, file, counts=kind in "iu")
+    if scale.said is not None and scale.said not in notes and kind in "iuf":
+        notes.append(scale.said)
+    fills = [v for k, v in about.items() if k.casefold() in _FILL and kind in "iuf"]
 
     def load() -> Samples:
         if data.dtype.kind == "O":
-            values = np.array(data.asstr()[where], object)
-        else:
-            values = data.fields(field)[...] if field else data[where]
-        values = np.squeeze(values)
-        if factor is not None or offset is not None:
-            values = values * (1.0 if factor is None else factor) + (offset or 0.0)
-        return Samples(values)
+            return Samples(np.squeeze(np.array(data.asstr()[where], object)))
+        values = np.squeeze(data.fields(field)[...] if field else data[where])
+        if kind not in "iuf":
+            return Samples(values)
+        missing = np.zeros(values.shape, bool)
+        for fill in fills:
+            missing |= np.isin(values, np.asarray(fill))
+        values = scale(values)
+        return Samples(np.where(missing, np.nan, values) if missing.any() else values)
 
     return Channel(name, unit, load, count=int(count))
 
 
-def _scale(about: dict[str, Any], kinds: Sequence[str], name: str, file: str) -> float | None:
-    found = {k: about[k] for k in about if k.casefold() in kinds and np.size(about[k]) == 1}
-    if len(found) > 1:
-        raise InputProblem(
-            f"has the attributes {' and '.join(found)}; which of them scales it is not clear:"
-            " keep one",
-            file=file,
-            column=name,
-        )
-    value = next(iter(found.values()), None)
-    number = value is not None and np.asarray(value).dtype.kind in "iuf"
-    return float(np.asarray(value).ravel()[0]) if number else None
-
-
-def _absorbed(parts: Sequence[_Part]) -> list[_Part]:
+def _absorbed(parts: Sequence[_Part], notes: list[str], file: str) -> list[_Part]:
     """With groups that are one channel made channels of the group around them."""
     whole = {p.found.path: p for p in parts}
     out: dict[str, _Part] = dict(whole)
@@ -171,35 +190,49 @@ def _absorbed(parts: Sequence[_Part]) -> list[_Part]:
         outer = out.get(part.found.around)
         if not part.of_data or outer is None or part.found.path == "/":
             continue
-        group = with_clock("", part.channels, "")
+        group = with_clock("", [s.channel for s in part.series], file)
+        if len(group.channels) > 1:
+            continue  # what is called like a time is none, but a second channel
+        notes += group.notes
         unit = _unit(attribute(part.found.attributes, _UNITS))
         own = group.channels[0]
         named = replace(own, name=part.found.title, unit=own.unit or unit)
-        out[part.found.around] = replace(outer, channels=(*outer.channels, named))
+        step = next((s.step for s in part.series if s.step is not None), part.step)
+        one = _Series(named, None if own.timed else step)
+        out[part.found.around] = replace(outer, series=(*outer.series, one))
         del out[path]
     return list(out.values())
 
 
-def _timed(
-    part: _Part, parts: Sequence[_Part], only: Channel | None, notes: list[str]
-) -> list[Channel]:
-    """The channels of a group without a time, with that of a group around it, or a rate."""
-    around = [p for p in parts if part.found.path.startswith(p.found.path) and p.clock is not None]
-    nearest = max(around, key=lambda p: len(p.found.path)).clock if around else only
-    count = max(c.count or 0 for c in part.channels)
-    if nearest is not None and nearest.count == count:
-        return [nearest, *part.channels]
-    if any(c.timed for c in part.channels):
-        return list(part.channels)
-    for about in (part.found.attributes, *(attributes(d) for _, d in part.found.datasets)):
-        step, rate = _number(about, _STEPS), _number(about, _RATES)
-        if step is None and rate is not None:
-            step = 1.0 / rate
-        if step is not None:
-            said = f"dt = {step:g} s" if rate is None else f"a rate of {rate:g} Hz"
-            notes.append(f"the time of '{part.found.title}' is made of its attribute, {said}")
-            return [_clocked(c, step) for c in part.channels]
-    return list(part.channels)
+def _timed(part: _Part, parts: Sequence[_Part], only: Choice, notes: list[str]) -> list[Channel]:
+    """The channels of a group; where none of them is surely their time, with that of a group
+    around it, or with what attributes say of them or of a group around them."""
+    channels = [s.channel for s in part.series]
+    if not channels or part.choice.sure:
+        return channels
+    around = [p for p in parts if part.found.path.startswith(p.found.path)]
+    around.sort(key=lambda p: len(p.found.path), reverse=True)
+    nearest = next((p.choice for p in around if p.choice.clock is not None), only)
+    counts = {c.count for c in channels}
+    if nearest.clock is None or nearest.clock in channels or nearest.clock.count not in counts:
+        nearest = Choice()
+    outer = [] if nearest.clock is None else [nearest.clock]
+    if nearest.sure or (outer and any(c.timed for c in channels)):
+        return [*outer, *channels]
+    steps = {s.step for s in part.series if s.step is not None}
+    shared = next((p.step for p in around if p.step is not None), None)
+    if shared is None and len(steps) == 1 and len(counts) == 1:
+        shared = next(iter(steps))  # stated once, for vectors of one length
+    every = [s.step or shared for s in part.series]
+    if not any(every):
+        return [*outer, *channels]
+    open_ = [(c, step) for c, step in zip(channels, every, strict=True) if not c.timed and step]
+    said = {c.name: f"dt = {step:g} s" for c, step in open_}
+    if len(set(said.values())) == 1:
+        said = {part.found.title: next(iter(said.values()))}
+    notes += [f"the time of '{n}' is made of its attribute, {text}" for n, text in said.items()]
+    made = {c: _clocked(c, step) for c, step in open_}
+    return [made.get(c, c) for c in channels]
 
 
 def _clocked(channel: Channel, step: float) -> Channel:
@@ -210,11 +243,29 @@ def _clocked(channel: Channel, step: float) -> Channel:
     return replace(channel, load=load, timed=True)
 
 
-def _number(about: dict[str, Any], kinds: Sequence[str]) -> float | None:
-    value = attribute(about, kinds)
+def _step(about: dict[str, Any], place: str, file: str) -> float | None:
+    """The interval between samples that attributes state, in any unit of time or of rate [s].
+
+    Raises InputProblem if they state two.
+    """
+    steps = [v for k in _STEPS if (v := _number(about, k, "s", place)) is not None]
+    steps += [1.0 / v for k in _RATES if (v := _number(about, k, "Hz", place)) is not None]
+    if steps and max(steps) > min(steps) * (1.0 + _ALIKE):
+        said = " and ".join(f"{s:g} s" for s in steps)
+        raise InputProblem(
+            f"the attributes of '{place}' state intervals of {said}; keep one", file=file
+        )
+    return steps[0] if steps else None
+
+
+def _number(about: dict[str, Any], kind: str, wanted: str, place: str) -> float | None:
+    value = attribute(about, (kind,))
     if value is None or np.size(value) != 1 or np.asarray(value).dtype.kind not in "iuf":
         return None
     number = float(np.asarray(value).ravel()[0])
+    unit = _unit(attribute(about, (f"{kind}_unit", f"{kind}_units")))
+    if unit is not None:
+        number *= factor_between(unit, wanted, f"the attribute {kind} of '{place}'")
     return number if np.isfinite(number) and number > 0.0 else None
 
 
@@ -238,16 +289,28 @@ def _texts(value: Any) -> list[str]:
 def write(records: Sequence[tuple[str | None, Columns]], stream: BinaryIO) -> None:
     """Write records, each with its columns, as groups; `units` are attributes."""
     h5py = library()
-    with h5py.File(stream, "w") as file:
+    with h5py.File(stream, "w", track_order=True) as file:
         for name, columns in records:
-            group = file.create_group("log" if name is None else name.replace("/", "∕"))
+            group = file.create_group(
+                "log" if name is None else _free(file, name), track_order=True
+            )
             if name is not None:
                 group.attrs[_MARK] = name
             for column in columns:
                 text = column.values.dtype.kind == "O"
                 kind = h5py.string_dtype() if text else None
-                made = group.create_dataset(
-                    column.name.replace("/", "∕"), data=column.values, dtype=kind
-                )
+                key = _free(group, column.name)
+                made = group.create_dataset(key, data=column.values, dtype=kind)
+                if key != column.name:
+                    made.attrs[_NAME] = column.name
                 if column.unit is not None:
                     made.attrs["units"] = column.unit
+
+
+def _free(group: Any, name: str) -> str:
+    """A name that HDF5 allows, where a stroke leads into a group, and nothing in the group has."""
+    key = whole = "∕".join(name.split("/"))
+    copy = 2
+    while key in group or key == ".":
+        key, copy = f"{whole} ({copy})", copy + 1
+    return key

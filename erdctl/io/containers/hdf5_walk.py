@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -57,9 +58,25 @@ def attributes(item: Any) -> dict[str, Any]:
 
 
 def attribute(about: dict[str, Any], kinds: Sequence[str]) -> Any:
-    """The first attribute called like one of `kinds`, in any case of letters."""
-    low = {k.casefold(): v for k, v in about.items()}
-    return next((low[k] for k in kinds if k in low), None)
+    """The first attribute called like one of `kinds`, else in any case of letters."""
+    low = {k.casefold(): v for k, v in about.items()} | about
+    return next((low[n] for k in kinds for n in (k, k.casefold()) if n in low), None)
+
+
+def _in_order(group: Any) -> list[str]:
+    """The names in a group as they were made, where the file keeps that; else `run_2` before
+    `run_10`, as whoever counted them meant."""
+    import h5py
+
+    names = list(group)
+    kept = group.id.get_create_plist().get_link_creation_order() & h5py.h5p.CRT_ORDER_TRACKED
+    return names if kept else sorted(names, key=_counted)
+
+
+def _counted(name: str) -> list[tuple[int, int, str]]:
+    """A key by which whole numbers in names stand by their size."""
+    parts = re.split(r"([0-9]+)", name)  # every second one is a number
+    return [(0, int(p), "") if i % 2 else (1, 0, p) for i, p in enumerate(parts) if p]
 
 
 def _into(
@@ -74,7 +91,7 @@ def _into(
     seen.add((place.fileno, place.addr))
     datasets, inside = [], []
     at = len(out)
-    for key in group:
+    for key in _in_order(group):
         link = group.get(key, getlink=True)
         if not isinstance(link, h5py.HardLink):
             kind = "another file" if isinstance(link, h5py.ExternalLink) else "another place"

@@ -25,7 +25,7 @@ import pyarrow as pa
 from erdctl.core.errors import ComputationProblem, InputProblem, UsageProblem
 from erdctl.io.containers.align import aligned
 from erdctl.io.containers.channels import Layout
-from erdctl.io.containers.limits import seconds_for
+from erdctl.io.containers.limits import OUT_OF_MEMORY, seconds_for, too_much
 from erdctl.io.containers.opening import guarded, is_plain, open_container
 from erdctl.io.extras import present
 from erdctl.io.formats import Format
@@ -37,6 +37,8 @@ _LIBRARIES = {
     Format.HDF5: ("h5py", "hdf5", "HDF5 files"),
     Format.TDMS: ("nptdms", "tdms", "NI TDMS files"),
 }
+# Arrow's own pool reserves a gigabyte with its first bytes: more than the limit leaves by then.
+_SETTINGS = {"OPENBLAS_NUM_THREADS": "1", "ARROW_DEFAULT_MEMORY_POOL": "system"}
 _PROBLEMS = {p.__name__: p for p in (UsageProblem, ComputationProblem)}
 
 
@@ -160,8 +162,7 @@ class _ReadingProcess:
     ) -> tuple[dict[str, Any], pa.Table | None]:
         """What the process answers, and the table that follows if one does."""
         process = self.started()
-        size = os.path.getsize(file.data) if isinstance(file.data, str) else len(file.data)
-        seconds = seconds_for(size)
+        seconds = seconds_for(_bytes_of(file.data))
         late: list[bool] = []
 
         def stop() -> None:
@@ -200,7 +201,7 @@ class _ReadingProcess:
                     stdin=subprocess.PIPE,
                     stdout=subprocess.PIPE,
                     stderr=subprocess.DEVNULL,  # what libraries say is said in one line by erdctl
-                    env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
+                    env=os.environ | _SETTINGS,
                 )
             except OSError as error:
                 raise ComputationProblem(
@@ -236,11 +237,17 @@ class _ReadingProcess:
                 f" it is damaged or very unusual {file.format.value}: write or copy it again, or"
                 " export it as CSV"
             )
+        if code == OUT_OF_MEMORY:
+            return ComputationProblem(too_much(file.name, file.format, _bytes_of(file.data)))
         return InputProblem(
             f"damaged {file.format.value}: the library that reads it crashes on it; write or copy"
             " it again, or export it as CSV",
             file=file.name,
         )
+
+
+def _bytes_of(data: str | bytearray) -> int:
+    return os.path.getsize(data) if isinstance(data, str) else len(data)
 
 
 def _received(stream: IO[bytes]) -> pa.Table:

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import os
 
+from erdctl.core.memory import gigabytes
+from erdctl.io.formats import Format
+
+OUT_OF_MEMORY = 79  # exit code of a process that can no longer say so
 _SECONDS = 10.0  # of computing, for any file; the libraries import in one or two
 _SPEED = 5e6  # bytes a second that every library reads
 _BYTES = 1 << 30  # for any file, the libraries among them
@@ -14,6 +18,14 @@ _OF_COLUMNS = 6  # times the columns: samples as stored, as values, on one time 
 def seconds_for(size: int) -> float:
     """Seconds of computing that reading a file of `size` bytes may take."""
     return _SECONDS + size / _SPEED
+
+
+def too_much(name: str, format: Format, size: int) -> str:
+    """What to say where a file needs more memory than `limit` leaves."""
+    return (
+        f"{name}: reading its {gigabytes(size)} takes more memory than a sound {format.value} of"
+        " that size needs; it is damaged, or has to be split"
+    )
 
 
 def limit(size: int, columns: int = 0) -> None:

@@ -3,7 +3,7 @@
 A channel is
     a vector together with others, and a vector `t` or `time` as their clock;
     a struct or object with data and time: timeseries, `Structure with time`, an element of a
-    Simulink Dataset; integers with `scale` (`gain`, `factor`, `slope`) and `offset` (`bias`);
+    Simulink Dataset; counts with `scale` (`gain`, `factor`, `slope`) and `offset` (`bias`);
     a column of a table, or of a matrix `data` with `colheaders`.
 Elements of a struct array are records. Units are a field `unit` or `units` next to the data, or a
 struct or variable `units` with the names of the fields.
@@ -17,18 +17,18 @@ from typing import Any
 
 import numpy as np
 
-from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array
-from erdctl.io.containers.channels import CLOCKS, Channel, ChannelGroup, Samples, with_clock
+from erdctl.io.containers.channels import TIME, Channel, ChannelGroup, Samples
+from erdctl.io.containers.clocks import CLOCKS, clock_of, with_clock
 from erdctl.io.containers.mat_file import Node, variables
+from erdctl.io.containers.scaling import scaling
+from erdctl.io.named import is_called
 from erdctl.io.stored import from_stored, stored_unit
-from erdctl.io.units import RECORD
+from erdctl.io.units import RECORD, UNITS
 
 _DATA = ("data", "values", "value", "samples", "raw")
 _UNITS = ("units", "unit")
 _NAMES = ("name", "label", "signalname")
-_FACTORS = ("scale", "gain", "factor", "slope")
-_OFFSETS = ("offset", "bias")
 _HEADS = ("colheaders", "names", "labels", "varnames", "channels")
 _TITLES = ("record", "name", "test", "title", "label")
 
@@ -75,25 +75,29 @@ class _Reader:
 
         outer : what the structs around it say of fields of these names
         """
-        said = outer.and_of(node)
+        said, low = outer.and_of(node), _lowered(node)
+        heads = [h for v in node.values() if (h := _heads(low, v)) is not None]
         own: list[Channel] = []
         inside: list[ChannelGroup] = []
         for key, value in node.items():
-            if _low(key) in _UNITS:
+            if (_low(key) in _UNITS and not _is_numeric(value)) or any(value is h for h in heads):
                 continue
-            series = self.series(key, value)
-            if series is not None:
-                own += series
-            elif isinstance(value, dict) and _title(value.get(RECORD)):  # one that has a name
+            if isinstance(value, dict) and _title(value.get(RECORD)):  # one that has a name
                 inside += self.records(key, [value], said)
+            elif (series := self.series(key, value)) is not None:
+                own += series
             elif isinstance(value, dict):
                 inside += self.groups(key, value, said)
+            elif _structs(value) and any(_title(v.get(RECORD)) for v in value):
+                inside += self.records(key, value, said)
             elif _structs(value):
                 parts = [self.series(f"{key}({i + 1})", v) for i, v in enumerate(value)]
                 if all(p is not None for p in parts):
                     own += [c for p in parts if p is not None for c in p]
                 else:
                     inside += self.records(key, value, said)
+            elif (names := _heads(low, value)) is not None:
+                own += [_channel(str(h), _of(low, i), value[:, i]) for i, h in enumerate(names)]
             elif _is_vector(value):
                 own.append(_channel(key, None, value))
             elif isinstance(value, np.ndarray) and value.ndim > 1 and value.size:
@@ -124,7 +128,7 @@ class _Reader:
         """The channels of data that state their time or scaling themselves; None if it is other."""
         if not isinstance(node, dict):
             return None
-        low = {_low(k): v for k, v in node.items()}
+        low = _lowered(node)
         title = next((t for k in _NAMES if (t := _title(low.get(k)))), name)
         if "storage" in low and isinstance(low["storage"], dict):  # a Dataset object
             return self.series(title, low["storage"])
@@ -136,23 +140,35 @@ class _Reader:
             # The name of the signal, whatever the series in it is called.
             return [replace(found[0], name=title)] if len(found) == 1 else found
         if "signals" in low:
-            return self.signals(name, low)
+            return self.signals(name, node, low)
         key = next((k for k in _DATA if _is_numeric(low.get(k))), None)
-        heads = next((low[h] for h in _HEADS if isinstance(low.get(h), list)), None)
         if key is None:
             return None
         data = low[key]
-        if data.ndim == 2 and heads is not None and data.shape[1] == len(heads):
+        if (heads := _heads(low, data)) is not None:
             columns = [_channel(str(h), _of(low, i), data[:, i]) for i, h in enumerate(heads)]
             return list(with_clock(name, columns, self.file).channels)
-        rest = [k for k, v in low.items() if _is_vector(v) and k != key and k not in CLOCKS]
-        if rest and not self.described(low):
+        clock = _clock(node, low)
+        rest = [
+            k
+            for k, v in node.items()
+            if _is_vector(v) and _low(k) not in (*_UNITS, *_NAMES, *_HEADS)
+            if v is not data and v is not clock
+        ]
+        if rest and not self.described(low, rest):
             return None  # a group in which one vector happens to be called so
-        return self.columns(title, data, self.time(name, low), _unit(low), low)
+        for other in rest:
+            self.left_out(f"{name}.{other}", node[other], f"stands beside '{name}.{key}'")
+        time = self.time(name, low, clock)
+        return self.columns(title, data, time, _unit(low), low, counts=key == "raw")
 
     @staticmethod
-    def described(low: Mapping[str, Node]) -> bool:
-        return any(k in low for k in (*CLOCKS, *_FACTORS, "datainfo", "timeinfo"))
+    def described(low: Mapping[str, Node], rest: Sequence[str]) -> bool:
+        """Whether a struct says of itself that it is one series, whatever else is in it."""
+        if "datainfo" in low or "timeinfo" in low:
+            return True
+        log = any(is_called(k, target) for k in rest for target in UNITS if target != TIME)
+        return not log and any(k in low for k in (*CLOCKS, "scale", "gain", "factor", "slope"))
 
     def bus(self, name: str, node: Mapping[str, Node]) -> list[Channel]:
         parts = [self.series(key, value) for key, value in node.items()]
@@ -160,10 +176,12 @@ class _Reader:
             self.notes.append(f"'{name}' holds no time series, left out")
         return [replace(c, name=f"{name}.{c.name}") for p in parts for c in p or []]
 
-    def signals(self, name: str, low: Mapping[str, Node]) -> list[Channel]:
+    def signals(
+        self, name: str, node: Mapping[str, Node], low: Mapping[str, Node]
+    ) -> list[Channel]:
         """`Structure with time` as To Workspace and scopes save it."""
         signals = low["signals"] if isinstance(low["signals"], list) else [low["signals"]]
-        time = self.time(name, low)
+        time = self.time(name, low, _clock(node, low))
         out: list[Channel] = []
         for i, signal in enumerate(signals):
             if not isinstance(signal, dict) or not _is_numeric(signal.get("values")):
@@ -172,14 +190,26 @@ class _Reader:
             block = str(signal.get("blockName") or "").rpartition("/")[2]
             own = signal.get("label") or signal.get("title") or block
             title = own if isinstance(own, str) and own else f"{name}({i + 1})"
-            lower = {_low(k): v for k, v in signal.items()}
+            lower = _lowered(signal)
             out += self.columns(title, signal["values"], time, _unit(lower), lower)
         return out
 
     def columns(
-        self, name: str, data: Any, time: Array | None, unit: str | None, low: Mapping[str, Node]
+        self,
+        name: str,
+        data: Any,
+        time: Array | None,
+        unit: str | None,
+        low: Mapping[str, Node],
+        *,
+        counts: bool = False,
     ) -> list[Channel]:
-        data = self.scaled(name, np.asarray(data), low)
+        """counts : the file says that these are counts, whatever they are stored as"""
+        data = np.asarray(data)
+        scale = scaling(low, name, self.file, counts=counts or data.dtype.kind in "iub")
+        if scale.said is not None:
+            self.notes.append(scale.said)
+        data = scale(data)
         if data.ndim == 1:
             return [_channel(name, unit, data, time)]
         if data.ndim == 2 and time is not None and len(time) in data.shape:
@@ -188,35 +218,34 @@ class _Reader:
         self.left_out(name, data, "is no series of numbers")
         return []
 
-    def scaled(self, name: str, data: Any, low: Mapping[str, Node]) -> Any:
-        found = {k: v for k in (*_FACTORS, *_OFFSETS) if (v := _scalar(low.get(k))) is not None}
-        for kinds in (_FACTORS, _OFFSETS):
-            both = [k for k in kinds if k in found]
-            if len(both) > 1:
-                raise InputProblem(
-                    f"'{name}' has {' and '.join(both)}; which of them scales its data is not"
-                    " clear: keep one",
-                    file=self.file,
-                )
-        if not found:
-            return data
-        factor = next((found[k] for k in _FACTORS if k in found), 1.0)
-        return data * factor + next((found[k] for k in _OFFSETS if k in found), 0.0)
-
-    def time(self, name: str, low: Mapping[str, Node]) -> Array | None:
+    def time(self, name: str, low: Mapping[str, Node], clock: Node) -> Array | None:
         """(n,) [s], also where a timeseries keeps it as start, increment and length."""
         about = low.get("timeinfo")
-        info = {_low(k): v for k, v in about.items()} if isinstance(about, dict) else {}
-        found = [low.get(k) for k in CLOCKS] + [info.get("time")]
+        info = _lowered(about) if isinstance(about, dict) else {}
         unit = _text(info.get("units")) or "s"
         convert = from_stored(stored_unit(unit) or "s", "t", name, self.file)
-        for time in found:
+        for time in (clock, info.get("time")):
             if _is_vector(time) and _is_numeric(time):
                 return convert(np.asarray(time, np.float64))
         start, step, length = (_scalar(info.get(k)) for k in ("start", "increment", "length"))
         if step is not None and length is not None and np.isfinite(step):
             return convert(np.float64(start or 0.0) + step * np.arange(length, dtype=np.float64))
         return None
+
+
+def _lowered(node: Mapping[str, Node]) -> dict[str, Node]:
+    """The fields by their names in small letters; of two the one that is spelt so."""
+    order = sorted(node, key=lambda key: key == _low(key))
+    return {_low(key): node[key] for key in order}
+
+
+def _clock(node: Mapping[str, Node], low: Mapping[str, Node]) -> Node:
+    """The field of a struct that is its time; None if there is none."""
+    info = low.get("timeinfo")
+    unit = _text(_lowered(info).get("units")) if isinstance(info, dict) else None
+    called = [k for k, v in node.items() if _low(k) in CLOCKS and _is_vector(v) and _is_numeric(v)]
+    clock = clock_of([_channel(k.rstrip("_"), unit, node[k]) for k in called]).clock
+    return None if clock is None else clock.load().values
 
 
 def _low(key: str) -> str:
@@ -242,6 +271,14 @@ def _unit(low: Mapping[str, Node]) -> str | None:
     if own or not isinstance(about, dict):
         return own
     return _text(next((v for k, v in about.items() if _low(k) in _UNITS), None))
+
+
+def _heads(low: Mapping[str, Node], matrix: Node) -> list[Any] | None:
+    """The names of the columns of a matrix that stand beside it."""
+    if not _is_numeric(matrix) or matrix.ndim != 2:
+        return None
+    lists = [low[h] for h in _HEADS if isinstance(low.get(h), list)]
+    return next((h for h in lists if len(h) == matrix.shape[1]), None)
 
 
 def _of(low: Mapping[str, Node], index: int) -> str | None:

@@ -1,8 +1,8 @@
 """ASAM MDF (3 and 4) through asammdf.
 
 Time is each group's master channel. Units and conversions (an int16 with its scaling) are the
-channel's own and are applied; samples that the file marks as invalid are left out. A log goes out
-as MDF 4.10 with one channel group for each record, `t` as its master.
+channel's own and are applied; samples that the file marks as invalid are left out, and it is said.
+A log goes out as MDF 4.10 with one channel group for each record, `t` as its master.
 """
 
 from __future__ import annotations
@@ -93,7 +93,10 @@ def _channel(
                 file=file,
                 column=channel.name,
             )
-        there = len(signal.samples)
+        there = valid = len(signal.samples)
+        if there != count:  # some are marked as invalid, or not there at all
+            every = mdf.get(group=group, index=index, raw=True, ignore_invalidation_bits=True)
+            there = len(every.samples)
         if there != count:
             raise InputProblem(
                 f"its group is said to have {count} samples, and {there} are there: the recording"
@@ -102,7 +105,8 @@ def _channel(
                 column=channel.name,
             )
         time = np.asarray(signal.timestamps, np.float64) if timed else None
-        return Samples(np.asarray(signal.samples), time)
+        said = f"{there - valid} of {there} samples, marked as invalid, are left out"
+        return Samples(np.asarray(signal.samples), time, said=said if valid < there else None)
 
     # MDF 3 keeps the unit with the conversion.
     unit = channel.unit or getattr(channel.conversion, "unit", None)

@@ -87,6 +87,8 @@ def guarded(name: str, format: Format, read: Callable[[], T]) -> T:
     except (ErdctlError, MemoryError):
         raise
     except Exception as error:  # noqa: BLE001 - no library says what a damaged file makes it raise
+        if isinstance(error.__cause__ or error.__context__, MemoryError):
+            raise MemoryError from None  # which the library took for a damage
         reason = (str(error).splitlines() or [type(error).__name__])[0][:200]
         raise InputProblem(
             f"damaged, cut off or unusual {format.value} ({reason}); write or copy it again, or"

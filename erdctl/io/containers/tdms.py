@@ -1,8 +1,9 @@
 """NI TDMS through npTDMS.
 
-Time is the waveform's (`wf_increment`, `wf_start_offset`, `wf_start_time`), else the group's
-channel called t or time. Units are `unit_string`; NI's linear, polynomial and table scalings are
-applied by the library. A log goes out as one group for each record, with `t` as a channel.
+Time is the waveform's (`wf_increment` in `wf_xunit_string`, `wf_start_offset`, `wf_start_time`),
+else the group's channel called t or time; the 1 s that LabVIEW writes where nobody set an increment
+is none beside such a channel. Units are `unit_string`; NI's linear, polynomial and table scalings
+are applied by the library. A log goes out as one group for each record, with `t` as a channel.
 """
 
 from __future__ import annotations
@@ -13,12 +14,16 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from erdctl.io.containers.channels import Channel, ChannelGroup, Samples, with_clock
+from erdctl.io.containers.channels import TIME, Channel, ChannelGroup, Samples
+from erdctl.io.containers.clocks import Choice, clock_of, with_clock
 from erdctl.io.containers.outgoing import Columns
 from erdctl.io.extras import need
+from erdctl.io.stored import from_stored, stored_unit
+from erdctl.io.units import Conversion
 
 UNIT = "unit_string"
 _START = "wf_start_time"
+_UNSET = 1.0  # [s] LabVIEW's increment of a waveform that was given none
 _MARK = "erdctl_record"  # a group that is a record even if it is the only one
 
 
@@ -36,9 +41,17 @@ def read(file: Any, name: str) -> tuple[list[ChannelGroup], list[str]]:
     starts = [c.properties[_START] for c in channels if _START in c.properties]
     starts += [c[0] for c in channels if c.dtype.kind == "M"]
     origin = min(starts, default=None)
-    groups = []
+    groups, notes = [], []
     for group in opened.groups():
-        members = [_channel(c, origin) for c in group.channels() if len(c)]
+        inside = [c for c in group.channels() if len(c)]
+        members = [_channel(c, origin, name) for c in inside]
+        clock = clock_of(members) if all(_increment(c) == _UNSET for c in inside) else Choice()
+        if clock.clock is not None and clock.sure:
+            members = [_channel(c, origin, name, wave=False) for c in inside]
+            notes.append(
+                f"the time of '{group.name}' is its channel '{clock.clock.name}'; wf_increment is"
+                f" {_UNSET:g} s, as if not set"
+            )
         record = _MARK in group.properties
         if members and all(c.timed for c in members):
             groups.append(ChannelGroup(group.name, tuple(members), record=record))
@@ -46,13 +59,22 @@ def read(file: Any, name: str) -> tuple[list[ChannelGroup], list[str]]:
             groups.append(with_clock(group.name, members, name, record=record))
     status = opened.file_status
     cut = "its last segment is incomplete: the recording was cut off, and what is there is read"
-    return groups, [cut] if status.incomplete_final_segment else []
+    return groups, [*notes, cut] if status.incomplete_final_segment else notes
 
 
-def _channel(channel: Any, origin: Any) -> Channel:
-    """origin : the earliest point of time in the file, from which all others are counted"""
+def _increment(channel: Any) -> float:
+    return float(channel.properties.get("wf_increment", 0.0))
+
+
+def _channel(channel: Any, origin: Any, file: str, *, wave: bool = True) -> Channel:
+    """origin : the earliest point of time in the file, from which all others are counted
+
+    wave : the time of its waveform holds
+    """
     properties = channel.properties
-    step = float(properties.get("wf_increment", 0.0))
+    unit = stored_unit(properties.get("wf_xunit_string")) or "s"
+    step = _increment(channel) if wave else 0.0
+    seconds = from_stored(unit, TIME, channel.name, file) if step else Conversion()
     stamps = channel.dtype.kind == "M"
 
     def load() -> Samples:
@@ -62,10 +84,11 @@ def _channel(channel: Any, origin: Any) -> Channel:
         if not step:
             return Samples(values)
         start = float(properties.get("wf_start_offset", 0.0))
+        time = seconds(start + step * np.arange(len(values), dtype=np.float64))
         if _START in properties:
             # Channels that were started one after the other say so here.
-            start += (properties[_START] - origin) / np.timedelta64(1, "ns") * 1e-9
-        return Samples(values, start + step * np.arange(len(values), dtype=np.float64))
+            time += float((properties[_START] - origin) / np.timedelta64(1, "ns") * 1e-9)
+        return Samples(values, time)
 
     return Channel(channel.name, "s" if stamps else properties.get(UNIT), load, timed=bool(step))
 

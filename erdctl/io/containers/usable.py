@@ -19,7 +19,7 @@ def checked(samples: Samples, time: Array | None) -> tuple[npt.NDArray[Any], Arr
     if not values.size:
         return "it has no samples"
     if time is None:
-        return (
+        return samples.why or (
             "it has no time; neither a sampling interval nor a channel called t or time is stored"
             ' with it; if another channel is the time, say so, e.g. --map "t=NAME[s]"'
         )

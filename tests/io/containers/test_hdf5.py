@@ -174,7 +174,7 @@ def test_two_scales_are_refused(tmp_path: Path, converted: Read) -> None:
     with h5py.File(path, "w") as file:
         put(file, "t", T)
         put(file, "force", F, {"scale": 2.0, "gain": 3.0})
-    with pytest.raises(InputProblem, match="column 'force': has the attributes"):
+    with pytest.raises(InputProblem, match="'force' has scale and gain; which of them"):
         converted(path)
 
 

@@ -15,6 +15,8 @@ from shapes import F, T, X
 
 from erdctl.core.errors import ComputationProblem, InputProblem
 from erdctl.io.containers import isolated
+from erdctl.io.containers.opening import guarded
+from erdctl.io.formats import Format
 from erdctl.io.sources import open_source, read_source
 
 Write = Callable[..., Path]
@@ -96,3 +98,38 @@ def test_too_much_memory(log: Path, converted: Read, monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(isolated, "_START", start)
     with pytest.raises((ComputationProblem, InputProblem), match=r"more memory|damaged"):
         converted(log)
+
+
+@pytest.mark.usefixtures("fresh")
+def test_no_memory_for_the_table(
+    log: Path, converted: Read, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Half of it is sent: only the exit code is left to say why it ends."""
+    fails = (
+        "import pyarrow as pa\n"
+        "def no(*_): raise pa.lib.ArrowMemoryError('malloc of size 256 failed')\n"
+        "import erdctl.io.containers.child as c; c.pa.ipc.new_stream = no\n"
+    )
+    monkeypatch.setattr(
+        isolated, "_START", isolated._START.replace("from erd", f"\n{fails}from erd")
+    )
+    with pytest.raises(ComputationProblem, match="takes more memory than a sound tdms"):
+        converted(log)
+
+
+@pytest.mark.usefixtures("fresh")
+def test_a_few_samples(tdms: Write, converted: Read) -> None:
+    """Arrow's own pool would reserve more than the limit leaves to so small a file."""
+    step = {"wf_increment": 1e-3, "unit_string": "m"}
+    assert np.array_equal(converted(tdms({"log": {"x": (X[:8], step)}}))["x"], X[:8])
+
+
+def test_a_library_that_takes_want_of_memory_for_damage() -> None:
+    def read() -> None:
+        try:
+            raise MemoryError
+        except MemoryError as error:
+            raise ValueError("cannot read") from error
+
+    with pytest.raises(MemoryError):
+        guarded("log.tdms", Format.TDMS, read)

@@ -205,6 +205,18 @@ def test_several_rates(mat: Write, converted: Read, said: list[str]) -> None:
 def test_a_matrix_with_column_headers(mat: Write, converted: Read) -> None:
     bench = {"data": np.stack([T, X, F], 1), "colheaders": cells(["t", "x", "force"])}
     check(converted(mat({"bench": bench})))
+    check(converted(mat(bench)))
+    check(
+        converted(
+            mat(
+                {
+                    "M": bench["data"] * [1e3, 1.0, 1.0],
+                    "names": bench["colheaders"],
+                    "units": cells(["ms", "m", "N"]),
+                }
+            )
+        )
+    )
 
 
 def test_own_names(mat: Write, converted: Read) -> None:
@@ -265,3 +277,55 @@ def test_from_a_pipe(mat: Write, read: Any, stdin: Callable[[bytes], None]) -> N
     for version in ("5", "v7.3"):
         stdin(mat({"t": T, "x": X, "force": F}, version).read_bytes())
         assert np.array_equal(read("-").recording.force, F)
+
+
+@pytest.mark.parametrize("name", ["data", "raw", "values"])
+def test_a_channel_called_data_is_one_of_several(mat: Write, converted: Read, name: str) -> None:
+    log = {"t": T, "x": X, "force": F, name: F / 2}
+    table = converted(mat({"log": log}))
+    check(table)
+    assert np.array_equal(table[name], F / 2)
+
+
+def test_vectors_beside_a_series_are_left_out_and_said(
+    mat: Write, converted: Read, said: list[str]
+) -> None:
+    force = {"time": T, "data": F, "quality": np.zeros(1000)}
+    path = mat({"x": {"time": T, "data": X}, "force": force})
+    check(converted(path))
+    assert f"{path}: 'force.quality' (1000) stands beside 'force.data', left out" in said
+
+
+def test_a_gain_beside_values_is_said(mat: Write, converted: Read, said: list[str]) -> None:
+    force = {"data": F, "gain": 100.0, "unit": "N"}
+    path = mat({"t": T, "x": X, "force": force})
+    check(converted(path))
+    assert any("its gain = 100 is not applied" in line for line in said)
+    force = {"raw": F, "gain": 100.0, "unit": "N"}  # which says that they are counts
+    table = converted(mat({"t": T, "x": X, "force": force}))
+    assert np.array_equal(table["force"], F * 100.0)
+
+
+@pytest.mark.parametrize(
+    "names", [("FL", "FR"), ("run_FrontLeft", "run_RearLeft"), ("dut_1", "dut_2")]
+)
+def test_groups_of_several_dampers(mat: Write, read: Any, names: tuple[str, str]) -> None:
+    log = {"t": T, "x": X, "force": F, "duty": T * 0.0}
+    path = str(mat(dict.fromkeys(names, log)))
+    with pytest.raises(InputProblem, match="column 'damper': holds 2 dampers"):
+        read(path)
+    assert len(read(path, where=["damper=*"]).recording) == 2000
+
+
+def test_groups_of_one_damper(mat: Write, converted: Read) -> None:
+    log = {"t": T, "x": X, "force": F}
+    for names in (("cold_FL", "warm_FL"), ("run_1", "run_2")):
+        assert "damper" not in converted(mat(dict.fromkeys(names, log))).column_names
+
+
+def test_version_4_is_named(tmp_path: Path, converted: Read) -> None:
+    from scipy.io import savemat
+
+    savemat(path := tmp_path / "log.mat", {"t": T, "x": X}, format="4")
+    with pytest.raises(InputProblem, match="this is MATLAB 4, which is not read"):
+        converted(path)

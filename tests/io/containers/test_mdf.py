@@ -129,3 +129,17 @@ def test_a_plain_identify(mdf: Write, read: Any) -> None:
     recording = read(str(mdf([("bench", T, {"x": X, "force": F})])), want_hash=True).recording
     assert np.array_equal(recording.x, X)
     assert len(recording.sources[0].sha256) == 64
+
+
+def test_samples_marked_as_invalid_are_left_out(
+    mdf: Write, converted: Read, said: list[str]
+) -> None:
+    invalid = np.zeros(len(T), bool)
+    invalid[50:53] = True
+    spoilt = {"samples": np.where(invalid, 9999.0, F), "unit": "N", "invalidation_bits": invalid}
+    path = mdf([("bench", T, {"force": spoilt, "x": {"samples": X, "unit": "m"}})])
+    table = converted(path)
+    assert np.array_equal(table["t"], T[~invalid])
+    assert np.array_equal(table["force"], F[~invalid])
+    assert np.array_equal(table["x"], X[~invalid])
+    assert f"{path}: 'force': 3 of 1000 samples, marked as invalid, are left out" in said

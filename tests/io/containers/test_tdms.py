@@ -121,3 +121,19 @@ def test_without_the_library(tdms: Write, converted: Read, monkeypatch: pytest.M
     monkeypatch.setitem(sys.modules, "nptdms", None)
     with pytest.raises(MissingLibrary, match=r"TDMS files need .* pip install 'erdctl\[tdms\]'"):
         converted(path)
+
+
+def test_an_increment_in_another_unit(tdms: Write, converted: Read) -> None:
+    step = wave(1.0, wf_xunit_string="ms", wf_start_offset=5.0)
+    assert np.allclose(
+        converted(tdms({"bench": {"x": (X, step), "force": (F, step)}}))["t"], T + 5e-3
+    )
+    step = wave(1.0, wf_xunit_string="mm")
+    with pytest.raises(InputProblem, match="column 'x': stored with unit 'mm', which is a length"):
+        converted(tdms({"bench": {"x": (X, step)}}))
+
+
+def test_an_increment_that_nobody_set(tdms: Write, converted: Read, said: list[str]) -> None:
+    bench = {"Time": (T, wave(1.0, "s")), "x": (X, wave(1.0, "m")), "force": (F, wave(1.0, "N"))}
+    assert np.array_equal(converted(tdms({"bench": bench}))["t"], T)
+    assert any("the time of 'bench' is its channel 'Time'" in line for line in said)
