@@ -113,11 +113,13 @@ def _lines(data: Data, layout: TextLayout, file: str, notes: list[str]) -> bytes
 
 def _ended(body: bytes, separator: str, notes: list[str]) -> bytes:
     """The samples without rows of nothing but separators at the end, which tables leave there."""
-    tail = body[-_TAIL:]
-    end = len(body) - len(tail) + len(tail.rstrip(b" \t\n" + separator.encode()))
-    line = body.find(b"\n", end) + 1
-    if line and separator.encode() in body[line:]:
-        notes.append(f"{sum(map(bool, body[line:].split()))} empty rows at the end left out")
+    sign, size = separator.encode(), _TAIL
+    while not (kept := body[-size:].rstrip(b" \t\n" + sign)) and size < len(body):
+        size *= 8
+    line = body.find(b"\n", max(0, len(body) - size) + len(kept)) + 1
+    rows = sum(sign in row for row in body[line:].split(b"\n")) if line else 0
+    if rows:
+        notes.append(f"{rows} empty rows at the end left out")
         return body[:line]
     return body
 

@@ -21,11 +21,11 @@ CALLED = {UTF8: "UTF-8", LATIN1: "Latin-1", WINDOWS: "Latin-1", "utf-16-le": "UT
 LINE_END = re.compile(r"\r\n|\n|\r")
 
 
-def encoding_of(head: bytes, file: str, *, whole: bool) -> tuple[str, int]:
+def encoding_of(head: bytes, file: str, *, whole: bool, given: bool = False) -> tuple[str, int]:
     """The encoding that a file begins in, and the length of its mark.
 
-    head : its first bytes;  whole : they are all
-    Raises InputProblem for what is no text.
+    head : its first bytes;  whole : they are all;  given : the encoding is, but not the mark
+    Raises InputProblem for what is no text, and for UTF-8 with single bytes of something else.
     """
     for mark, name in _MARKS.items():
         if head.startswith(mark):
@@ -39,6 +39,10 @@ def encoding_of(head: bytes, file: str, *, whole: bool) -> tuple[str, int]:
     try:
         codecs.getincrementaldecoder(UTF8)().decode(head, final=whole)
     except UnicodeDecodeError:
+        text = head.decode(UTF8, errors="surrogateescape")
+        bad = len(re.findall("[\udc80-\udcff]", text))
+        if not given and sum(not letter.isascii() for letter in text) >= 2 * bad:
+            decoded(head, UTF8, file, whole=whole)  # most letters are UTF-8: says which is not
         return (LATIN1 if re.search(rb"[\x81\x8d\x8f\x90\x9d]", head) else WINDOWS), 0
     return UTF8, 0
 

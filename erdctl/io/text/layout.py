@@ -123,9 +123,8 @@ def recognise(data: Data, file: str, options: TextOptions) -> TextLayout | None:
     Raises InputProblem where it may be read in two ways, with the option that decides.
     """
     head, whole = _head(data)
-    encoding, mark = encoding_of(head, file, whole=whole)
-    if options.encoding is not None:
-        encoding = options.encoding
+    encoding, mark = encoding_of(head, file, whole=whole, given=options.encoding is not None)
+    encoding = options.encoding or encoding
     lines = LINE_END.split(decoded(head[mark:], encoding, file, whole=whole))
     if not whole and len(lines) > 1:
         lines = lines[:-1]  # cut

@@ -44,6 +44,9 @@ def header_of(
     """
     width = found.width
     above = [n for n in range(found.start - 1, after, -1) if lines[n - 1].strip()]
+    likely = [n for n in above if not _is_remark(lines[n - 1], found)]
+    if any(_may_name(lines[n - 1], found) for n in likely):
+        above = likely
     units_line = options.units or 0
     if options.units is None and options.header != 0:
         below = _units_line(lines, above, found) if above else 0
@@ -63,8 +66,7 @@ def header_of(
     else:
         line = next((n for n in above if n != units_line), 0)
         names = _cells(lines[line - 1], found.separator, width) if line else []
-        higher = [_cells(lines[n - 1], found.separator, width) for n in above if n < line]
-        named = any(len(cells) == width and not _are_spoilt(cells) for cells in higher)
+        named = any(_may_name(lines[n - 1], found) for n in above if n < line)
         if named and _are_spoilt(names) and len(names) >= found.shortest:
             raise _neither(line, found, file)
         if not _are_names(names) or _is_title(names, line, lines, found):
@@ -131,6 +133,18 @@ def _are_spoilt(cells: Sequence[str]) -> bool:
     worded = all(re.search(r"[^\W\d_]", cell) for cell in filled)
     values = any(kind_of(cell) in (NUMBER, STAMP) for cell in filled)
     return values or not worded or len(set(filled)) < len(filled)
+
+
+def _may_name(line: str, found: Structure) -> bool:
+    """Whether a line has a name for every column."""
+    cells = _cells(line, found.separator, found.width)
+    return len(cells) == found.width and not _are_spoilt(cells)
+
+
+def _is_remark(line: str, found: Structure) -> bool:
+    """Whether a line is a comment that holds neither names nor units: no header ends with it."""
+    other = len(_cells(line, found.separator, found.width)) != found.width
+    return other and comment_of(line) is not None
 
 
 def _neither(line: int, found: Structure, file: str) -> InputProblem:

@@ -139,6 +139,15 @@ def test_errors_of_a_spreadsheet_are_no_comments(read: Converted, between: str, 
         assert at == 0 or f"column 't': found '{cell}'" in str(caught.value)
 
 
+@pytest.mark.parametrize("lines", [[NAMES, "# a"], [NAMES, "# a", "s;m;N;-", "# b"]])
+def test_comments_below_the_names_are_not_the_end_of_a_header(
+    read: Converted, lines: list[str]
+) -> None:
+    table, said = read("# rig 7", *lines, *LINES)
+    assert table.column_names == NAMES.split(";")
+    assert "header in line 2" in said
+
+
 COMMENTS = ["#", "# N/A;1;2;3", "#0.1;2;3;4", "## a", "% b", "// c", "###;;;"]
 
 
@@ -273,3 +282,28 @@ def test_a_missing_line_end_alone_is_not_remarked_on(read: Converted, last: str)
     lines = [re.sub("0.2$", f"{i * i / 64:g}", line) for i, line in enumerate(LINES)]
     lines[-1] = f"{lines[-1].rpartition(';')[0]};{last}"
     assert "cut off" not in read(NAMES.replace("duty", "p"), *lines, end="")[1]
+
+
+# --- ends and letters
+
+
+@pytest.mark.parametrize("between", [";", "\t", "|"])
+@pytest.mark.parametrize("rows", [1, 3, 40_000])
+def test_empty_rows_at_the_end(read: Converted, between: str, rows: int) -> None:
+    found = read("Rig 7", NAMES, *LINES, *[";;;"] * rows, between=between)
+    assert np.array_equal(force_of(found), FORCE)
+    assert f", {rows} empty rows at the end left out" in found[1]
+
+
+def test_a_stray_byte_makes_no_other_letters_of_the_rest(tmp_path: Path) -> None:
+    path = tmp_path / "stray.csv"
+    head = "# Prüfstand für Öl\nZeit;Weg;Kraft;Tastverhältnis\n".encode()
+    body = ("\n".join(LINES) + "\n").encode()
+    path.write_bytes(head + b"# 25 \xb0C\n" + body)
+    with pytest.raises(InputProblem, match="row 3: not UTF-8: byte 0xb0 near '# 25 '; say what it"):
+        read_converted(str(path), say=str)
+    path.write_bytes(head.decode().encode("latin-1") + b"# 25 \xb0C\n" + body)
+    assert "Tastverhältnis" in read_converted(str(path), say=str).column_names
+    path.write_bytes(head + b"# 25 \xb0C\n" + body)
+    table = read_converted(str(path), text="encoding=latin-1", say=str)
+    assert table.column_names[3] == "TastverhÃ¤ltnis"
