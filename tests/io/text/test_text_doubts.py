@@ -75,6 +75,11 @@ def test_a_row_that_states_a_plain_number_alone(read: Converted) -> None:
     assert "units in line 2" in read(NAMES, ";;;[-]", *LINES)[1]
 
 
+def test_a_dash_for_the_force(read: Converted) -> None:
+    with pytest.raises(InputProblem, match=r"'force': stored with no unit \(- or 1\), which is a"):
+        read(NAMES, "s;m;-;-", *LINES)
+
+
 def test_units_above_and_below_that_differ(read: Converted) -> None:
     lines = ["s;m;kN;-", NAMES, "s;m;N;-", *LINES]
     with pytest.raises(InputProblem, match=r"row 1: other units than in row 3; .*units=1"):
