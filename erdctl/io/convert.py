@@ -23,7 +23,7 @@ from erdctl.io.names_of_logs import stem
 from erdctl.io.outline import ByColumn, Outline, outline, place_behind
 from erdctl.io.plan import ColumnPlan, in_contract_names, plan_columns, read_planned
 from erdctl.io.sources import TableSource, open_source
-from erdctl.io.stored import si, units_apart, with_unit
+from erdctl.io.stored import si, units_apart, with_unit, with_units
 from erdctl.io.text.options import TextOptions, TextSpec, parse_text_options
 from erdctl.io.units import RECORD, Conversion
 
@@ -70,7 +70,7 @@ def read_converted(
     plan = plan_columns(source, mappings, needed=(), say=note)
     check_fits(source, len(source.columns))
     table, plan, _ = read_planned(source, plan, mappings, source.columns, say=note)
-    table = _in_si(table, plan, source.name, note)
+    table = _stating(_in_si(table, plan, source.name, note), plan, source)
     if rows := table.num_rows:
         place = Place(source.name, lambda sample: source.row_of(sample, rows))
         table, plan = _with_runs(table, plan, source, place, note)
@@ -78,6 +78,13 @@ def read_converted(
     if goes_on:
         table = _going_on(table, plan, source)
     return units_apart(table)
+
+
+def _stating(table: pa.Table, plan: ColumnPlan, source: TableSource) -> pa.Table:
+    """The table with the units that a row of a text gives to columns other than the contract's."""
+    units = {} if source.text is None else source.text.header.units
+    own = {n: u for n, u in units.items() if n in table.column_names and n not in plan and u != "1"}
+    return with_units(table, own) if own else table
 
 
 def _with_runs(

@@ -20,7 +20,7 @@ NUMBER = re.compile(
 _COMMENTS = ("#", "%", "//")
 # A decimal comma, a date or a time of day: text cells that may be more than text.
 _FOREIGN = re.compile(
-    r"[0-9],[0-9]|[0-9][-/.][0-9]{1,2}[-/.][0-9]|[0-9]:[0-9]{2}|[0-9] ?d(ays?)?\b"
+    r"[0-9],[0-9]|[0-9][-/.][0-9]{1,2}[-/.][0-9]|[0-9]:[0-9]{2}|[0-9]{8}T[0-9]{6}|[0-9] ?d(ays?)?\b"
 )
 
 

@@ -184,7 +184,8 @@ def between(given: str, wanted: str) -> Conversion:
         if float(one - zero) == 0.0:
             raise OverflowError("a factor that is no float")
     except pint.DimensionalityError:
-        raise WrongUnit(f"unit '{given}', which is {_kind(unit)}") from None
+        said = f"unit '{given}'" if given else "no unit (- or 1)"
+        raise WrongUnit(f"{said}, which is {_kind(unit)}") from None
     except (pint.PintError, *_SLIPS) as error:
         raise WrongUnit(f"'{given}', which is not a unit") from error
     return Conversion(Fraction(one) - Fraction(zero), Fraction(zero))

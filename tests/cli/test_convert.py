@@ -201,6 +201,13 @@ def test_values_out_of_range_are_converted_and_said(tmp_path: Path) -> None:
     assert out.read_text() == "t,x,duty,p\n0,0.01,30,5\n1,12,40,6\n"
 
 
+def test_units_of_a_row_stay_with_columns_that_are_no_log(tmp_path: Path) -> None:
+    log, out = tmp_path / "log.csv", tmp_path / "out.csv"
+    log.write_text("t;p;n;x\ns;bar;-;mm\n0;5.5;1;2\n1;6.5;2;2.5\n")
+    erdctl("convert", log, out)
+    assert out.read_text() == "t,p [bar],n,x\n0,5.5,1,0.002\n1,6.5,2,0.0025\n"
+
+
 def test_one_row_and_no_rows_are_converted(tmp_path: Path) -> None:
     for rows in ("", "0,1\n"):
         log, out = tmp_path / "log.csv", tmp_path / "out.csv"

@@ -116,7 +116,7 @@ def test_record_has_no_unit() -> None:
         (["x=A[5 N]"], "unit 'N', which is a force"),
         (["x=A[mm(]"], "'mm(', which is not a unit"),
         (["duty=A[dB]"], "'dB', which is not a unit"),
-        (["x=A[]"], "unit '', which is a plain number"),
+        (["x=A[]"], "no unit (- or 1), which is a plain number"),
         (["Force=F"], "unknown column 'Force'; did you mean 'force'? Columns are t, x, xdot"),
         (["zzz=F"], "unknown column 'zzz'; Columns are t, x, xdot"),
         (["force"], "write COLUMN=NAME[UNIT]"),

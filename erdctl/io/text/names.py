@@ -171,7 +171,8 @@ def _units_line(lines: Sequence[str], above: Sequence[int], found: Structure) ->
     names = _cells(lines[above[1] - 1], found.separator, found.width)
     if abs(len(units) - len(names)) > 1 or not _are_names(names):
         return 0
-    return above[0] if set(units) - _NO_UNIT else 0  # a row of nothing but `-` states none
+    dashes = set(units) == {"1"}  # in all columns: a sample without values, for times have a unit
+    return above[0] if any(units) and not dashes else 0
 
 
 def _units_above(

@@ -71,6 +71,15 @@ def test_units_above_the_names_wherever_they_are(
     assert np.allclose(force_of(read(*above, *LINES, text=text)), FORCE * 1e3)
 
 
+def test_a_row_that_states_a_plain_number_alone(read: Converted) -> None:
+    assert "units in line 2" in read(NAMES, ";;;[-]", *LINES)[1]
+
+
+def test_a_dash_for_the_force(read: Converted) -> None:
+    with pytest.raises(InputProblem, match=r"'force': stored with no unit \(- or 1\), which is a"):
+        read(NAMES, "s;m;-;-", *LINES)
+
+
 def test_units_above_and_below_that_differ(read: Converted) -> None:
     lines = ["s;m;kN;-", NAMES, "s;m;N;-", *LINES]
     with pytest.raises(InputProblem, match=r"row 1: other units than in row 3; .*units=1"):
@@ -196,10 +205,13 @@ def test_a_rate_is_said_only_if_it_is_clear(
 
 
 @pytest.mark.parametrize("between", [";", ",", "\t"])
-def test_a_word_among_clock_times(read: Converted, between: str) -> None:
-    lines = [f"10:00:00.{5 * i:03d};0.001;5.5" for i in range(N)]
-    lines[20] = "abc" + lines[20][12:]
-    with pytest.raises(InputProblem, match="row 22, column 't': found 'abc', expected a time"):
+@pytest.mark.parametrize("first", ["10:00:00", "20240709T000059", "2 d 00:00:59"])
+def test_a_word_among_clock_times(read: Converted, between: str, first: str) -> None:
+    lines = [f"{first}.{5 * i:03d};0.001;5.5" for i in range(N)]
+    found = read("t;x;force", *lines, between=between)[0]
+    assert np.allclose(found.column("t").to_numpy(), 0.005 * np.arange(N))
+    lines[20] = "abc;0.001;5.5"
+    with pytest.raises(InputProblem, match="row 22, column 't': found 'abc', expected a "):
         read("t;x;force", *lines, between=between)
 
 
