@@ -22,7 +22,7 @@ def stated_interval(lines: Sequence[str], decimal: str) -> float | None:
     """Seconds between samples, None if the lines do not say so clearly.
 
     decimal : sign of the numbers in the samples
-    Check: above decimal points 200 Hz are 0.005 s, 1,000 Hz are 1000 Hz or 1 Hz in another notation,
+    Check: above decimal points 200 Hz are 0.005 s, 1,000 Hz are 1000 Hz or, elsewhere, 1 Hz,
     1'000 Hz are 0.001 s, 0,5 kHz are 0.002 s, and 1.000 Hz is 1.0 s.
     >>> rates = ("200 Hz", "1,000 Hz", "1'000 Hz", "0,5 kHz", "1.000 Hz")
     >>> [stated_interval([f"Sample rate: {rate}"], ".") for rate in rates]
