@@ -40,9 +40,7 @@ _RATES = ("fs", "sample_rate", "samplerate", "sampling_rate", "sampling_frequenc
 _ALIKE = 1e-3  # of an interval: the same, written twice
 _DATA = ("data", "values", "value", "samples", "signal")
 _MARK = "erdctl_record"  # attribute of a group that is a record even if it is the only one
-_NAME = (
-    "erdctl_name"  # attribute of a dataset: the name of a column that cannot be that of a dataset
-)
+_NAME = "erdctl_name"  # attribute of a dataset: a column's name, which may be none of a dataset
 
 
 def library() -> Any:
