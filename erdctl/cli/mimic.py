@@ -204,26 +204,29 @@ def _draw(asked: list[Wanted], sequence: PwmSequence, parameters: Parameters) ->
 
 
 def _show(found: PwmSequence) -> None:
-    from erdctl.mimic.sequence import held_back, way_back, worth
+    from erdctl.mimic.sequence import held_back, idle, way_back, worth
     from erdctl.report.text import say, table
 
     plans = found.plans
     reaches = [(channel, r) for channel, plan in plans.items() for r in plan.reaches]
-    corrected = any(r.plain is not None for _, r in reaches)
-    plain = ["without effects"] if corrected else []
+    # Of a static inverse its own figures alone: the others are of sequences that are not sent.
+    corrected = not found.static and any(r.plain is not None for _, r in reaches)
+    others = [] if found.static else ["paper's inverse"]
     header = [
-        "fault", "damper", "NRMSE", *plain, "paper's inverse", "out of reach", "missing rms", "max",
+        "fault", "damper", "NRMSE", *(["without effects"] if corrected else []), *others,
+        "out of reach", "missing rms", "max",
     ]  # fmt: skip
     rows = [
         [
-            str(r.fault), channel, f"{r.compensated:.4f}",
-            *([] if r.plain is None else [f"{r.plain:.4f}"]), f"{r.paper:.4f}",
+            str(r.fault), channel, *r.figures(static=found.static),
             f"{100 * r.out_of_reach:.1f} %", f"{r.missing_rms:.2f} N", f"{r.missing_max:.2f} N",
         ]
         for channel, r in reaches
     ]  # fmt: skip
     table("Expected force against the ideal faulty force, while each fault acts", header, rows)
-    for line in (*worth(plans), *way_back(found)):
+    for line in (*worth(found), *way_back(found)):
         say(line)
-    for line in held_back(plans):
+    for line in held_back(found):
         say(f"{line}; --duty-max raises it", "warning")
+    for line in idle(found):
+        say(line, "warning")

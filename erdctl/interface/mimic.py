@@ -18,6 +18,7 @@ from erdctl.mimic.sequence import (
     PwmSequence,
     at_duty,
     held_back,
+    idle,
     sequence,
     strain,
     too_hot,
@@ -213,7 +214,9 @@ def mimic(
         given.parameters, recording, chosen, amplifier, static=uncompensated,
         progress=progress or (lambda stage, what: None),
     )  # fmt: skip
-    limited = [f"{line}; duty_max raises it" for line in held_back(found.plans)]
-    seen = (*guard.lines(), *worth(found.plans), *way_back(found), *strain(found), *limited)
+    limited = [f"{line}; duty_max raises it" for line in held_back(found)]
+    seen = (
+        *guard.lines(), *worth(found), *way_back(found), *strain(found), *limited, *idle(found),
+    )  # fmt: skip
     said = (*remarks(given.parameters, recording), *seen)
     return Mimicked(found, read, given, chosen, amplifier, guard, (*read.remarks, *said))

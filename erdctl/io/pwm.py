@@ -32,7 +32,11 @@ def write(sequence: PwmSequence, log: pa.Table, path: str, format: str | None = 
 
 def table(sequence: PwmSequence, log: pa.Table) -> pa.Table:
     """The log's table under the new duty; its measured force was that of the healthy damper."""
-    renamed = ["force_healthy" if name == "force" else name for name in log.column_names]
+    names = log.column_names
+    before = {"force": "force_healthy"}
+    if "force" in names:  # the log of a run that an earlier sequence drove has such a column
+        before["force_healthy"] = "force_healthy (original)"
+    renamed = [before.get(name, name) for name in names]
     out = log.rename_columns(renamed)
     new = sequence.columns()
     out = out.drop_columns([name for name in new if name in renamed])
@@ -127,7 +131,7 @@ def manifest(
                 "fell_back": c.fell_back,
             }
             for channel, c in ((k, p.correction) for k, p in sequence.plans.items())
-            if c is not None
+            if c is not None and not sequence.static  # which nothing corrected
         ],
         **({"provenance": dict(labels)} if (labels := sequence.recording.labels) else {}),
     }

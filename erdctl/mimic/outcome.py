@@ -32,6 +32,14 @@ class Reach:
     missing_max: float
     plain: float | None = None
 
+    def figures(self, *, static: bool) -> list[str]:
+        """NRMSE of what is sent, and of what else there is to compare it with; in words.
+
+        static : the paper's inverse is sent; that of sequences that are not sent would mislead
+        """
+        others = [] if static else [self.compensated, *([] if self.plain is None else [self.plain])]
+        return [f"{v:.4f}" if v < 1e3 else f"{v:.3g}" for v in (*others, self.paper)]
+
 
 @dataclass(frozen=True)
 class Correction:
@@ -63,7 +71,9 @@ class Plan:
     ideal, expected, expected_paper : (n,) ideal faulty force and what the sequences will give, as
         the force channel records them [N]
     out_of_reach : (n,) no duty gives the ideal force;  acting : (n,) some fault acts
-    limited : part of the time in which the amplifier's limits, not the physics, hold the duty
+    limited, limited_paper : part of the samples at which either sequence is at the highest duty
+        while a fault acts, and the force is too small
+    idle : faults that do nothing in this log
     correction : what the effects of a corrected model are worth; None if there are none
     """
 
@@ -75,5 +85,7 @@ class Plan:
     out_of_reach: Flags
     acting: Flags
     limited: float
+    limited_paper: float
+    idle: tuple[str, ...]
     reaches: tuple[Reach, ...]
     correction: Correction | None = None

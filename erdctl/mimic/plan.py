@@ -124,7 +124,7 @@ def mimic(
         )
         for i, ((fault, at), compensated, paper) in enumerate(figures)
     )
-    ideal = found.ideal
+    ideal, of_damper = found.ideal, (made, made_paper)
     if left_out:
         ideal = whole.prepare(signals, values).force(values, _groups(g))
         made, made_paper = (whole.force(signals.with_duty(v), values) for v in (duty, duty_paper))
@@ -135,11 +135,25 @@ def mimic(
         expected=made,
         expected_paper=made_paper,
         out_of_reach=out,
-        limited=float(np.mean(found.wanted > amplifier.duty_max)),
+        limited=_held_back(found, duty, of_damper[0], hold, amplifier),
+        limited_paper=_held_back(found, duty_paper, of_damper[1], hold, amplifier),
+        idle=tuple(str(fault) for fault, at in zip(faults, on, strict=True) if not at.any()),
         acting=hold.acting,
         reaches=reaches,
         correction=correction,
     )
+
+
+def _held_back(
+    found: Inversion, duty: Array, made: Array, hold: CausalHold, amplifier: Amplifier
+) -> float:
+    """Part of the samples at which a sequence is at the highest duty and the force is too small.
+
+    duty, made : (n,) the sequence, and the force that the damper makes of it [N]
+    """
+    highest = duty > amplifier.duty_max - max(amplifier.resolution, 1e-9)
+    short = (found.ideal - made) * found.way > MISSED * np.ptp(found.ideal)
+    return float(np.mean(hold.acting & highest & short))
 
 
 def _damper(whole: Model) -> tuple[Model, tuple[str, ...]]:

@@ -50,6 +50,11 @@ class PwmSequence:
         """
         return {c: ~p.acting & (self.duties[c] != self.healthy) for c, p in self.plans.items()}
 
+    @property
+    def limited(self) -> dict[str, float]:
+        """Part of the samples at which what is sent is held back by the highest duty."""
+        return {c: p.limited_paper if self.static else p.limited for c, p in self.plans.items()}
+
     def columns(self) -> dict[str, Array]:
         """Columns for the log's own motion; `duty` and forces are the first faulty damper's."""
         channel, plan = next(iter(self.plans.items()))
@@ -119,15 +124,20 @@ def too_hot(recording: Recording, limit: float) -> str | None:
     return f"the damper reached {hottest:.1f} degC in this log, above the limit of {limit:g} degC"
 
 
-def worth(plans: Mapping[str, Plan]) -> list[str]:
+def worth(sequence: PwmSequence) -> list[str]:
     """What the effects of a corrected model are worth for each damper, in words."""
     out = []
-    for channel, plan in plans.items():
+    for channel, plan in sequence.plans.items():
         c = plan.correction
         if c is None:
             continue
         figures = f"NRMSE {c.nrmse:.4f}, with the paper's parameters alone {c.plain:.4f}"
-        if c.effects and c.fell_back:
+        if c.effects and sequence.static:
+            out.append(
+                f"{channel}: {', '.join(c.effects)} act on the expected force, and not on the"
+                " sequence: the static inverse knows the paper's parameters alone"
+            )
+        elif c.effects and c.fell_back:
             out.append(
                 f"{channel}: no sequence from {', '.join(c.effects)} comes nearer to the faulty"
                 " force than that of the paper's parameters alone, which is written:"
@@ -173,10 +183,21 @@ def way_back(sequence: PwmSequence) -> list[str]:
     ]
 
 
-def held_back(plans: Mapping[str, Plan]) -> list[str]:
+def held_back(sequence: PwmSequence) -> list[str]:
     """Where the amplifier, not the physics, limits a sequence, in words."""
     return [
-        f"{channel}: {100 * plan.limited:.1f} % of the samples ask for more than the highest duty"
-        for channel, plan in plans.items()
-        if plan.limited
+        f"{channel}: at {100 * part:.2g} % of the samples the highest duty gives too small a force"
+        for channel, part in sequence.limited.items()
+        if part
+    ]
+
+
+def idle(sequence: PwmSequence) -> list[str]:
+    """Faults that nobody will see in what is sent, in words."""
+    t = sequence.recording.t
+    return [
+        f"{channel}: {fault} does nothing in this log, from {t.min():g} to {t.max():g} s: the"
+        " sequence is as without it"
+        for channel, plan in sequence.plans.items()
+        for fault in plan.idle
     ]

@@ -30,8 +30,11 @@ class Amplifier:
             raise UsageProblem(f"the highest duty must be in 0..1, not {self.duty_max:g}")
         if not 0.0 <= self.resolution < self.duty_max:
             raise UsageProblem(f"the resolution must be in 0..{self.duty_max:g}")
-        if not self.slew > 0.0 or not self.carrier > 0.0 or not self.full_scale > 0.0:
-            raise UsageProblem("slew rate, carrier and full scale must be above zero")
+        scales = (self.carrier, self.full_scale)
+        if not self.slew > 0.0 or not all(0.0 < scale < math.inf for scale in scales):
+            raise UsageProblem(
+                "slew rate, carrier and full scale must be above zero, and the last two finite"
+            )
         if self.update_rate is not None and not 0.0 < self.update_rate <= self.carrier:
             raise UsageProblem(
                 f"the update rate must be above 0 and at most the carrier, {self.carrier:g} Hz"

@@ -75,7 +75,7 @@ def mimic_page(
         channels=list(plans),
         **_answers(plans, reaches, static),
         faults=_faults(reaches, static),
-        table=_table(reaches),
+        table=_table(reaches, static),
     )
 
 
@@ -89,7 +89,8 @@ def _answers(plans: Mapping[str, Plan], reaches: Sequence[tuple[str, Reach]], st
     errors = [r.paper if static else r.compensated for _, r in reaches]
     worst = max(errors)
     out = [(n, r) for n, r in reaches if r.out_of_reach > REACHED]
-    limited = {name: plan.limited for name, plan in plans.items() if plan.limited > REACHED}
+    parts = {n: p.limited_paper if static else p.limited for n, p in plans.items()}
+    limited = {name: part for name, part in parts.items() if part > REACHED}
     near = f"Within {100 * worst:.2g} % rms of the range of the ideal faulty force."
     if out:
         mood, head = "bad", f"Part of {' and '.join(str(r.fault) for _, r in out)} is out of reach."
@@ -129,15 +130,15 @@ def _faults(reaches: Sequence[tuple[str, Reach]], static: bool) -> Json:
     return {"rows": rows, "most": most, "before": "" if static else "paper's inverse"}
 
 
-def _table(reaches: Sequence[tuple[str, Reach]]) -> Json:
-    plain = any(r.plain is not None for _, r in reaches)
+def _table(reaches: Sequence[tuple[str, Reach]], static: bool) -> Json:
+    plain = not static and any(r.plain is not None for _, r in reaches)
     header = ["fault", "damper", "NRMSE", *(["without effects"] if plain else [])]
-    header += ["paper's inverse", "out of reach", "missing, rms [N]", "missing, max [N]"]
+    header += [*([] if static else ["paper's inverse"]), "out of reach"]
+    header += ["missing, rms [N]", "missing, max [N]"]
     rows = []
     for name, r in reaches:
-        extra = [digits(r.plain, 3)] if plain else []
         rows.append([
-            str(r.fault), name, f"{r.compensated:.4f}", *extra, f"{r.paper:.4f}",
+            str(r.fault), name, *r.figures(static=static),
             f"{100 * r.out_of_reach:.1f} %", digits(r.missing_rms, 3), digits(r.missing_max, 3),
         ])  # fmt: skip
     return {"header": header, "rows": rows}
