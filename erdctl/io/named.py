@@ -51,8 +51,7 @@ _ABOUT = {
 
 _CONTROL = ("duty", "pwm", "tastgrad", "tastverh")  # how a word about it begins
 _BESIDE_CONTROL = {
-    "carrier", "period", "periode", "status", "state", "enable",
-    "enabled", "on", "time", "zeit", "temperature", "temp", "id", "channel", "kanal",
+    "carrier", "period", "periode", "status", "state", "enable", "enabled", "temperature", "temp",
 }  # fmt: skip
 _FREQUENCIES = ("Hz", "kHz", "MHz")
 

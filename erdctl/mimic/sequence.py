@@ -134,8 +134,8 @@ def worth(sequence: PwmSequence) -> list[str]:
         figures = f"NRMSE {c.nrmse:.4f}, with the paper's parameters alone {c.plain:.4f}"
         if c.effects and sequence.static:
             out.append(
-                f"{channel}: {', '.join(c.effects)} act on the expected force, and not on the"
-                " sequence: the static inverse knows the paper's parameters alone"
+                f"{channel}: {', '.join(c.effects)} act in the expected force; the static inverse"
+                " is sent as it is, without the iteration by the corrected model"
             )
         elif c.effects and c.fell_back:
             out.append(

@@ -15,6 +15,7 @@ CONTROLS = {
     "pwm1": "pwm1[UNIT]", "duty [V]": "duty [V][UNIT]", "PWM (counts)": "PWM (counts)[UNIT]",
     "PWM [0-255]": "PWM [0-255][UNIT]", "Duty FL [%]": "Duty FL [%]",
     "Duty command [%]": "Duty command [%]", "Tastgrad VL": "Tastgrad VL[UNIT]", "PWM": "PWM[1]",
+    "PWM channel 1 [%]": "PWM channel 1 [%]", "Duty on FL": "Duty on FL[UNIT]",
 }  # fmt: skip
 BESIDE = ("PWM frequency [Hz]", "PWM carrier", "pwm on [ms]", "duty status", "pump")
 
