@@ -17,7 +17,7 @@ from erdctl.mimic.outcome import Flags, Plan
 from erdctl.mimic.plan import mimic
 from erdctl.model.amplifier import Amplifier
 from erdctl.model.divergence import refuse_diverged
-from erdctl.model.faults import Corner, Fault, on_channel
+from erdctl.model.faults import Corner, Fault, on_channel, without_effect
 from erdctl.model.parameters import Parameters
 
 CHANNELS = tuple(c.value for c in Corner)
@@ -195,9 +195,9 @@ def held_back(sequence: PwmSequence) -> list[str]:
 def idle(sequence: PwmSequence) -> list[str]:
     """Faults that nobody will see in what is sent, in words."""
     t = sequence.recording.t
+    first, last = float(t.min()), float(t.max())
     return [
-        f"{channel}: {fault} does nothing in this log, from {t.min():g} to {t.max():g} s: the"
-        " sequence is as without it"
+        f"{channel}: {without_effect(fault, first, last)}: the sequence is as without it"
         for channel, plan in sequence.plans.items()
         for fault in plan.idle
     ]
