@@ -23,7 +23,7 @@ from erdctl.model.slots import ScaleSlot, TermSlot, ViscousSlot
 if TYPE_CHECKING:
     from erdctl.model.learned.curve import Curve
 
-UNITS = {"x": "m", "xdot": "m/s", "duty": ""}
+UNITS = {"x": " m", "xdot": " m/s", "duty": ""}
 BEYOND = 0.05  # of a range: how far a drive may leave it before that is worth a remark
 
 
@@ -189,7 +189,7 @@ class Remarks:
             margin = BEYOND * (high - low)
             if least < low - margin or most > high + margin:
                 out.append(
-                    f"{name} spans {least:.3g}..{most:.3g} {UNITS[name]}, but the parameters"
+                    f"{name} spans {least:.3g}..{most:.3g}{UNITS[name]}, but the parameters"
                     f" were identified on {low:.3g}..{high:.3g}"
                 )
         return [*out, *self._beyond_laws()]
