@@ -29,7 +29,10 @@ def command(
         typer.Option(metavar="X", help="Exit 1 if the NRMSE of any PWM level is above X."),
     ] = None,
     normalise: Annotated[
-        str, typer.Option(metavar="range|std|mean|rms", help="Denominator of the NRMSE.")
+        str,
+        typer.Option(
+            metavar="range|std|mean|rms", help="Denominator of the NRMSE; mean: of |force|."
+        ),
     ] = "range",
     report: Report = None,
     maps: Maps = [],
@@ -68,6 +71,8 @@ def command(
 
     if normalise not in list(Normalise):
         raise UsageProblem(f"--normalise takes {', '.join(Normalise)}, not '{normalise}'")
+    if fail_above is not None and not fail_above >= 0.0:  # nor is any error above nan
+        raise UsageProblem(f"--fail-above takes a number of 0 or more, not {fail_above:g}")
     check_report(report)
     labels = labels_of(date, damper, operator)
     options: dict[str, Any] = {
@@ -160,7 +165,7 @@ def _show(found: Validation, peak: float) -> None:
         return [label, str(s.samples), error, f"{s.nrmse:.4f}", percent_of(s.rms, peak)]
 
     header = ["", "samples", f"RMSE [{unit}]", "NRMSE", f"of peak {with_unit(peak, 'N')}"]
-    by = f"NRMSE over the {found.normalise.value} of the measured force"
+    by = f"NRMSE over the {found.normalise.words} of the measured force"
     rows = [row(f"{100 * d:g} %", s) for d, s in found.by_duty.items()]
     rows.append(row("all", found.overall))
     levels = [s.nrmse for s in found.by_duty.values()]

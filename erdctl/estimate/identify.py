@@ -65,6 +65,11 @@ def identify(
     if set(needs) >= set(Model().quantities):
         first = next(iter(reasons.values()))
         raise InputProblem(f"the logs identify no parameter at all; for one, {first}")
+    if recording.excluded is not None and recording.excluded.all():
+        raise InputProblem(
+            "every sample is left out of the fit, for what is wrong with the recording; see"
+            " erdctl inspect, and --accept for what is right as it is"
+        )
     search = certain(sample(recording, SEARCH))
     held = held_values(needs)
     starts = len(FRESH) + 1  # at most: the two steps give one more

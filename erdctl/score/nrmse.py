@@ -30,6 +30,12 @@ class Normalise(StrEnum):
     MEAN = "mean"
     RMS = "rms"
 
+    @property
+    def words(self) -> str:
+        """What it is of the measured force, in a sentence."""
+        # The mean itself is about 0 of a force that goes both ways.
+        return "mean size" if self is Normalise.MEAN else self.value
+
 
 @dataclass(frozen=True)
 class Score:

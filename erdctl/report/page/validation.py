@@ -118,7 +118,7 @@ def _answers(
         "holds": holds,
         "where": f"{where}.",
         "nrmse": f"{whole.nrmse:.4f}",
-        "normalise": found.normalise.value,
+        "normalise": found.normalise.words,
         "rms": f"{with_unit(whole.rms, 'N', 3)} rms ({percent_of(whole.rms, peak)})",
         "words": f"per cent of the peak force of {with_unit(peak, 'N', 3)}{compared}.",
     }

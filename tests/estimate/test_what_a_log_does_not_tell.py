@@ -1,0 +1,68 @@
+"""Why a parameter has no value: the reason is true of the log, and nothing is fitted to nothing."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from places import FIXTURES
+from rig import campaign
+from typer.testing import CliRunner
+
+from erdctl.cli.app import build
+from erdctl.core.errors import InputProblem
+from erdctl.core.recording import Recording
+from erdctl.estimate.covariance import Fit, together
+from erdctl.estimate.identify import identify
+
+
+def reasons(r: Recording) -> dict[str, str]:
+    return {name: e.reason for name, e in identify(r).joint.items() if e.reason is not None}
+
+
+def test_a_reason_is_of_one_direction_alone() -> None:
+    r = campaign()
+    found = reasons(replace(r, duty=np.where(r.xdot > 0, 0.0, r.duty)))
+    assert "no sample with a duty above zero in this direction" in found["compression.sigma"]
+    found = reasons(replace(r, duty=np.where(r.xdot > 0, 0.2 * (r.duty > 0), r.duty)))
+    assert "one duty level above zero in this direction" in found["compression.sigma"]
+
+
+def test_nothing_is_fitted_where_every_sample_is_left_out() -> None:
+    r = campaign()
+    with pytest.raises(InputProblem, match="every sample is left out of the fit"):
+        identify(replace(r, excluded=np.ones(len(r), dtype=np.bool_)))
+
+
+def test_what_changes_nothing_is_told_to() -> None:
+    class Flat(Fit):
+        def __init__(self) -> None: ...
+
+    found = Flat()
+    object.__setattr__(found, "flat", (("release.k_nom",), ("a", "b")))
+    assert together(found) == {
+        "release.k_nom": "the data do not change with it",
+        "a": "the data change with it only together with b",
+        "b": "the data change with it only together with a",
+    }
+
+
+def run(*words: str) -> tuple[int, str]:
+    log, table_2 = FIXTURES / "schedule_60s.csv", FIXTURES / "table_2.json"
+    done = CliRunner().invoke(build(), ["validate", str(table_2), str(log), *words])
+    return done.exit_code, done.stderr
+
+
+@pytest.mark.parametrize("limit", ["nan", "-0.1"])
+def test_a_limit_that_tells_nothing_is_refused(limit: str) -> None:
+    code, said = run("--fail-above", limit)
+    assert code == 2
+    assert "--fail-above takes a number of 0 or more" in said
+
+
+def test_the_mean_is_that_of_the_size() -> None:
+    _, said = run("--normalise", "mean")
+    assert said.startswith("NRMSE over the mean size of the measured force, per PWM level")
+    _, said = run("--normalise", "rms")
+    assert said.startswith("NRMSE over the rms of the measured force")
