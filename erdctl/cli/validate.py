@@ -157,6 +157,7 @@ def command(
 def _show(found: Validation, peak: float) -> None:
     from erdctl.report.readable import number, percent_of, scaled, with_unit
     from erdctl.report.text import table
+    from erdctl.score.nrmse import BIN
 
     factor, unit = scaled("N", found.overall.rms)
 
@@ -169,7 +170,9 @@ def _show(found: Validation, peak: float) -> None:
     rows = [row(f"{100 * d:g} %", s) for d, s in found.by_duty.items()]
     rows.append(row("all", found.overall))
     levels = [s.nrmse for s in found.by_duty.values()]
-    table(f"{by}, per PWM level", header, rows, bars={3: [*levels, found.overall.nrmse]})
+    # 7.5 % is a level that no sample of a continuous control need have.
+    bins = f", the middle of a bin of {100 * BIN:g} %" if found.binned else ""
+    table(f"{by}, per PWM level{bins}", header, rows, bars={3: [*levels, found.overall.nrmse]})
     for split, scores in (("direction", found.by_direction), ("record", found.by_record)):
         if split == "direction" or len(scores) > 1:
             rows = [row(name, s) for name, s in scores.items()]

@@ -56,6 +56,11 @@ class Validation:
     by_direction: dict[str, Score]
     by_record: dict[str, Score]
 
+    @property
+    def binned(self) -> bool:
+        """Whether levels are the middles of bins, none of which is a whole percent."""
+        return any(round(100 * level, 6) % 1 for level in self.by_duty)
+
 
 def nrmse(force: Array, modelled: Array, normalise: Normalise = Normalise.RANGE) -> Score:
     """Root-mean-square error over a measure of the measured force.

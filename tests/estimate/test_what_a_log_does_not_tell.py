@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from places import FIXTURES
 from rig import campaign
@@ -48,8 +50,8 @@ def test_what_changes_nothing_is_told_to() -> None:
     }
 
 
-def run(*words: str) -> tuple[int, str]:
-    log, table_2 = FIXTURES / "schedule_60s.csv", FIXTURES / "table_2.json"
+def run(*words: str, log: Path = FIXTURES / "schedule_60s.csv") -> tuple[int, str]:
+    table_2 = FIXTURES / "table_2.json"
     done = CliRunner().invoke(build(), ["validate", str(table_2), str(log), *words])
     return done.exit_code, done.stderr
 
@@ -66,3 +68,12 @@ def test_the_mean_is_that_of_the_size() -> None:
     assert said.startswith("NRMSE over the mean size of the measured force, per PWM level")
     _, said = run("--normalise", "rms")
     assert said.startswith("NRMSE over the rms of the measured force")
+
+
+def test_bins_of_a_continuous_control_are_said_to_be(tmp_path: Path) -> None:
+    held = FIXTURES / "schedule_60s.csv"
+    log, path = pd.read_csv(held), tmp_path / "continuous.csv"
+    log.assign(duty=0.3 + 0.2 * np.sin(log.t)).to_csv(path, index=False)
+    middle = "per PWM level, the middle of a bin of 5 %"
+    assert middle in run(log=path)[1]
+    assert middle not in run(log=held)[1]
