@@ -137,17 +137,18 @@ class Cover:
 
 _MOVES = Demand[Excitation](
     "samples that move this way", "1", ENOUGH, lambda e: e.moving, lambda b: b.sine(),
-    "the log has no motion in this direction",
+    f"the log has no motion in this direction, or too little (under {ENOUGH} samples)",
 )  # fmt: skip
 _FIELD = Demand[Excitation](
     "samples with a duty above zero", "1", ENOUGH, lambda e: e.field, lambda b: b.field,
-    "the log has no sample with a duty above zero",
+    "the log has no sample with a duty above zero in this direction, or too few (under"
+    f" {ENOUGH})",
 )  # fmt: skip
 _STEPS = Demand[Excitation](
     "change of the duty within a record", "1", 0.02, lambda e: e.steps, lambda b: b.steps,
-    "the duty is constant within every record, so the lag of Eq. 12 shows at reversals alone, by as"
-    " much as the yield forces of the two directions differ; record steps of the duty while the"
-    " piston moves",
+    "the duty is constant within every record in this direction, so the lag of Eq. 12 shows at"
+    " reversals alone, by as much as the yield forces of the two directions differ; record steps of"
+    " the duty while the piston moves",
     # One state serves both directions: held at 0, the lag after a reversal can be a misfit.
     slight=lambda _: True,
 )  # fmt: skip
@@ -157,7 +158,7 @@ _STROKE = Demand[Excitation](
 )  # fmt: skip
 _SPEEDS = Demand[Excitation](
     "spread of the speed over its mean", "1", 0.01, lambda e: e.speeds, lambda b: b.sine(),
-    "the speed is constant, so viscous and yield force cannot be separated",
+    "the speed is constant in this direction, so viscous and yield force cannot be separated",
     spared=lambda e: e.null >= ENOUGH or e.field < ENOUGH,
 )  # fmt: skip
 
@@ -166,8 +167,8 @@ def _levels(*, confounded: bool) -> Demand[Excitation]:
     return Demand(
         "highest over lowest duty above zero", "1", SAME_LEVEL, lambda e: e.ratio,
         lambda b: b.levels,
-        "the log has one duty level, which fixes sigma*v^beta at that level but neither of the two;"
-        " record at least two levels",
+        "the log has one duty level above zero in this direction, which fixes sigma*v^beta at that"
+        " level but neither of the two; record at least two levels",
         confounded=confounded, slight=lambda e: e.ratio > NO_STEP,
     )  # fmt: skip
 

@@ -10,6 +10,7 @@ import typer
 
 from erdctl.cli.options import Cluster, Maps, Text, Where, effect_names
 from erdctl.cli.rig import Accept
+from erdctl.core.messages import counted
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -163,11 +164,12 @@ def command(
             run(planned, kept, crew, tally.take)
         rows = write_table(entries(planned, kept), output, folder)
     say(
-        f"{len(planned)} logs or groups: {tally.new} done now, {tally.before} before; {rows} rows"
-        f" in {output}, documents in {folder}"
+        f"{counted(len(planned), 'log')} or group{'s' * (len(planned) != 1)}: {tally.new} done now,"
+        f" {tally.before} before; {counted(rows, 'row')} in {output}, documents in {folder}"
     )
     if pattern is not None and (silent := sum(1 for p in found if not pattern.search(p))):
-        say(f"{silent} paths do not match --label and have no labels", "warning")
+        without = counted(silent, "path")
+        say(f"without labels, as --label does not match: {without}", "warning")
     if tally.bad:
         raise CheckFailed(f"{tally.bad} of {len(planned)} could not be done: see column 'error'")
 

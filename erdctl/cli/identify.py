@@ -109,17 +109,22 @@ def command(
 
 
 def _show(found: Identification, parameters: Parameters) -> None:
+    from erdctl.io.identification import residual_of
     from erdctl.report.readable import error_of, number, scaled
     from erdctl.report.text import say, table
 
+    # Both fits stand side by side, whichever of them is written.
     rows = []
-    for name, e in parameters.estimates.items():
+    for name, e in found.joint.items():
         factor, unit = scaled(e.unit, e.used)
         values = (e.value, found.two_step.get(name))
         fit, steps = (number(None if v is None else v * factor, 6) for v in values)
         error = error_of(e.stderr, factor, at_bound=e.at_bound, value=e.value, within=e.within)
         rows.append([name, unit, fit, error, steps])
-    title = f"Identified from {found.fit.samples} samples, residual {found.fit.rms:.4g} N rms"
-    table(title, ["parameter", "unit", "joint fit", "std. error", "paper's steps"], rows)
+    table(
+        f"Identified from {residual_of(parameters.fits)}",
+        ["parameter", "unit", "joint fit", "std. error", "paper's steps"],
+        rows,
+    )
     for line in [*parameters.caveats(), *parameters.warnings]:
         say(line)

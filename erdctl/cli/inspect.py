@@ -8,6 +8,7 @@ import typer
 
 from erdctl.cli.options import Damper, Date, Logs, Maps, Operator, Text, Where
 from erdctl.cli.rig import Strict
+from erdctl.core.messages import counted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -153,7 +154,8 @@ def _show(found: Inspection, document: InspectionFile) -> None:
                 for v in ends]  # fmt: skip
 
     table(
-        f"{found.samples} samples, {found.duration:.6g} s in {len(found.records)} records",
+        f"{counted(found.samples, 'sample')}, {found.duration:.6g} s in"
+        f" {counted(len(found.records), 'record')}",
         ["channel", "column of the log", "times", "is in", "lowest", "highest"],
         [
             [
@@ -180,7 +182,7 @@ def _show(found: Inspection, document: InspectionFile) -> None:
               *(["top [degC]"] * hot)]  # fmt: skip
     table("Records", header, rows)
     if len(found.records) > LISTED:
-        say(f"{len(found.records) - LISTED} more records; --json lists all")
+        say(f"{counted(len(found.records) - LISTED, 'more record')}; --json lists all")
     seconds = list(found.seconds_at.values())
     table(
         "Time at each duty level",
@@ -199,11 +201,12 @@ def _remarks(found: Inspection, document: InspectionFile) -> Iterator[str]:
     gapped = [r for r in found.records if r.gaps]
     for r in gapped[:LISTED]:
         yield (
-            f"record '{r.name}': {r.missing} samples are missing in {r.gaps} gaps, the longest"
-            f" of {r.longest_gap:.4g} s at t = {r.gap_at:.6g} s"
+            f"record '{r.name}': {counted(r.missing, 'sample')} missing in"
+            f" {counted(r.gaps, 'gap')}, the longest of {r.longest_gap:.4g} s at t ="
+            f" {r.gap_at:.6g} s"
         )
     if len(gapped) > LISTED:
-        yield f"{len(gapped) - LISTED} more records have gaps; --json lists all"
+        yield f"gaps in {counted(len(gapped) - LISTED, 'more record')}; --json lists all"
     if all(r.force is None for r in found.records):
         yield "no column force: what follows is what this motion and duty would show with one"
     elif found.noise is None:

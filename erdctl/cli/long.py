@@ -56,7 +56,7 @@ def simulate_long(
     with opened([path], options) as log:
         if log is None:
             return False
-        simulation, remarks = Simulation(parameters, faults), Remarks(parameters)
+        simulation, remarks = Simulation(parameters, faults), Remarks(parameters, faults)
         with table_writer(output, format) as writer, behind(writer) as write:
             for read in log.stretches(cut=simulation.cuts):
                 force = simulation.force(read.stretch)
@@ -65,6 +65,8 @@ def simulate_long(
             simulation.finish()
     for line in remarks.lines():
         say(line)
+    for line in remarks.idle():
+        say(line, "warning")
     return True
 
 

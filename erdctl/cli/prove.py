@@ -8,6 +8,7 @@ import typer
 
 from erdctl.cli.options import Cluster, Maps, effect_names
 from erdctl.cli.pages import Report, check_report
+from erdctl.core.messages import counted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -197,7 +198,7 @@ def command(
         write_report(proof_page(document, list(tables(proof.summary)), run=run), report)
     _show(proof)
     if proof.failed:
-        raise PartlyDone(f"{len(proof.failed)} of {cases} cases could not be scored")
+        raise PartlyDone(f"{len(proof.failed)} of {counted(cases, 'case')} could not be scored")
 
 
 def _nulls(seeds: Sequence[int], jobs: int | None) -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from erdctl.core.messages import counted
+
 if TYPE_CHECKING:
     from pathlib import Path
 
@@ -69,7 +71,7 @@ def prove_on(
         table(title, header, rows)
     failed = [t for t in all_ if t.skipped and t.skipped.startswith("cannot be diagnosed")]
     if failed:
-        raise PartlyDone(f"{len(failed)} of {len(all_)} trials could not be diagnosed")
+        raise PartlyDone(f"{len(failed)} of {counted(len(all_), 'trial')} could not be diagnosed")
 
 
 def refuse(**options: object) -> None:

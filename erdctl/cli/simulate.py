@@ -67,7 +67,7 @@ def command(
     from erdctl.io.formats import CONTAINERS
     from erdctl.io.parameters import read_parameters
     from erdctl.io.tables import append_column, output_format, write_table
-    from erdctl.model.simulate import remarks, simulate
+    from erdctl.model.simulate import Remarks, simulate
     from erdctl.report.text import progress, say
 
     if (log is None) == (not drive):
@@ -108,8 +108,12 @@ def command(
 
         recording = drives(drive)
         table = table_of(recording)
-    for line in remarks(parameters, recording):
+    remarks = Remarks(parameters, fault)
+    remarks.add(recording)
+    for line in remarks.lines():
         say(line)
+    for line in remarks.idle():
+        say(line, "warning")
     with progress() as step:
         force = simulate(parameters, recording, fault, progress=step)
     write_table(append_column(table, "force_model", force), output, format and format.value)

@@ -29,7 +29,10 @@ def command(
         typer.Option(metavar="X", help="Exit 1 if the NRMSE of any PWM level is above X."),
     ] = None,
     normalise: Annotated[
-        str, typer.Option(metavar="range|std|mean|rms", help="Denominator of the NRMSE.")
+        str,
+        typer.Option(
+            metavar="range|std|mean|rms", help="Denominator of the NRMSE; mean: of |force|."
+        ),
     ] = "range",
     report: Report = None,
     maps: Maps = [],
@@ -68,6 +71,8 @@ def command(
 
     if normalise not in list(Normalise):
         raise UsageProblem(f"--normalise takes {', '.join(Normalise)}, not '{normalise}'")
+    if fail_above is not None and not fail_above >= 0.0:  # nor is any error above nan
+        raise UsageProblem(f"--fail-above takes a number of 0 or more, not {fail_above:g}")
     check_report(report)
     labels = labels_of(date, damper, operator)
     options: dict[str, Any] = {
@@ -152,6 +157,7 @@ def command(
 def _show(found: Validation, peak: float) -> None:
     from erdctl.report.readable import number, percent_of, scaled, with_unit
     from erdctl.report.text import table
+    from erdctl.score.nrmse import BIN
 
     factor, unit = scaled("N", found.overall.rms)
 
@@ -160,11 +166,13 @@ def _show(found: Validation, peak: float) -> None:
         return [label, str(s.samples), error, f"{s.nrmse:.4f}", percent_of(s.rms, peak)]
 
     header = ["", "samples", f"RMSE [{unit}]", "NRMSE", f"of peak {with_unit(peak, 'N')}"]
-    by = f"NRMSE over the {found.normalise.value} of the measured force"
+    by = f"NRMSE over the {found.normalise.words} of the measured force"
     rows = [row(f"{100 * d:g} %", s) for d, s in found.by_duty.items()]
     rows.append(row("all", found.overall))
     levels = [s.nrmse for s in found.by_duty.values()]
-    table(f"{by}, per PWM level", header, rows, bars={3: [*levels, found.overall.nrmse]})
+    # 7.5 % is a level that no sample of a continuous control need have.
+    bins = f", the middle of a bin of {100 * BIN:g} %" if found.binned else ""
+    table(f"{by}, per PWM level{bins}", header, rows, bars={3: [*levels, found.overall.nrmse]})
     for split, scores in (("direction", found.by_direction), ("record", found.by_record)):
         if split == "direction" or len(scores) > 1:
             rows = [row(name, s) for name, s in scores.items()]

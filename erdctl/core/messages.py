@@ -32,6 +32,15 @@ def shown(text: str, most: int = LONGEST) -> str:
     return "".join(c if c.isprintable() or c in _SPACES else _escaped(c) for c in text)
 
 
+def counted(count: int, noun: str) -> str:
+    """How many of something there are, one or several.
+
+    >>> counted(1, "record"), counted(0, "empty row")
+    ('1 record', '0 empty rows')
+    """
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
 # No-break and thin spaces stand in units and numbers, and harm nobody.
 _SPACES = "\u00a0\u2009\u202f"
 

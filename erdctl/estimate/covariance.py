@@ -74,8 +74,12 @@ def together(found: Fit) -> dict[str, str]:
     out = {}
     for group in found.flat:
         for name in group:
-            others = ", ".join(n for n in group if n != name) or "nothing"
-            out[name] = f"the data change with it only together with {others}"
+            others = ", ".join(n for n in group if n != name)
+            out[name] = (
+                f"the data change with it only together with {others}"
+                if others
+                else "the data do not change with it"
+            )
     return out
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from erdctl.bench.direction_of_motion import certain
 from erdctl.bench.identifiability import held_values, unmet
-from erdctl.core.blocks import Block, pieces, sample
+from erdctl.core.blocks import SETTLE, Block, pieces, sample
 from erdctl.core.errors import InputProblem
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import DIRECTIONS, Recording
@@ -65,6 +65,11 @@ def identify(
     if set(needs) >= set(Model().quantities):
         first = next(iter(reasons.values()))
         raise InputProblem(f"the logs identify no parameter at all; for one, {first}")
+    if recording.excluded is not None and recording.excluded.all():
+        raise InputProblem(
+            "every sample is left out of the fit, for what is wrong with the recording; see"
+            " erdctl inspect, and --accept for what is right as it is"
+        )
     search = certain(sample(recording, SEARCH))
     held = held_values(needs)
     starts = len(FRESH) + 1  # at most: the two steps give one more
@@ -181,11 +186,12 @@ def _disagreements(found: Fit, steps: Mapping[str, float], reasons: Mapping[str,
     for name, error in found.stderr.items():
         if name not in steps or name in reasons:
             continue
-        value, other, unit = found.values[name], steps[name], found.model.quantities[name].unit
+        value, other = found.values[name], steps[name]
+        unit = f" {found.model.quantities[name].unit}".removesuffix(" 1")
         away = abs(value - other)
         if away > DISAGREE_ERRORS * error and away > DISAGREE_PART * max(abs(value), abs(other)):
             out.append(
-                f"{name}: {value:.4g} +- {error:.2g} {unit} by the joint fit and {other:.4g} by"
+                f"{name}: {value:.4g} +- {error:.2g}{unit} by the joint fit and {other:.4g} by"
                 " the paper's steps, far beyond the error: the model lacks something or the"
                 " recording is at fault, so trust neither before erdctl diagnose"
             )
@@ -198,7 +204,8 @@ def _uncertain(found: Fit, reasons: Mapping[str, str]) -> dict[str, str]:
     for name, error in found.stderr.items():
         q, value = found.model.quantities[name], found.values[name]
         if name not in reasons and not q.linear and error > abs(value):
-            out[name] = f"its standard error ({error:.2g} {q.unit}) is larger than the estimate"
+            said = f"{error:.2g} {q.unit}".removesuffix(" 1")
+            out[name] = f"its standard error ({said}) is larger than the estimate"
     return out
 
 
@@ -219,8 +226,9 @@ def _warnings(found: Fit, steps: Mapping[str, float], reasons: Mapping[str, str]
     ]  # fmt: skip
     if missing:
         out.append(
-            f"no null-control data in {' and '.join(missing)}: the paper's first step (Eq. 16)"
-            " could not be done; k_nom and c_vis come from the joint fit alone"
+            f"too little null-control data in {' and '.join(missing)} (at duty 0 for {SETTLE:g} s):"
+            " the paper's first step (Eq. 16) could not be done; k_nom and c_vis come from the"
+            " joint fit alone"
         )
     correlation = found.correlation()
     for i, j in zip(*np.nonzero(np.triu(np.abs(correlation) > CORRELATED, 1)), strict=True):

@@ -14,7 +14,7 @@ from erdctl.estimate.method import Method
 from erdctl.interface.display import draw, frame_of, html, option, text
 from erdctl.interface.log import BenchLog, LogLike, Place, log_of
 from erdctl.io import documents
-from erdctl.io.identification import parameters_of
+from erdctl.io.identification import parameters_of, residual_of
 from erdctl.io.parameters import to_document
 from erdctl.model.parameters import Estimate, Parameters
 from erdctl.model.simulate import simulate
@@ -98,7 +98,7 @@ class Identified:
         rows = [
             f"{name:18} {'not identified' if e.value is None else f'{e.value:.5g}'}"
             + ("" if e.stderr is None else f" +- {e.stderr:.2g}")
-            + f" {e.unit}"
+            + f" {e.unit}".removesuffix(" 1")
             + (f" ({_bound(e)})" if e.at_bound else "")
             for name, e in self.parameters.estimates.items()
         ]
@@ -109,8 +109,7 @@ class Identified:
         return html(self._title(), shown, self.remarks)
 
     def _title(self) -> str:
-        fit = self.parameters.fits["joint"]
-        return f"{fit['samples']} samples, residual {fit['rms']:.4g} N rms"
+        return residual_of(self.parameters.fits)
 
 
 def _bound(e: Estimate) -> str:

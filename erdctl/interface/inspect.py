@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from erdctl.bench.inspection import Inspection
 from erdctl.bench.inspection import inspect as inspected
+from erdctl.core.messages import counted
 from erdctl.effects import catalogue
 from erdctl.interface.display import frame_of, html, option, text
 from erdctl.interface.log import BenchLog, LogLike, Place, log_of
@@ -99,9 +100,8 @@ class Inspected:
         return html(self._title(), self.table("records"), [*self._lines(), *self.remarks])
 
     def _title(self) -> str:
-        count = len(self.found.records)
-        records = "1 record" if count == 1 else f"{count} records"
-        return f"{self.found.samples} samples, {self.found.duration:.6g} s in {records}"
+        records = counted(len(self.found.records), "record")
+        return f"{counted(self.found.samples, 'sample')}, {self.found.duration:.6g} s in {records}"
 
     def _lines(self) -> list[str]:
         noise, out = self.found.noise, []

@@ -13,6 +13,7 @@ import pyarrow as pa
 from erdctl.bench.inspection import inspect
 from erdctl.core.errors import InputProblem
 from erdctl.core.labels import labels_of
+from erdctl.core.messages import counted
 from erdctl.core.recording import Recording
 from erdctl.effects import catalogue
 from erdctl.interface.display import draw, frame_of, html, text
@@ -154,7 +155,7 @@ class BenchLog:
         r = self.recording
         steps = r.step[r.step > 0]
         rate = f" at {1.0 / float(np.median(steps)):.4g} Hz" if len(steps) else ""
-        count = "1 record" if len(r.names) == 1 else f"{len(r.names)} records"
+        count = counted(len(r.names), "record")
         names = ", ".join(r.names[:4]) + (", ..." if len(r.names) > 4 else "")
         return f"{about(r)} in {count}{rate} ({names})"
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from erdctl.core.errors import InputProblem, UsageProblem
+from erdctl.core.messages import counted
 from erdctl.interface.arguments import Given, ParametersLike, given_parameters
 from erdctl.interface.display import draw, frame_of, html, option, text
 from erdctl.interface.log import BenchLog, LogLike, Place, log_of, samples, texts
@@ -138,8 +139,8 @@ class Mimicked:
         return html(self._title(), shown, self.remarks)
 
     def _title(self) -> str:
-        faults = "1 fault" if len(self.faults) == 1 else f"{len(self.faults)} faults"
-        return f"{faults} over {len(self.sequence.recording)} samples"
+        samples = counted(len(self.sequence.recording), "sample")
+        return f"{counted(len(self.faults), 'fault')} over {samples}"
 
 
 def mimic(

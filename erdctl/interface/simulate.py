@@ -19,7 +19,7 @@ from erdctl.interface.log import BenchLog, LogLike, Place, log_of, samples, text
 from erdctl.io.logs import Log
 from erdctl.io.tables import write_table
 from erdctl.model.parameters import Parameters
-from erdctl.model.simulate import remarks
+from erdctl.model.simulate import Remarks
 from erdctl.model.simulate import simulate as simulated
 from erdctl.report.subject import Subject
 from erdctl.report.subjects import about, of_faults
@@ -144,6 +144,8 @@ def simulate(
         if log is None
         else log_of(log, want_force=True, keep_table=True)
     )
-    said = (*given.remarks, *told, *remarks(found, given.recording))
+    remarks = Remarks(found, wanted)
+    remarks.add(given.recording)
+    said = (*given.remarks, *told, *remarks.lines(), *remarks.idle())
     force = simulated(found, given.recording, wanted)
     return Simulated(found, with_force(given, force), tuple(wanted), said)

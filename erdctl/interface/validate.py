@@ -102,7 +102,7 @@ class Validated:
         return html(self._title(), self.table(), self.remarks)
 
     def _title(self) -> str:
-        s, over = self.scores.overall, self.scores.normalise.value
+        s, over = self.scores.overall, self.scores.normalise.words
         return f"NRMSE {s.nrmse:.4f} over the {over} of the force, {s.rms:.4g} N rms"
 
 

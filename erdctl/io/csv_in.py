@@ -13,6 +13,7 @@ import pyarrow as pa
 
 from erdctl.core.errors import InputProblem
 from erdctl.core.memory import check_threads
+from erdctl.core.messages import counted
 from erdctl.io.csv_out import as_csv_text
 from erdctl.io.plain import NUMBER
 from erdctl.io.problems import Wrong, problem_of
@@ -202,7 +203,8 @@ def _explained(
 
 def _count(cells: Sequence[str], names: Sequence[str]) -> str:
     return (
-        f"{len(cells)} cells where the header has {len(names)} columns; a cell that holds a comma"
+        f"{counted(len(cells), 'cell')} where the header has {counted(len(names), 'column')}; a"
+        " cell that holds a comma"
         " must be quoted, and the last row may have been cut off"
     )
 

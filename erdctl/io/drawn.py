@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from erdctl.bench.rig import Looking, Rig
+from erdctl.core.messages import counted
 from erdctl.core.recording import Index, Recording, concatenate
 from erdctl.core.stretches import Gathered
 from erdctl.io.long_logs import LongLog
@@ -52,7 +53,8 @@ class Drawn:
     def __str__(self) -> str:
         samples, parts = self.of
         return (
-            f"fitted to a sample: {len(self.chosen)} of {parts} records, or windows of long ones,"
+            f"fitted to a sample: {len(self.chosen)} of {counted(parts, 'record')}, or windows of"
+            " long ones,"
             f" with {len(self.recording)} of {samples} samples, one drawn from each of as many"
             " equal groups, the same in every run; standard errors are those of the sample"
         )

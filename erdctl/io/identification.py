@@ -31,8 +31,8 @@ def parameters_of(
         for name, e in estimates.items():
             if e.identified and name not in found.two_step:
                 raise InputProblem(
-                    f"the paper's procedure cannot give {name} from these logs (no null-control"
-                    " data?); use --method joint"
+                    f"the paper's procedure cannot give {name} from these logs (too little"
+                    " null-control data?); use --method joint"
                 )
             if e.identified:
                 value = found.two_step[name]
@@ -56,3 +56,16 @@ def parameters_of(
         fits=fits,
         warnings=found.warnings,
     )
+
+
+def residual_of(fits: Mapping[str, Any]) -> str:
+    """How many samples were fitted, and what the fit that was written leaves of them.
+
+    fits : of parameters that `parameters_of` gave
+    """
+    samples = f"{fits['joint']['samples']} samples"
+    if fits["method"] == Method.JOINT.value:
+        return f"{samples}, residual {fits['joint']['rms']:.4g} N rms"
+    rms = fits["two_step"]["rms"]
+    left = "" if rms is None else f", residual {rms:.4g} N rms"
+    return f"{samples} by the paper's steps{left}"

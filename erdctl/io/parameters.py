@@ -190,7 +190,8 @@ def _estimate(given: Value | float, quantity: Quantity, full: str, name: str) ->
     used = assumed if value is None else value
     if used is not None and not quantity.admits(used):
         raise InputProblem(
-            f"{full} = {used:g} {quantity.unit} is outside {quantity.low:g}..{quantity.high:g}",
+            f"{full} = {used:g} {quantity.unit}".removesuffix(" 1")
+            + f" is outside {quantity.low:g}..{quantity.high:g}",
             file=name,
         )
     return Estimate(

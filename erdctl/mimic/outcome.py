@@ -86,6 +86,6 @@ class Plan:
     acting: Flags
     limited: float
     limited_paper: float
-    idle: tuple[str, ...]
+    idle: tuple[Fault, ...]
     reaches: tuple[Reach, ...]
     correction: Correction | None = None

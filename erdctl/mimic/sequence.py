@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from erdctl.core.errors import UsageProblem
+from erdctl.core.messages import counted
 from erdctl.core.progress import part_of
 from erdctl.core.recording import Array, Recording
 from erdctl.core.signals import Signals
@@ -17,7 +18,7 @@ from erdctl.mimic.outcome import Flags, Plan
 from erdctl.mimic.plan import mimic
 from erdctl.model.amplifier import Amplifier
 from erdctl.model.divergence import refuse_diverged
-from erdctl.model.faults import Corner, Fault, on_channel
+from erdctl.model.faults import Corner, Fault, on_channel, without_effect
 from erdctl.model.parameters import Parameters
 
 CHANNELS = tuple(c.value for c in Corner)
@@ -164,11 +165,13 @@ def strain(sequence: PwmSequence) -> list[str]:
     if not changed:
         return []
     broken = "; ".join(
-        f"{b} ({b.count} times, first at {place(b, sequence.recording)})" for b in sequence.strained
+        f"{b} ({counted(b.count, 'time')}, first at {place(b, sequence.recording)})"
+        for b in sequence.strained
     )
     return [
         f"the healthy duty breaks the amplifier's limits: {broken or 'by rounding'}; what is sent"
-        f" keeps them, and differs from it in {changed} of {len(sequence.healthy)} samples"
+        f" keeps them, and differs from it in {changed} of"
+        f" {counted(len(sequence.healthy), 'sample')}"
     ]
 
 
@@ -176,8 +179,8 @@ def way_back(sequence: PwmSequence) -> list[str]:
     """How long channels take to come back to the healthy duty, in words."""
     counts = {c: int(np.count_nonzero(at)) for c, at in sequence.returning.items()}
     return [
-        f"{c}: in {n} samples after a fault's end the amplifier is on its way back to the healthy"
-        " duty"
+        f"{c}: in {counted(n, 'sample')} after a fault's end the amplifier is on its way back to"
+        " the healthy duty"
         for c, n in counts.items()
         if n
     ]
@@ -195,9 +198,9 @@ def held_back(sequence: PwmSequence) -> list[str]:
 def idle(sequence: PwmSequence) -> list[str]:
     """Faults that nobody will see in what is sent, in words."""
     t = sequence.recording.t
+    first, last = float(t.min()), float(t.max())
     return [
-        f"{channel}: {fault} does nothing in this log, from {t.min():g} to {t.max():g} s: the"
-        " sequence is as without it"
+        f"{channel}: {without_effect(fault, first, last)}: the sequence is as without it"
         for channel, plan in sequence.plans.items()
         for fault in plan.idle
     ]

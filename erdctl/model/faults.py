@@ -189,6 +189,11 @@ def effectiveness(fault: Fault, t: Array, xdot: Array, starts: Index) -> Array:
     return f
 
 
+def without_effect(fault: Fault, first: float, last: float) -> str:
+    """That a fault does nothing in a log from `first` to `last` [s], in words."""
+    return f"{fault} does nothing in this log, from {first:.9g} to {last:.9g} s"
+
+
 def set_in(kind: FaultKind, s: Signals, p: Mapping[str, float]) -> dict[str, Array]:
     """Factors by group, (n,) each [1], of a fault that sets in once and stays, as an effect.
 

@@ -16,14 +16,14 @@ from erdctl.core.signals import Signals
 from erdctl.core.stretches import Stretch, cut_at, stretches
 from erdctl.model.composed import Model
 from erdctl.model.divergence import Watch
-from erdctl.model.faults import Fault, factors, parse_fault
+from erdctl.model.faults import Fault, effectiveness, factors, parse_fault, without_effect
 from erdctl.model.parameters import Parameters
 from erdctl.model.slots import ScaleSlot, TermSlot, ViscousSlot
 
 if TYPE_CHECKING:
     from erdctl.model.learned.curve import Curve
 
-UNITS = {"x": "m", "xdot": "m/s", "duty": ""}
+UNITS = {"x": " m", "xdot": " m/s", "duty": ""}
 BEYOND = 0.05  # of a range: how far a drive may leave it before that is worth a remark
 
 
@@ -146,10 +146,12 @@ def remarks(parameters: Parameters, recording: Recording) -> list[str]:
 
 
 class Remarks:
-    """The same of one part of a log after the other."""
+    """The same of one part of a log after the other; and of faults, which nobody will see in it."""
 
-    def __init__(self, parameters: Parameters) -> None:
+    def __init__(self, parameters: Parameters, faults: Sequence[str] = ()) -> None:
         self.parameters = parameters
+        self._idle = [parse_fault(f) for f in faults]
+        self._time = (inf, -inf)
         ranges = dict(parameters.provenance.get("ranges", {}))
         self._ranges = {n: (float(a), float(b)) for n, (a, b) in ranges.items() if n in UNITS}
         self._seen = dict.fromkeys(self._ranges, (inf, -inf))
@@ -159,6 +161,9 @@ class Remarks:
     def add(self, recording: Recording) -> None:
         """The next part of the log."""
         self._samples += len(recording)
+        t, xdot, starts = recording.t, recording.xdot, recording.starts
+        self._time = min(self._time[0], float(t.min())), max(self._time[1], float(t.max()))
+        self._idle = [f for f in self._idle if (effectiveness(f, t, xdot, starts) == 1.0).all()]
         for name, (low, high) in self._seen.items():
             values = getattr(recording, name)
             self._seen[name] = min(low, float(values.min())), max(high, float(values.max()))
@@ -184,10 +189,16 @@ class Remarks:
             margin = BEYOND * (high - low)
             if least < low - margin or most > high + margin:
                 out.append(
-                    f"{name} spans {least:.3g}..{most:.3g} {UNITS[name]}, but the parameters"
+                    f"{name} spans {least:.3g}..{most:.3g}{UNITS[name]}, but the parameters"
                     f" were identified on {low:.3g}..{high:.3g}"
                 )
         return [*out, *self._beyond_laws()]
+
+    def idle(self) -> list[str]:
+        """One line for each fault that does nothing in the log."""
+        return [
+            f"{without_effect(f, *self._time)}: force_model is as without it" for f in self._idle
+        ]
 
     def _beyond_laws(self) -> Iterator[str]:
         """Where learned laws are asked for more than they were learned on."""

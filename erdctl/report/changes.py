@@ -10,6 +10,7 @@ from erdctl.compare.pair import Change, Difference, Pair
 from erdctl.compare.shape import Course
 from erdctl.compare.tolerance import Holds, Judged
 from erdctl.compare.trend import Trend
+from erdctl.core.messages import counted
 from erdctl.report.readable import number, scaled, with_unit
 
 SCORES = {
@@ -128,7 +129,7 @@ def pair_remarks(p: Pair) -> list[str]:
     else:
         j = p.joint
         out.append(
-            f"{j.dof} parameters judged together, with their covariance: chi2"
+            f"{counted(j.dof, 'parameter')} judged together, with their covariance: chi2"
             f" {number(j.statistic, 3)}, p {j.p:.1g}"
         )
     if p.other_effects:
@@ -177,7 +178,7 @@ def damper_texts(d: Damper) -> list[str]:
     if d.history.failed:
         log, error = d.history.failed[0]
         many = len(d.history.failed)
-        out.append(f"{many} log{'s' * (many > 1)} could not be used, e.g. {log}: {error}")
+        out.append(f"{counted(many, 'log')} could not be used, e.g. {log}: {error}")
     return out
 
 
@@ -192,4 +193,4 @@ def head(found: Compared) -> str:
         if many > 1
         else f"{'changed' if changed else 'nothing changed'} beyond the errors"
     )
-    return f"{logs} logs, {text}"
+    return f"{counted(logs, 'log')}, {text}"

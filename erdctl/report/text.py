@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import TextIO
 
-from erdctl.core.messages import CELL, shown, tell
+from erdctl.core.messages import CELL, counted, shown, tell
 from erdctl.report.layout import BOX, boxed, lines, wrapped
 
 QUIET = ContextVar("quiet", default=False)  # set for the time of one command by `--quiet`
@@ -76,7 +76,7 @@ def table(
     rows = [[shown(cell, CELL) for cell in row] for row in rows[:ROWS]]
     _table(title, header, rows, bars or {})
     if left_out > 0:
-        tell(f"  and {left_out} more rows")
+        tell(f"  and {counted(left_out, 'more row')}")
 
 
 def listing(title: str, parts: Mapping[str, Sequence[str]]) -> None:

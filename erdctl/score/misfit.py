@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from erdctl.core.errors import InputProblem
+from erdctl.core.messages import counted
 from erdctl.core.recording import Array, Recording
 from erdctl.score.nrmse import duty_levels
 
@@ -42,7 +43,7 @@ def misfit_map(recording: Recording, residual: Array, bins: int = SPEEDS) -> Mis
     count = np.bincount(at, minlength=len(levels) * bins).reshape(-1, bins)
     square = np.bincount(at, residual**2, len(levels) * bins).reshape(-1, bins)
     if count.max() < FEWEST:
-        raise InputProblem(f"{len(residual)} samples are too few for a map of the misfit")
+        raise InputProblem(f"too few for a map of the misfit: {counted(len(residual), 'sample')}")
     n = np.where(count >= FEWEST, count, np.nan)
     return MisfitMap(edges, levels, np.sqrt(square / n), count.astype(np.float64))
 

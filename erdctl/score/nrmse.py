@@ -30,6 +30,12 @@ class Normalise(StrEnum):
     MEAN = "mean"
     RMS = "rms"
 
+    @property
+    def words(self) -> str:
+        """What it is of the measured force, in a sentence."""
+        # The mean itself is about 0 of a force that goes both ways.
+        return "mean size" if self is Normalise.MEAN else self.value
+
 
 @dataclass(frozen=True)
 class Score:
@@ -49,6 +55,11 @@ class Validation:
     by_duty: dict[float, Score]
     by_direction: dict[str, Score]
     by_record: dict[str, Score]
+
+    @property
+    def binned(self) -> bool:
+        """Whether levels are the middles of bins, none of which is a whole percent."""
+        return any(round(100 * level, 6) % 1 for level in self.by_duty)
 
 
 def nrmse(force: Array, modelled: Array, normalise: Normalise = Normalise.RANGE) -> Score:

@@ -19,6 +19,7 @@ from rig import real
 from scipy.io import loadmat
 from typer.testing import CliRunner
 
+import erdctl as erdctl_module
 from erdctl.cli.app import COMMANDS, build
 
 Run = subprocess.CompletedProcess[bytes]
@@ -245,6 +246,19 @@ def test_the_two_step_fit_on_request() -> None:
     assert document["fits"]["method"] == "two-step"
     steps = document["fits"]["two_step"]["values"]
     assert document["release"]["sigma"]["value"] == steps["release.sigma"]
+
+
+def test_what_is_printed_of_either_fit_is_its_own() -> None:
+    joint, steps = (erdctl("identify", CAMPAIGN, "--method", m) for m in ("joint", "two-step"))
+    title, *rows = steps.stderr.decode().splitlines()
+    fits = json.loads(steps.stdout)["fits"]
+    assert title.endswith(f"by the paper's steps, residual {fits['two_step']['rms']:.4g} N rms")
+    assert rows == joint.stderr.decode().splitlines()[1:]
+    found = json.loads(joint.stdout)
+    assert float(rows[4].split()[2]) == pytest.approx(found["compression"]["sigma"]["value"], 1e-5)
+    called = repr(erdctl_module.identify(CAMPAIGN, method="two-step"))
+    assert f"residual {fits['two_step']['rms']:.4g} N rms" in called
+    assert not [line for line in called.splitlines() if line.endswith(" 1")]
 
 
 @pytest.mark.real_data

@@ -207,7 +207,7 @@ def test_stdin_rows(
     ("text", "row", "words"),
     [
         ("t,x\n0,1\n1,2,3\n", 3, "3 cells where the header has 2 columns"),
-        ("t,x\n0,1\n1\n", 3, "1 cells where the header has 2 columns"),
+        ("t,x\n0,1\n1\n", 3, "1 cell where the header has 2 columns"),
         ("t,x\n0,1\n1,0,5\n2,0,5\n", 3, "a cell that holds a comma must be quoted"),
         ("# bench 3\nt,x\n0,1\n1,2,3\n", 4, "3 cells where the header has 2 columns"),
         ("bench 3\nt;x\n0;1\n1;b\n", 4, "column 'x': found 'b', expected a number"),

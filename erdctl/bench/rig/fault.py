@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from erdctl.bench.rig.pieces import FEWEST
 from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.core.recording import Index, Recording
 
@@ -93,7 +94,11 @@ class Rig:
             where = "" if f.record is None or only else f"record '{self.name_of(f)}': "
             out.append(f"{where}{f.text}; {f.remedy}")
         if self.looked < 1.0:
-            out.append(f"looked at {100 * self.looked:.0f} % of the samples, in even stretches")
+            part = 100 * min(self.looked, 0.999)  # never all of them by rounding
+            out.append(
+                f"looked at {part:.3g} % of the samples: of a long log at even stretches, and at no"
+                f" record of fewer than {FEWEST} samples"
+            )
         return out
 
     def to_json(self) -> list[dict[str, Any]]:

@@ -9,6 +9,7 @@ import numpy as np
 from erdctl.bench.gaps import GAP, gaps_of
 from erdctl.bench.rig.fault import RigFault, marked
 from erdctl.bench.rig.pieces import Piece, resolution, widened
+from erdctl.core.messages import counted
 from erdctl.core.quantiles import median
 
 SIGMAS = 10.0
@@ -29,7 +30,8 @@ def gaps(found: Sequence[Piece]) -> list[RigFault]:
             RigFault(
                 "samples_missing",
                 p.record,
-                f"{lost.sum()} samples are missing in {len(at)} gaps of the time, the longest of"
+                f"{counted(lost.sum(), 'sample')} missing in {counted(len(at), 'gap')} of the"
+                " time, the longest of"
                 f" {1e3 * steps[longest]:.4g} ms at t = {p.t[longest]:.6g} s",
                 "the time is right, so fits go on; record at a rate that the recorder can keep",
             )
@@ -63,7 +65,7 @@ def jumps(found: Sequence[Piece], clipped: Sequence[RigFault] = ()) -> list[RigF
             RigFault(
                 "x_jumps",
                 p.record,
-                f"x jumps in {len(at)} place{'s' if len(at) > 1 else ''}, by"
+                f"x jumps in {counted(len(at), 'place')}, by"
                 f" {1e3 * beyond[worst]:+.3g} mm at t = {p.t[worst]:.6g} s, where it moves by"
                 f" {1e3 * np.abs(p.xdot[worst]) * p.step:.3g} mm in a step: samples were lost and"
                 " the time was written as if not, or two runs were joined",

@@ -8,6 +8,7 @@ import numpy as np
 
 from erdctl.bench.rig.fault import RigFault, marked
 from erdctl.bench.rig.pieces import NEAR, Piece, largest_near, resolution, spread, widened
+from erdctl.core.messages import counted
 from erdctl.core.quantiles import median, medians, percentiles
 from erdctl.core.recording import Array, Index, Recording
 
@@ -98,7 +99,7 @@ def _spikes(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault]) -
         factor, unit = UNITS[channel]
         worst = int(height.argmax())
         count = 1 + int(np.count_nonzero(np.diff(at) > WIDE))
-        spikes = "1 spike" if count == 1 else f"{count} spikes"
+        spikes = counted(count, "spike")
         out.append(
             RigFault(
                 f"{channel}_spikes",
@@ -152,7 +153,7 @@ def bursts(found: Sequence[Piece], clipped: Sequence[RigFault] = ()) -> list[Rig
             RigFault(
                 "force_burst",
                 p.record,
-                f"{len(first)} burst{'s' if len(first) > 1 else ''} of noise in the force, up to"
+                f"{counted(len(first), 'burst')} of noise in the force, up to"
                 f" {float(third[loud].max()) / usual:.2g} times the record's, the longest from"
                 f" t = {p.t[a]:.6g} to {p.t[b]:.6g} s",
                 "these samples are left out of fits; look for what was switched on then",

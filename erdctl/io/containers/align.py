@@ -22,6 +22,7 @@ import numpy.typing as npt
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem
+from erdctl.core.messages import counted
 from erdctl.core.recording import Array
 from erdctl.io.arrays import arrow, runs_of_text
 from erdctl.io.containers.channels import TIME, Layout, Member
@@ -100,7 +101,7 @@ class _Once:
     def tell(self) -> None:
         for line, record, count in self.lines.values():
             of = "" if record is None else f"record '{record}': "
-            more = f"; similarly in {count - 1} more records" if count > 1 else ""
+            more = f"; similarly in {counted(count - 1, 'more record')}" if count > 1 else ""
             self.say(f"{of}{line}{more}")
 
 
@@ -244,7 +245,8 @@ def _report(
     dropped = len(leader.time) - len(rows)
     if dropped:
         line += (
-            f"; {dropped} rows outside {rows[0]:.6g} to {rows[-1]:.6g} s, where not all of them"
+            f"; {counted(dropped, 'row')} outside {rows[0]:.6g} to {rows[-1]:.6g} s, where not all"
+            " of them"
             " are recorded, left out"
         )
     said("bases", line)

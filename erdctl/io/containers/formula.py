@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from erdctl.core.messages import counted
 from erdctl.core.recording import Array
 
 LONGEST = 1000  # characters; those of benches have fewer than 100
@@ -127,7 +128,9 @@ def _check(node: ast.expr, depth: int) -> None:
             for argument in node.args:
                 _check(argument, depth + 1)
             return None
-        raise WrongFormula(f"it calls '{name[:40]}' with {len(node.args)} values, which is unknown")
+        raise WrongFormula(
+            f"it calls '{name[:40]}' with {counted(len(node.args), 'value')}, which is unknown"
+        )
     raise WrongFormula("it holds more than arithmetic")
 
 

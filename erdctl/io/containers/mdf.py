@@ -18,6 +18,7 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from erdctl.core.errors import InputProblem, UsageProblem
+from erdctl.core.messages import counted
 from erdctl.io.containers.channels import TIME, Channel, ChannelGroup, Samples
 from erdctl.io.containers.formula import WrongFormula, evaluated
 from erdctl.io.containers.outgoing import Columns
@@ -99,13 +100,14 @@ def _channel(
             there = len(every.samples)
         if there != count:
             raise InputProblem(
-                f"its group is said to have {count} samples, and {there} are there: the recording"
+                f"its group is said to have {counted(count, 'sample')}, but holds {there}: the"
+                " recording"
                 " was cut off; write it again, or export it as CSV",
                 file=file,
                 column=channel.name,
             )
         time = np.asarray(signal.timestamps, np.float64) if timed else None
-        said = f"{there - valid} of {there} samples, marked as invalid, are left out"
+        said = f"{there - valid} of {counted(there, 'sample')}, marked as invalid, left out"
         return Samples(np.asarray(signal.samples), time, said=said if valid < there else None)
 
     # MDF 3 keeps the unit with the conversion.

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from erdctl.core.messages import counted
 from erdctl.core.recording import Array
 from erdctl.io.containers.channels import Samples
 
@@ -24,7 +25,7 @@ def checked(samples: Samples, time: Array | None) -> tuple[npt.NDArray[Any], Arr
             ' with it; if another channel is the time, say so, e.g. --map "t=NAME[s]"'
         )
     if len(time) != len(values):
-        return f"it has {len(values)} samples, and its time has {len(time)}"
+        return f"it has {counted(len(values), 'sample')}, and its time has {len(time)}"
     return values, time
 
 

@@ -11,6 +11,7 @@ import pyarrow as pa
 
 from erdctl.core.errors import InputProblem
 from erdctl.core.memory import check_threads
+from erdctl.core.messages import counted
 from erdctl.io.csv_out import as_csv_text
 from erdctl.io.text.cells import COMMENT, NUMBER, between_thousands, cells_of, whole_lines
 from erdctl.io.text.encoding import UTF8, decoded
@@ -119,7 +120,7 @@ def _ended(body: bytes, separator: str, notes: list[str]) -> bytes:
     line = body.find(b"\n", max(0, len(body) - size) + len(kept)) + 1
     rows = sum(sign in row for row in body[line:].split(b"\n")) if line else 0
     if rows:
-        notes.append(f"{rows} empty rows at the end left out")
+        notes.append(f"{counted(rows, 'empty row')} at the end left out")
         return body[:line]
     return body
 

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from erdctl.core.errors import InputProblem
+from erdctl.core.messages import counted
 from erdctl.io.spelling import stated, unit_spelt
 from erdctl.io.text.cells import NUMBER, STAMP, cells_of, comment_of, kind_of, stands_alone
 from erdctl.io.text.options import TextOptions
@@ -227,7 +228,8 @@ def _fitted(names: list[str], found: Structure, line: int, file: str) -> list[st
         if len(names) >= 2 and not any(spare):  # separators at the end of every row
             return [*names, *[""] * len(spare)]
         raise InputProblem(
-            f"{len(names)} names in the header, but {found.width} cells in the samples below"
+            f"{counted(len(names), 'name')} in the header, but {counted(found.width, 'cell')} in"
+            " the samples below"
             f" (row {found.start}){_commas(names, found)}; say which line holds the names, e.g."
             f" --text header={line}, or --text header=none to number the columns",
             file=file,

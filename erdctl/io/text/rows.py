@@ -9,6 +9,7 @@ from itertools import islice
 import pyarrow as pa
 
 from erdctl.core.errors import InputProblem
+from erdctl.core.messages import counted
 from erdctl.io.problems import Wrong, problem_of
 from erdctl.io.text.cells import cells_of, comment_of, whole_lines
 from erdctl.io.text.labview import END
@@ -96,9 +97,14 @@ def explained(
 def _wrong_count(count: int, layout: TextLayout, line: int) -> Wrong:
     names = layout.header.names
     least = f"{layout.shortest} to " if layout.ragged else ""
-    source = f"the header has {len(names)} columns" if layout.header.line else "others have more"
+    source = (
+        f"the header has {counted(len(names), 'column')}"
+        if layout.header.line
+        else "others have more"
+    )
     return Wrong(
-        f"{count} cells where {source} ({least}{len(names)} expected); the last row may have been"
+        f"{counted(count, 'cell')} where {source} ({least}{len(names)} expected); the last row may"
+        " have been"
         " cut off",
         line,
     )

@@ -11,6 +11,7 @@ from erdctl.compare.comparison import Attention, Compared, Damper, iso
 from erdctl.compare.pair import told_by
 from erdctl.compare.tolerance import Holds
 from erdctl.compare.trend import Trend
+from erdctl.core.messages import counted
 from erdctl.report.changes import (
     damper_texts,
     head,
@@ -87,10 +88,10 @@ def _sure(found: Compared) -> str:
     if not found.tests:
         return "By the errors of the fits; see the remarks of each damper."
     return (
-        f"{found.tests} parameters were followed over time; where none changes, the chance that any"
-        f" is told to is {100 * found.false_alarms:g} % for all of them together. Dates and rates"
-        " are given with what the scatter of the logs leaves open (95 %; a rate with its standard"
-        " error)."
+        f"{counted(found.tests, 'parameter')} followed over time; where none changes, the chance"
+        f" that any is told to is {100 * found.false_alarms:g} % for all of them together. Dates"
+        " and rates are given with what the scatter of the logs leaves open (95 %; a rate with its"
+        " standard error)."
     )
 
 

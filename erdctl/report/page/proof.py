@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from erdctl.core.messages import counted
 from erdctl.report.page import data
 from erdctl.report.page.data import Json
 from erdctl.report.page.render import Run, digits, render
@@ -21,7 +22,7 @@ def proof_page(document: Json, tables: Sequence[Table], *, run: Run) -> str:
     whole = summary["whole"]
     return render(
         "proof.html",
-        title=f"Proof over {document['cases']} cases",
+        title=f"Proof over {counted(document['cases'], 'case')}",
         run=run,
         figures=_figures(results),
         cases=document["cases"],
@@ -40,9 +41,10 @@ def _answers(summary: Json, whole: Json) -> Json:
     named, right, located = whole["named"], whole["right"], whole["located"]
     nulls = [g for g in summary["nulls"] if g["label"] == "all"]
     quiet = nulls[0]["adequate"] if nulls and nulls[0]["cases"] else None
-    head = f"{right['hits']} of {right['of']} cases got the right verdict"
+    head = f"{right['hits']} of {counted(right['of'], 'case')} got the right verdict"
     if named["of"]:
-        head = f"{named['hits']} of {named['of']} hidden effects were named first"
+        were = "was" if named["hits"] == 1 else "were"
+        head = f"{named['hits']} of {counted(named['of'], 'hidden effect')} {were} named first"
     removed = whole["removed"]
     return {
         "mood": "good" if not summary["misses"] else "mid",

@@ -13,6 +13,7 @@ from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from erdctl.core.messages import counted
 from erdctl.core.recording import Source
 from erdctl.core.version import __version__
 from erdctl.export.serves import ONLINE, served
@@ -42,7 +43,12 @@ class Run:
         """Provenance, for a table."""
         out = [*self.labels.items(), ("erdctl", __version__), ("command", self.command)]
         for log in self.logs:
-            out.append((f"log {log.name}", f"{log.rows} rows, SHA-256 {log.sha256 or 'unknown'}"))
+            out.append(
+                (
+                    f"log {log.name}",
+                    f"{counted(log.rows, 'row')}, SHA-256 {log.sha256 or 'unknown'}",
+                )
+            )
         return [*out, *self.details]
 
 

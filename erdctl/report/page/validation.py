@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from math import sqrt
 from typing import TypeVar
 
+from erdctl.core.messages import counted
 from erdctl.core.recording import Array, Recording
 from erdctl.model.effect import Variable
 from erdctl.report.page import data
@@ -93,11 +94,13 @@ def _answers(
         holds = "Neither a limit (--fail-above) nor the noise of the force is known, so you decide."
     elif over:
         mood, head = "bad", f"The model does not hold: its error is above {bar} at {joined(over)}."
-        holds = f"No: {len(over)} of {len(found.by_duty)} PWM levels are above {bar}."
+        are = "is" if len(over) == 1 else "are"
+        holds = f"No: {len(over)} of {counted(len(found.by_duty), 'PWM level')} {are} above {bar}."
     else:
         mood = "good"
         head = f"The model holds: its error is within {bar} at every PWM level."
-        holds = f"Yes: all of {len(found.by_duty)} PWM levels are within {bar}."
+        levels = len(found.by_duty)
+        holds = f"Yes: {f'all {levels} PWM levels are' if levels > 1 else 'it is'} within {bar}."
     compared = ""
     if noise:
         compared = f"; {whole.rms / noise:.2f} × the noise of the force, {digits(noise, 3)} N"
@@ -115,7 +118,7 @@ def _answers(
         "holds": holds,
         "where": f"{where}.",
         "nrmse": f"{whole.nrmse:.4f}",
-        "normalise": found.normalise.value,
+        "normalise": found.normalise.words,
         "rms": f"{with_unit(whole.rms, 'N', 3)} rms ({percent_of(whole.rms, peak)})",
         "words": f"per cent of the peak force of {with_unit(peak, 'N', 3)}{compared}.",
     }

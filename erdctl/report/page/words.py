@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from erdctl.core.messages import counted
 from erdctl.core.recording import Array, Recording
 from erdctl.report.readable import error_of, number, scaled
 
@@ -33,11 +34,10 @@ def logs_text(recording: Recording) -> str:
 def extent(recording: Recording, levels: int) -> str:
     """How much was recorded."""
     seconds = sum(float(recording.t[p][-1] - recording.t[p][0]) for p in recording.slices)
-    records = len(recording.names)
-    return (
-        f"{len(recording):,} samples, {seconds:.3g} s, {records} record{'s' * (records != 1)},"
-        f" {levels} PWM level{'s' * (levels != 1)}"
-    ).replace(",", "\u202f", f"{len(recording):,}".count(","))
+    records, shown = counted(len(recording.names), "record"), counted(levels, "PWM level")
+    return (f"{len(recording):,} samples, {seconds:.3g} s, {records}, {shown}").replace(
+        ",", "\u202f", f"{len(recording):,}".count(",")
+    )
 
 
 def rig_line(fault: Mapping[str, Any]) -> str:

@@ -142,4 +142,4 @@ def test_samples_marked_as_invalid_are_left_out(
     assert np.array_equal(table["t"], T[~invalid])
     assert np.array_equal(table["force"], F[~invalid])
     assert np.array_equal(table["x"], X[~invalid])
-    assert f"{path}: 'force': 3 of 1000 samples, marked as invalid, are left out" in said
+    assert f"{path}: 'force': 3 of 1000 samples, marked as invalid, left out" in said

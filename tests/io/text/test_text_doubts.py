@@ -11,6 +11,7 @@ import pyarrow as pa
 import pytest
 
 from erdctl.core.errors import InputProblem
+from erdctl.core.messages import counted
 from erdctl.io.convert import read_converted
 from erdctl.io.logs import read_logs
 
@@ -304,7 +305,7 @@ def test_a_missing_line_end_alone_is_not_remarked_on(read: Converted, last: str)
 def test_empty_rows_at_the_end(read: Converted, between: str, rows: int) -> None:
     found = read("Rig 7", NAMES, *LINES, *[";;;"] * rows, between=between)
     assert np.array_equal(force_of(found), FORCE)
-    assert f", {rows} empty rows at the end left out" in found[1]
+    assert f", {counted(rows, 'empty row')} at the end left out" in found[1]
 
 
 def test_a_stray_byte_makes_no_other_letters_of_the_rest(tmp_path: Path) -> None:

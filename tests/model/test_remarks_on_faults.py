@@ -1,0 +1,53 @@
+"""A fault that does nothing in a log is said to, however the log is read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from unittest import mock
+
+import pyarrow.parquet as pq
+import pytest
+from places import FIXTURES
+from pyarrow import csv
+from typer.testing import CliRunner
+
+import erdctl
+from erdctl.cli.app import build
+from erdctl.model.faults import parse_fault
+
+TABLE_2, LOG = FIXTURES / "table_2.json", FIXTURES / "schedule_60s.csv"
+FAULTS = {
+    "oil=0.5@100:200": True, "oil=0.5@-9:0": True, "electrical=1.0": True, "oil=0.5@59": False,
+    "oil=flow:50": True, "oil=0.5": False,
+}  # fmt: skip
+
+
+def sentence(fault: str) -> str:
+    does_nothing = "does nothing in this log, from 0 to 59.995 s: force_model is as without it"
+    return f"{parse_fault(fault)} {does_nothing}"
+
+
+def said(log: Path, *faults: str) -> str:
+    options = [word for fault in faults for word in ("--fault", fault)]
+    words = ["simulate", str(TABLE_2), str(log), "--format", "parquet", "--quiet", *options]
+    run = CliRunner().invoke(build(), words)
+    assert run.exit_code == 0
+    return run.stderr
+
+
+@pytest.mark.parametrize("stretches", [False, True])
+def test_a_fault_that_does_nothing_is_warned_of(stretches: bool, tmp_path: Path) -> None:
+    log = tmp_path / "log.parquet"
+    pq.write_table(csv.read_csv(LOG), log)
+    with (
+        mock.patch("erdctl.io.batches.SMALL", 0),
+        mock.patch("erdctl.io.batches.STREAMED", 1 if stretches else 1 << 60),
+    ):
+        lines = said(log, *FAULTS).splitlines()
+    idle = [fault for fault, is_idle in FAULTS.items() if is_idle]
+    assert lines == [f"erdctl: warning: {sentence(fault)}" for fault in idle]
+
+
+def test_a_call_has_it_among_its_remarks() -> None:
+    found = erdctl.simulate(TABLE_2, LOG, faults=["oil=0.5@100:200", "oil=0.5"])
+    assert [r for r in found.remarks if "does nothing" in r] == [sentence("oil=0.5@100:200")]
