@@ -17,6 +17,7 @@ SCORES = {
     "nrmse_worst": "the NRMSE of the worst level",
     "noise_rms": "the noise",
 }
+SET = 9  # digits of what somebody has set, so that it stands as it was set
 _OF = re.compile(r"\{(\w+)(?::%)?\} of (.+)")
 
 
@@ -40,14 +41,24 @@ def noun(parameter: str) -> str:
     return f"{symbol} of {head.replace('_', ' ')}"
 
 
-def _numbers(unit: str, *values: float) -> tuple[list[str], str]:
+def _numbers(unit: str, *values: float, digits: int = 3) -> tuple[list[str], str]:
     """Values in one unit that people read, and that unit as it stands behind them."""
     factor, shown = scaled(unit, max((abs(v) for v in values if isfinite(v)), default=0.0))
-    return [number(v * factor, 3) for v in values], f" {shown.removeprefix('1')}".rstrip()
+    return [number(v * factor, digits) for v in values], f" {shown.removeprefix('1')}".rstrip()
 
 
 def _moved(name: str, unit: str, before: float, after: float) -> str:
-    (a, b), shown = _numbers(unit, before, after)
+    """A change with as many digits as show it.
+
+    >>> _moved("compression.c_vis", "N s/m", 60.0, 60.02), _moved("nrmse", "1", 0.01, 0.01)
+    ('c_vis in compression grew from 60 to 60.02 N s/m', 'the NRMSE is the same, 0.01')
+    """
+    if before == after:
+        return f"{noun(name)} is the same, {with_unit(before, unit, 3)}"
+    for digits in range(3, 18):
+        (a, b), shown = _numbers(unit, before, after, digits=digits)
+        if a != b:
+            break
     return f"{noun(name)} {'grew' if after > before else 'fell'} from {a} to {b}{shown}"
 
 
@@ -146,7 +157,7 @@ def judged_text(j: Judged) -> str:
     value = with_unit(j.value, j.unit, 4) if isfinite(j.value) else "unknown"
     interval = ""
     if isfinite(j.low) and isfinite(j.high) and j.low < j.high:
-        (low, high), unit = _numbers(j.unit, j.low, j.high)
+        (low, high), unit = _numbers(j.unit, j.low, j.high, digits=4)
         interval = f" ({low} to {high}{unit})"
     text = f"{noun(j.name)} {value}{interval}, {band_text(j)}: {j.holds.value}"
     if j.why:
@@ -161,10 +172,10 @@ def band_text(j: Judged) -> str:
     """A band as people say it."""
     low, high = j.band.low, j.band.high
     if isfinite(low) and isfinite(high):
-        (a, b), unit = _numbers(j.unit, low, high)
+        (a, b), unit = _numbers(j.unit, low, high, digits=SET)
         return f"band {a} to {b}{unit}"
     word, end = ("at least", low) if isfinite(low) else ("at most", high)
-    return f"{word} {with_unit(end, j.unit, 4)}"
+    return f"{word} {with_unit(end, j.unit, SET)}"
 
 
 def damper_texts(d: Damper) -> list[str]:

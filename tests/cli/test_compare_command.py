@@ -244,3 +244,23 @@ def test_what_cannot_be_refitted_is_said(
 def test_campaign_tables_are_not_refitted(campaign: Path) -> None:
     done = run("compare", campaign, "--refit")
     assert (done.exit_code, "--refit takes" in done.stderr) == (2, True)
+
+
+def test_a_sentence_says_nothing_that_its_numbers_do_not(tmp_path: Path) -> None:
+    """0.02 of 60 is a change where the errors are 0.001: it was said to grow from 60 to 60, what
+    is the same to fall to itself, and a band to end at 70.1 where 70.123 was set."""
+    a, b = damper(tmp_path / "a.json", 60.0), damper(tmp_path / "b.json", 60.02)
+    for path in (a, b):
+        document = json.loads(path.read_text())
+        document["compression"]["c_vis"]["stderr"] = 0.001
+        path.write_text(json.dumps(document))
+    done = run("compare", a, b, "--json")
+    texts = {
+        d["parameter"]: d["text"]
+        for d in json.loads(done.stdout)["dampers"][0]["pairs"][0]["differences"]
+    }
+    assert texts["compression.c_vis"] == "c_vis in compression grew from 60 to 60.02 N s/m"
+    assert texts["compression.T_d"] == "T_d in compression is the same, 43 ms"
+    limits = tmp_path / "limits.toml"
+    limits.write_text("c_vis = { low = 70.123, high = 1234.5 }")
+    assert "band 70.123 to 1234.5 N s/m: fail" in run("compare", a, "--limits", limits).stderr

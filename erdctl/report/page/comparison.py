@@ -12,6 +12,7 @@ from erdctl.compare.pair import told_by
 from erdctl.compare.tolerance import Holds
 from erdctl.compare.trend import Trend
 from erdctl.report.changes import (
+    SET,
     damper_texts,
     head,
     month,
@@ -152,7 +153,7 @@ def _figure(d: Damper, t: Trend) -> Json:
         corners[2] = np.nextafter(corners[1], np.inf)
     named = s.named
     marks = [
-        {"value": end * factor, "text": f"limit {digits(end * factor, 3)}"}
+        {"value": end * factor, "text": f"limit {digits(end * factor, SET)}"}
         for j in d.judged if j.name == s.name for end in (j.band.low, j.band.high) if isfinite(end)
     ]  # fmt: skip
     bands = []
