@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from math import copysign, isfinite
 
+import numpy as np
+
 from erdctl.compare.comparison import Compared, Damper, iso
 from erdctl.compare.pair import Change, Difference, Pair
 from erdctl.compare.shape import Course
@@ -148,6 +150,9 @@ def pair_remarks(p: Pair) -> list[str]:
             " what one model lacks; of files (not of tables) --refit fits both logs with all of it"
         )
     if p.before[0] is p.after[0]:
+        dated = np.isfinite(p.before[0].t)
+        if dated.any() and not dated.all():
+            out.append("not all logs have a date: they are taken in the order given")
         out.append("two logs do not tell how far logs scatter beyond the errors of their fits")
     return out
 

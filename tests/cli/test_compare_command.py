@@ -246,6 +246,19 @@ def test_campaign_tables_are_not_refitted(campaign: Path) -> None:
     assert (done.exit_code, "--refit takes" in done.stderr) == (2, True)
 
 
+def test_the_order_given_holds_where_not_all_have_a_date(tmp_path: Path) -> None:
+    """The file with a date came first, whatever was given, and the change had the other sign."""
+    a = damper(tmp_path / "old.json", 60.0)
+    b = damper(tmp_path / "new.json", 40.0, date="2024-05-01")
+    said = run("compare", a, b).stderr
+    assert "fell from 60 to 40" in said
+    assert "not all logs have a date" in said
+    c = damper(tmp_path / "older.json", 80.0, date="2020-05-01")
+    said = run("compare", b, c).stderr  # dates decide where all have one
+    assert "fell from 80 to 40" in said
+    assert "not all logs" not in said
+
+
 def test_a_sentence_says_nothing_that_its_numbers_do_not(tmp_path: Path) -> None:
     """0.02 of 60 is a change where the errors are 0.001: it was said to grow from 60 to 60, what
     is the same to fall to itself, and a band to end at 70.1 where 70.123 was set."""
