@@ -125,6 +125,8 @@ def _unseen(d: Difference, limit: float, when: str) -> str:
 def pair_texts(p: Pair) -> list[str]:
     """What two logs differ in, and how that was judged."""
     out = [difference_text(d) for d in p.changes]
+    if not p.told:
+        out.append("no error of any parameter is known, so no change can be told from none")
     if p.together and p.joint is not None:
         out.append(
             "no parameter by itself, but all together differ by more than their errors; the change"
@@ -136,9 +138,9 @@ def pair_texts(p: Pair) -> list[str]:
 def pair_remarks(p: Pair) -> list[str]:
     """What to know of a pair's judgement."""
     out = []
-    if p.joint is None:
+    if p.joint is None and p.told:
         out.append("judged by standard errors, parameter by parameter: not both tell a covariance")
-    else:
+    elif p.joint is not None:
         j = p.joint
         out.append(
             f"{j.dof} parameters judged together, with their covariance: chi2"
@@ -202,10 +204,14 @@ def head(found: Compared) -> str:
     changed = [
         d for d in found.dampers if d.changes or any(p.changes or p.together for p in d.pairs)
     ]
-    many, logs = len(found.dampers), found.logs
-    text = (
-        f"{len(changed) or 'none'} of {many} dampers changed"
-        if many > 1
-        else f"{'changed' if changed else 'nothing changed'} beyond the errors"
-    )
-    return f"{logs} logs, {text}"
+    many, alone = len(found.dampers), sum(not d.compared for d in found.dampers)
+    logs = f"{found.logs} log{'s' * (found.logs != 1)}"
+    if alone == many:
+        return f"{logs}, no damper with an earlier one"
+    if many > 1:
+        text = f"{len(changed) or 'none'} of {many} dampers changed"
+        return f"{logs}, {text}" + (f", {alone} without an earlier log" if alone else "")
+    pairs = found.dampers[0].pairs
+    if pairs and not any(p.told for p in pairs):
+        return f"{logs}, no change can be told"
+    return f"{logs}, {'changed' if changed else 'nothing changed'} beyond the errors"

@@ -259,6 +259,27 @@ def test_the_order_given_holds_where_not_all_have_a_date(tmp_path: Path) -> None
     assert "not all logs" not in said
 
 
+def test_what_cannot_be_told_or_was_not_compared_is_not_unchanged(tmp_path: Path) -> None:
+    """Ten times the viscosity and no error, or a single file: both were "unchanged"."""
+    paths = [damper(tmp_path / f"{c}.json", c) for c in (60.0, 600.0)]
+    for path in paths:
+        document = json.loads(path.read_text())
+        for d in ("compression", "release"):
+            document[d] = {symbol: {"value": v["value"]} for symbol, v in document[d].items()}
+        path.write_text(json.dumps(document))
+    done = run("compare", *paths, "--json")
+    assert json.loads(done.stdout)["dampers"][0]["attention"] == "cannot tell"
+    assert "2 logs, no change can be told" in done.stderr
+    assert "unchanged" not in done.stderr
+    page = tmp_path / "one.html"
+    done = run("compare", paths[0], "--json", "--report", page)
+    assert json.loads(done.stdout)["dampers"][0]["attention"] == "no earlier log"
+    assert "1 log, no damper with an earlier one" in done.stderr
+    assert "unchanged" not in done.stderr
+    assert "no parameter changed" not in page.read_text()
+    assert "no log has an earlier one" in page.read_text()
+
+
 def test_a_sentence_says_nothing_that_its_numbers_do_not(tmp_path: Path) -> None:
     """0.02 of 60 is a change where the errors are 0.001: it was said to grow from 60 to 60, what
     is the same to fall to itself, and a band to end at 70.1 where 70.123 was set."""

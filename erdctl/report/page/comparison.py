@@ -34,7 +34,7 @@ MONTH = 30.4375  # days
 def comparison_page(found: Compared, *, run: Run) -> str:
     """The page."""
     dampers = found.dampers[:ROWS]
-    detailed = [d for d in dampers if d.attention is not Attention.QUIET][:DETAILS]
+    detailed = [d for d in dampers if d.attention < Attention.QUIET][:DETAILS]
     figures, details = _details(detailed)
     urgent = [d for d in details if d["said"]]
     changed = [n for d in dampers for n, t in d.trends.items() if t.changed]
@@ -55,6 +55,7 @@ def comparison_page(found: Compared, *, run: Run) -> str:
         urgent=urgent[:FIRST],
         more=max(0, len(urgent) - FIRST),
         checks=_checks(found),
+        compared=any(d.compared for d in found.dampers),
         sure=_sure(found),
         columns=[noun(n) for n in columns],
         rows=[_row(d, columns, ids.get(id(d), "")) for d in dampers],
@@ -68,7 +69,8 @@ def _mood(found: Compared) -> str:
     first = min((d.attention for d in found.dampers), default=Attention.QUIET)
     if first is Attention.FAILS:
         return "bad"
-    return "good" if first is Attention.QUIET else "mid"
+    alone = first is Attention.ALONE and not found.count(Holds.PASS)
+    return "mid" if first < Attention.QUIET or alone else "good"
 
 
 def _period(found: Compared) -> str:
