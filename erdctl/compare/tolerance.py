@@ -147,7 +147,8 @@ def within(band: Band, low: float, high: float) -> Holds:
 def reach(trend: Trend, band: Band) -> tuple[float, float, float] | None:
     """When a line or a ramp leaves the band; None if not within `AHEAD` months.
 
-    The trend itself and the ends of its 95 % interval, each followed month by month.
+    The trend itself and the ends of its 95 % interval, each followed month by month, up to the end
+    of the band that it goes towards: what comes back into a band from without leaves none.
     """
     if trend.rate is None:
         return None
@@ -158,6 +159,6 @@ def reach(trend: Trend, band: Band) -> tuple[float, float, float] | None:
     ahead = np.sign(trend.rate[0]) * 1.96 * error
     dates = []
     for line in (f, f + ahead, f - ahead):
-        out = np.flatnonzero((line < band.low) | (line > band.high))
+        out = np.flatnonzero(line > band.high if trend.rate[0] > 0.0 else line < band.low)
         dates.append(float(t[out[0]]) if len(out) else inf)
     return (dates[0], dates[1], dates[2]) if isfinite(dates[0]) else None

@@ -84,3 +84,21 @@ def test_when_a_ramp_leaves_its_band() -> None:
     assert abs(j.reached[0] - truth) < 150
     out = Rule(name=DAMPER, unit="N", band=Band(low=99.0))
     assert judge(history, {DAMPER: found}, [out])[0].holds is Holds.FAIL
+
+
+def test_what_goes_into_its_band_does_not_leave_it() -> None:
+    """Falling, and 0.1 above a band now, which it goes into. It was said to
+    be out of it as it goes on, and its damper the next to fail."""
+    t = 18000.0 + 30.4375 * np.arange(60)
+    years, noise = (t - t[0]) / 365.25, np.random.default_rng(0).standard_normal(60)
+    s = Series(
+        name=DAMPER, unit="N", at=np.arange(60), t=t, value=100.0 - 5.0 * years + noise,
+        stderr=np.full(60, np.nan), low=np.full(60, np.nan), high=np.full(60, np.nan),
+    )  # fmt: skip
+    found = trend(s, 1e-4)
+    assert found is not None
+    history = History(damper="D", logs=("a",) * 60, t=t, series={DAMPER: s})
+    rule = Rule(name=DAMPER, unit="N", band=Band(high=found.now[0] - 0.1))
+    j = judge(history, {DAMPER: found}, [rule])[0]
+    assert j.holds is Holds.UNKNOWN
+    assert j.reached is None
