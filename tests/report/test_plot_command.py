@@ -291,3 +291,20 @@ def test_slow_strokes_between_fast_ones_are_found(noise: float, folder: Path) ->
     pd.DataFrame({"t": t, "x": x, "xdot": xdot, "duty": 0.0, "force": force}).to_csv("a.csv")
     erdctl("plot", "a.csv", "--kind", "slow", "-o", "a.png")
     assert Path("a.png").exists()
+
+
+def test_a_fault_is_drawn_where_it_acts(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
+    """Half the oil is half the force, Eq. 20; the cycle at hand was one from before the onset."""
+    t = np.arange(0.0, 12.0, 0.005)
+    w = 4.0 * np.pi
+    late = pd.DataFrame({"t": t, "x": 0.01 * np.sin(w * t), "xdot": 0.01 * w * np.cos(w * t)})
+    late.assign(duty=np.where(t < 6.0, 0.1, 0.2)).to_csv("late.csv", index=False)
+    command = f"erdctl plot late.csv --params {TABLE_2} --fault oil=0.5@8 -o late.png"
+    (figure,) = run(command, monkeypatch, folder)
+    never, later = (ax for ax in panels(figure) if ax.get_title("left"))
+    assert never.get_title("left") == "PWM duty 10 %, no fault acts"
+    assert later.get_title("left") == "PWM duty 20 %"
+    top = {line.get_label(): np.nanmax(line.get_ydata()) for line in later.get_lines()}
+    assert top["oil=0.5@8"] == pytest.approx(0.5 * top["healthy"], rel=1e-6)
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["healthy", "oil=0.5@8"]
