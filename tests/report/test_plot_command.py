@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,10 +15,12 @@ from drawing import caught, labels, line, panels, run, units
 from places import FIXTURES
 from typer.testing import CliRunner
 
+from erdctl.bench.drive import drives
 from erdctl.cli.app import build
 from erdctl.report import pictures, style
 from erdctl.report.picture import figure
 from erdctl.report.subject import Subject
+from erdctl.report.subjects import located
 
 CAMPAIGN = FIXTURES / "healthy_campaign.parquet"
 SCHEDULE = FIXTURES / "schedule_60s.csv"
@@ -308,3 +311,19 @@ def test_a_fault_is_drawn_where_it_acts(monkeypatch: pytest.MonkeyPatch, folder:
     assert top["oil=0.5@8"] == pytest.approx(0.5 * top["healthy"], rel=1e-6)
     (legend,) = figure.legends
     assert [text.get_text() for text in legend.get_texts()] == ["healthy", "oil=0.5@8"]
+
+
+def test_a_misfit_map_names_its_model_and_its_grey() -> None:
+    """One model is no "model before"; a cell of 4 samples is grey, and in the log all the same."""
+    r = drives(["sine:freq=1,amp=0.01,duty=0.1|0.2,hold=5,duration=20"])
+    force = 100.0 * r.xdot + np.random.default_rng(0).normal(0.0, 0.1, len(r))
+    r = replace(r, force=force)
+    missed = force - 5.0 * (np.abs(r.xdot) < 0.01)
+    subject = Subject(recording=r, modelled=missed, regions=located(r, missed))
+    for given, said in ((subject, ["model"]), (replace(subject, before=force),
+                        ["model before", "model"])):  # fmt: skip
+        left, right = panels(figure("misfit", given))
+        assert left.get_title("left") == "by velocity and PWM duty; grey: fewer than 5 samples"
+        legend = right.get_legend()
+        assert legend is not None
+        assert [text.get_text() for text in legend.get_texts()] == said
