@@ -86,8 +86,11 @@ def trend_text(t: Trend) -> str:
     else:
         text += f" from {month(float(s.t[0]))} to {month(float(s.t[-1]))}"
     if t.rate is not None:
-        (rate, error), unit = _numbers(s.unit, *t.rate)
-        text += f", by {rate} +- {error}{unit} a year"
+        rate, error = t.rate
+        if not (t.absent_before or t.absent_after):
+            rate = abs(rate)  # "fell" has said the sign
+        (rate_text, error_text), unit = _numbers(s.unit, rate, error)
+        text += f", by {rate_text} +- {error_text}{unit} a year"
     return text
 
 
