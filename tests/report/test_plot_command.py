@@ -327,3 +327,15 @@ def test_a_misfit_map_names_its_model_and_its_grey() -> None:
         legend = right.get_legend()
         assert legend is not None
         assert [text.get_text() for text in legend.get_texts()] == said
+
+
+def test_a_part_says_how_much_is_drawn(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
+    """2 s of 60 s at 200 Hz, both ends in it."""
+    for words, said in (
+        ("", "schedule_60s.csv: 12,000 samples"),
+        ("--span 2:4 ", "schedule_60s.csv: 12,000 samples; 401 drawn"),
+    ):
+        command = f"erdctl plot {SCHEDULE} {words}--kind motion -o a.png"
+        (found,) = run(command, monkeypatch, folder)
+        (corner,) = (t.get_text() for t in found.texts if "samples" in t.get_text())
+        assert corner.endswith(said)
