@@ -139,36 +139,40 @@ _MOVES = Demand[Excitation](
     "samples that move this way", "1", ENOUGH, lambda e: e.moving, lambda b: b.sine(),
     f"the log has no motion in this direction, or too little (under {ENOUGH} samples)",
 )  # fmt: skip
+# Of one direction, as all of these: a control that follows the motion gives a field to one alone.
 _FIELD = Demand[Excitation](
-    "samples with a duty above zero", "1", ENOUGH, lambda e: e.field, lambda b: b.field,
+    "samples that move this way with a duty above zero", "1", ENOUGH, lambda e: e.field,
+    lambda b: b.field,
     "the log has no sample with a duty above zero in this direction, or too few (under"
     f" {ENOUGH})",
 )  # fmt: skip
 _STEPS = Demand[Excitation](
-    "change of the duty within a record", "1", 0.02, lambda e: e.steps, lambda b: b.steps,
-    "the duty is constant within every record in this direction, so the lag of Eq. 12 shows at"
-    " reversals alone, by as much as the yield forces of the two directions differ; record steps of"
-    " the duty while the piston moves",
+    "change of the duty within a record that moves this way", "1", 0.02, lambda e: e.steps,
+    lambda b: b.steps,
+    "the duty is constant within every record that moves this way, or nearly, so the lag of Eq. 12"
+    " shows at reversals alone, by as much as the yield forces of the two directions differ; record"
+    " steps of the duty while the piston moves",
     # One state serves both directions: held at 0, the lag after a reversal can be a misfit.
     slight=lambda _: True,
 )  # fmt: skip
 _STROKE = Demand[Excitation](
-    "range of the deflection", "m", 1e-6, lambda e: e.stroke, lambda b: b.sine(),
-    "the deflection is constant",
+    "range of the deflection while it moves this way", "m", 1e-6, lambda e: e.stroke,
+    lambda b: b.sine(), "the deflection is constant, or nearly, while it moves this way",
 )  # fmt: skip
 _SPEEDS = Demand[Excitation](
-    "spread of the speed over its mean", "1", 0.01, lambda e: e.speeds, lambda b: b.sine(),
-    "the speed is constant in this direction, so viscous and yield force cannot be separated",
+    "spread of the speed this way over its mean", "1", 0.01, lambda e: e.speeds, lambda b: b.sine(),
+    "the speed this way is constant, or nearly, so viscous and yield force cannot be separated",
     spared=lambda e: e.null >= ENOUGH or e.field < ENOUGH,
 )  # fmt: skip
 
 
 def _levels(*, confounded: bool) -> Demand[Excitation]:
     return Demand(
-        "highest over lowest duty above zero", "1", SAME_LEVEL, lambda e: e.ratio,
-        lambda b: b.levels,
-        "the log has one duty level above zero in this direction, which fixes sigma*v^beta at that"
-        " level but neither of the two; record at least two levels",
+        "highest over lowest duty above zero while it moves this way", "1", SAME_LEVEL,
+        lambda e: e.ratio, lambda b: b.levels,
+        "the log has one duty level above zero in this direction (or none"
+        f" {100 * (SAME_LEVEL - 1):g} % apart), which fixes sigma*v^beta at that level but neither"
+        " of the two; record at least two levels",
         confounded=confounded, slight=lambda e: e.ratio > NO_STEP,
     )  # fmt: skip
 
@@ -188,7 +192,8 @@ REQUIREMENTS: dict[Requirement, Demand[Survey]] = {
         "samples with a duty above zero", "1", ENOUGH, lambda s: s.field, lambda b: b.field
     ),
     Requirement.LEVELS: Demand(
-        "duty levels above zero", "1", 3, lambda s: s.levels, lambda b: b.levels
+        f"duty levels above zero, {100 * (SAME_LEVEL - 1):g} % apart", "1", 3,
+        lambda s: s.levels, lambda b: b.levels,
     ),
     Requirement.STEPS: Demand(
         "change of the duty within a record", "1", 0.02, lambda s: s.steps, lambda b: b.steps

@@ -218,13 +218,14 @@ def _show(found: Compared) -> None:
     from erdctl.report.changes import damper_texts, head, pair_remarks
     from erdctl.report.text import listing, say
 
-    urgent = [d for d in found.dampers if d.attention is not Attention.QUIET]
+    urgent = [d for d in found.dampers if d.attention < Attention.QUIET]
     listing(
         head(found), {f"{d.history.damper}: {d.attention.words}": damper_texts(d) for d in urgent}
     )
-    quiet = [d.history.damper for d in found.dampers if d.attention is Attention.QUIET]
-    if quiet:
-        say(f"unchanged: {', '.join(quiet[:NAMED])}{' ...' if len(quiet) > NAMED else ''}")
+    for kind in (Attention.QUIET, Attention.ALONE):
+        some = [d.history.damper for d in found.dampers if d.attention is kind]
+        if some:
+            say(f"{kind.words}: {', '.join(some[:NAMED])}{' ...' if len(some) > NAMED else ''}")
     for line in dict.fromkeys(r for d in found.dampers for p in d.pairs for r in pair_remarks(p)):
         say(line)
     if any(d.judged for d in found.dampers):

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from erdctl.bench.identifiability import Cover
-    from erdctl.bench.inspection import Inspection
+    from erdctl.bench.inspection import Inspection, NoiseFloor
     from erdctl.core.progress import Progress
     from erdctl.core.recording import Recording
     from erdctl.diagnose.forecast import Forecast
@@ -153,13 +153,17 @@ def _show(found: Inspection, document: InspectionFile) -> None:
         return [f"{number(v * factor, digits)} {'' if shown == '1' else shown}".rstrip()
                 for v in ends]  # fmt: skip
 
+    # A zero of its own, as that of degF, is part of the conversion.
+    shifted = any(c["offset"] for c in document["channels"])
     table(
         f"{counted(found.samples, 'sample')}, {found.duration:.6g} s in"
         f" {counted(len(found.records), 'record')}",
-        ["channel", "column of the log", "times", "is in", "lowest", "highest"],
+        ["channel", "column of the log", "times", *["plus"] * shifted,
+         "is in", "lowest", "highest"],
         [
             [
-                c["name"], c["column"], number(c["factor"]), c["unit"],
+                c["name"], c["column"], number(c["factor"]), *[number(c["offset"])] * shifted,
+                c["unit"],
                 *span(c["range"], "%" if c["name"] == "duty" else c["unit"]),
             ]
             for c in document["channels"] if c["range"] is not None
@@ -214,7 +218,7 @@ def _remarks(found: Inspection, document: InspectionFile) -> Iterator[str]:
     else:
         yield (
             f"force noise, from sample to sample: about {found.noise.rms:.2g} N rms (a guess,"
-            f" before any fit); the force comes in steps of {found.noise.resolution:.2g} N"
+            f" before any fit){_resolution(found.noise)}"
         )
         if found.mass is not None:
             yield (
@@ -223,6 +227,16 @@ def _remarks(found: Inspection, document: InspectionFile) -> Iterator[str]:
             )
     if document["other_columns"]:
         yield f"columns that are not used: {', '.join(document['other_columns'])}"
+
+
+def _resolution(noise: NoiseFloor) -> str:
+    """The smallest step; of a force that is no multiple of one it is a chance neighbour's."""
+    if noise.resolution == 0.0:
+        return "; every value seen of the force is the same"
+    return (
+        "; the smallest difference seen between two values of the force is"
+        f" {noise.resolution:.2g} N"
+    )
 
 
 def _show_coverage(what: str, found: Sequence[Cover]) -> None:

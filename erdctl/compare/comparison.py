@@ -26,6 +26,7 @@ class Attention(IntEnum):
     UNKNOWN = 3
     BROKEN = 4
     QUIET = 5
+    ALONE = 6
 
     @property
     def words(self) -> str:
@@ -37,6 +38,7 @@ class Attention(IntEnum):
             Attention.UNKNOWN: "cannot tell",
             Attention.BROKEN: "logs with errors",
             Attention.QUIET: "unchanged",
+            Attention.ALONE: "no earlier log",
         }[self]
 
 
@@ -70,9 +72,16 @@ class Damper:
             return Attention.WILL_FAIL
         if self.changes or any(p.changes or p.together for p in self.pairs):
             return Attention.CHANGED
-        if Holds.UNKNOWN in holds:
+        if Holds.UNKNOWN in holds or any(not p.told for p in self.pairs):
             return Attention.UNKNOWN
-        return Attention.BROKEN if self.history.failed else Attention.QUIET
+        if self.history.failed:
+            return Attention.BROKEN
+        return Attention.QUIET if self.compared else Attention.ALONE
+
+    @property
+    def compared(self) -> bool:
+        """Whether it was held against an earlier log, or another damper."""
+        return bool(self.trends or self.pairs)
 
     @property
     def urgency(self) -> tuple[float, ...]:

@@ -71,7 +71,8 @@ class Covariance:
 class History:
     """One damper.
 
-    logs : (n,) names, in the order of their dates;  t : (n,) dates [days since 1970], NaN without
+    logs : (n,) names, in the order of their dates, or as given where not all have one
+    t : (n,) dates [days since 1970], NaN without
     effects : (n,) names of the effects of each log's model;  searched : (n,) whether a diagnosis
     looked for more of them;  settled : (n,) whether nothing was left that no effect explains
     covariances : by number of the log, where its document tells them

@@ -114,6 +114,11 @@ class Pair:
     other_effects: tuple[str, ...]
 
     @property
+    def told(self) -> bool:
+        """Whether an error of any difference is known, against which it can be held."""
+        return any(d.error > 0.0 for d in self.differences)
+
+    @property
     def changes(self) -> list[Difference]:
         """What is beyond its error, the surest first."""
         told = (Change.CHANGED, Change.APPEARED, Change.VANISHED)

@@ -56,12 +56,16 @@ class Judged:
 
 @dataclass(frozen=True, kw_only=True)
 class Rule:
-    """A band of one parameter or score.  off : of an effect's, the value at which it is absent"""
+    """A band of one parameter or score.
+
+    off : of an effect's, the value at which it is absent;  bounds : what it can be at all
+    """
 
     name: str
     unit: str
     band: Band
     off: float | None = None
+    bounds: tuple[float, float] = (-inf, inf)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,8 +127,11 @@ def _last(history: History, rule: Rule) -> _Found:
         return _Found(of=of, why="no diagnosis has looked for it")
     limit = told.limit if told is not None else nan
     if isfinite(limit):
-        ends = sorted((rule.off, limit))
-        return _Found(value=rule.off, low=ends[0], high=ends[1], of=of)
+        # From that size on it would have been named, to either side where it has two.
+        size, (least, most) = abs(limit - rule.off), rule.bounds
+        low = max(rule.off - size, min(least, rule.off))
+        high = min(rule.off + size, max(most, rule.off))
+        return _Found(value=rule.off, low=low, high=high, of=of)
     if not history.settled[last]:
         return _Found(of=of, why="a misfit is left that no effect explains")
     return _Found(value=rule.off, low=rule.off, high=rule.off, of=of)
@@ -147,7 +154,8 @@ def within(band: Band, low: float, high: float) -> Holds:
 def reach(trend: Trend, band: Band) -> tuple[float, float, float] | None:
     """When a line or a ramp leaves the band; None if not within `AHEAD` months.
 
-    The trend itself and the ends of its 95 % interval, each followed month by month.
+    The trend itself and the ends of its 95 % interval, each followed month by month, up to the end
+    of the band that it goes towards: what comes back into a band from without leaves none.
     """
     if trend.rate is None:
         return None
@@ -158,6 +166,6 @@ def reach(trend: Trend, band: Band) -> tuple[float, float, float] | None:
     ahead = np.sign(trend.rate[0]) * 1.96 * error
     dates = []
     for line in (f, f + ahead, f - ahead):
-        out = np.flatnonzero((line < band.low) | (line > band.high))
+        out = np.flatnonzero(line > band.high if trend.rate[0] > 0.0 else line < band.low)
         dates.append(float(t[out[0]]) if len(out) else inf)
     return (dates[0], dates[1], dates[2]) if isfinite(dates[0]) else None

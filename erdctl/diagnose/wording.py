@@ -17,7 +17,7 @@ from erdctl.diagnose.detectable import Detectable
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.fault_wording import sets_in_once_text
 from erdctl.diagnose.findings import Finding
-from erdctl.diagnose.learning.words import law_words
+from erdctl.diagnose.learning.words import law_words, worth_text
 from erdctl.diagnose.residual.predictability import LackOfFit
 from erdctl.diagnose.residual.record_levels import taken_by_levels
 from erdctl.diagnose.unseen import Left, Unseen
@@ -26,11 +26,7 @@ from erdctl.diagnose.unseen import Left, Unseen
 def finding_text(finding: Finding) -> str:
     """One finding in words."""
     e = finding.effect
-    text = (
-        f"{e.title}: leaving it out costs {100 * finding.gain.gain:.0f} % of the mean square error"
-        f" on data that the fit had not seen (NRMSE {finding.before:.4f} without it,"
-        f" {finding.after:.4f} with it)"
-    )
+    text = f"{e.title}: {worth_text(finding)}"
     if finding.where is not None:
         text += f"; {finding.where.text.replace('the misfit', 'its force')}"
     if finding.equivalent:

@@ -98,9 +98,11 @@ def _keys(rows: pd.DataFrame) -> pd.Series:
 def _history(
     key: str, rows: pd.DataFrame, offs: Mapping[str, float], covariances: Mapping[str, Covariance]
 ) -> History:
-    logs = rows.drop_duplicates("log", keep="first").sort_values("date", kind="stable")
+    logs = rows.drop_duplicates("log", keep="first")
     failed = logs[logs["error"].notna() & ~logs["log"].isin(rows.loc[rows["value"].notna(), "log"])]
     logs = logs[~logs["log"].isin(failed["log"])]
+    # Where some have no date the dates say nothing of these, and the order given is that of time.
+    logs = logs if logs["date"].isna().any() else logs.sort_values("date", kind="stable")
     number = {log: i for i, log in enumerate(logs["log"])}
     t = _days(logs["date"])
     told = rows[rows["parameter"].notna() & rows["log"].isin(number)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from difflib import get_close_matches
 from math import inf, isfinite
 
@@ -43,14 +44,18 @@ def read_limits(path: str) -> list[Rule]:
     for name, given in raw.items():
         band = documents.converted(given, BandIn, name=path, path=f".{name}")
         for full in _meant(name, known, path):
-            unit, off = known[full]
+            unit, quantity = known[full]
             ends = (_end(band.low, unit, name, path), _end(band.high, unit, name, path))
             low, high = -inf if ends[0] is None else ends[0], inf if ends[1] is None else ends[1]
             if not low < high or (ends[0] is None and ends[1] is None):
                 raise InputProblem(
                     f"{name}: expected low, high or both, with low below high", file=path
                 )
-            out[full] = Rule(name=full, unit=unit, band=Band(low=low, high=high), off=off)
+            own = Band(low=low, high=high)
+            out[full] = Rule(name=full, unit=unit, band=own)
+            if quantity is not None:
+                bounds = quantity.low, quantity.high
+                out[full] = replace(out[full], off=quantity.off, bounds=bounds)
     if not out:
         raise InputProblem(
             'no band in it; write for instance: "backlash.g" = { high = "0.5 mm" }', file=path
@@ -84,18 +89,18 @@ def _flat(raw: dict[str, object], head: str = "") -> Iterator[tuple[str, object]
             yield full, given
 
 
-def _known() -> dict[str, tuple[str, float | None]]:
-    """Unit and off value of everything that may have a band."""
-    out: dict[str, tuple[str, float | None]] = {s: (unit, None) for s, unit in SCORES.items()}
+def _known() -> dict[str, tuple[str, Quantity | None]]:
+    """Unit of everything that may have a band, and the parameter where it is an effect's."""
+    out: dict[str, tuple[str, Quantity | None]] = {s: (unit, None) for s, unit in SCORES.items()}
     for d in DIRECTIONS:
         out |= {f"{d}.{s}": (q.unit, None) for s, q in QUANTITIES.items()}
     effects: Iterable[tuple[str, Quantity]] = (
         (e.key(q.symbol), q) for e in catalogue() for q in e.quantities
     )
-    return out | {name: (q.unit, q.off) for name, q in effects}
+    return out | {name: (q.unit, q) for name, q in effects}
 
 
-def _meant(name: str, known: dict[str, tuple[str, float | None]], path: str) -> list[str]:
+def _meant(name: str, known: dict[str, tuple[str, Quantity | None]], path: str) -> list[str]:
     if name in known:
         return [name]
     both = [f"{d}.{name}" for d in DIRECTIONS if f"{d}.{name}" in known]

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from math import copysign, isfinite
 
+import numpy as np
+
 from erdctl.compare.comparison import Compared, Damper, iso
 from erdctl.compare.pair import Change, Difference, Pair
 from erdctl.compare.shape import Course
@@ -18,6 +20,7 @@ SCORES = {
     "nrmse_worst": "the NRMSE of the worst level",
     "noise_rms": "the noise",
 }
+SET = 9  # digits of what somebody has set, so that it stands as it was set
 _OF = re.compile(r"\{(\w+)(?::%)?\} of (.+)")
 
 
@@ -41,14 +44,24 @@ def noun(parameter: str) -> str:
     return f"{symbol} of {head.replace('_', ' ')}"
 
 
-def _numbers(unit: str, *values: float) -> tuple[list[str], str]:
+def _numbers(unit: str, *values: float, digits: int = 3) -> tuple[list[str], str]:
     """Values in one unit that people read, and that unit as it stands behind them."""
     factor, shown = scaled(unit, max((abs(v) for v in values if isfinite(v)), default=0.0))
-    return [number(v * factor, 3) for v in values], f" {shown.removeprefix('1')}".rstrip()
+    return [number(v * factor, digits) for v in values], f" {shown.removeprefix('1')}".rstrip()
 
 
 def _moved(name: str, unit: str, before: float, after: float) -> str:
-    (a, b), shown = _numbers(unit, before, after)
+    """A change with as many digits as show it.
+
+    >>> _moved("compression.c_vis", "N s/m", 60.0, 60.02), _moved("nrmse", "1", 0.01, 0.01)
+    ('c_vis in compression grew from 60 to 60.02 N s/m', 'the NRMSE is the same, 0.01')
+    """
+    if before == after:
+        return f"{noun(name)} is the same, {with_unit(before, unit, 3)}"
+    for digits in range(3, 18):
+        (a, b), shown = _numbers(unit, before, after, digits=digits)
+        if a != b:
+            break
     return f"{noun(name)} {'grew' if after > before else 'fell'} from {a} to {b}{shown}"
 
 
@@ -74,8 +87,11 @@ def trend_text(t: Trend) -> str:
     else:
         text += f" from {month(float(s.t[0]))} to {month(float(s.t[-1]))}"
     if t.rate is not None:
-        (rate, error), unit = _numbers(s.unit, *t.rate)
-        text += f", by {rate} +- {error}{unit} a year"
+        rate, error = t.rate
+        if not (t.absent_before or t.absent_after):
+            rate = abs(rate)  # "fell" has said the sign
+        (rate_text, error_text), unit = _numbers(s.unit, rate, error)
+        text += f", by {rate_text} +- {error_text}{unit} a year"
     return text
 
 
@@ -113,6 +129,8 @@ def _unseen(d: Difference, limit: float, when: str) -> str:
 def pair_texts(p: Pair) -> list[str]:
     """What two logs differ in, and how that was judged."""
     out = [difference_text(d) for d in p.changes]
+    if not p.told:
+        out.append("no error of any parameter is known, so no change can be told from none")
     if p.together and p.joint is not None:
         out.append(
             "no parameter by itself, but all together differ by more than their errors; the change"
@@ -124,9 +142,9 @@ def pair_texts(p: Pair) -> list[str]:
 def pair_remarks(p: Pair) -> list[str]:
     """What to know of a pair's judgement."""
     out = []
-    if p.joint is None:
+    if p.joint is None and p.told:
         out.append("judged by standard errors, parameter by parameter: not both tell a covariance")
-    else:
+    elif p.joint is not None:
         j = p.joint
         out.append(
             f"{counted(j.dof, 'parameter')} judged together, with their covariance: chi2"
@@ -138,6 +156,9 @@ def pair_remarks(p: Pair) -> list[str]:
             " what one model lacks; of files (not of tables) --refit fits both logs with all of it"
         )
     if p.before[0] is p.after[0]:
+        dated = np.isfinite(p.before[0].t)
+        if dated.any() and not dated.all():
+            out.append("not all logs have a date: they are taken in the order given")
         out.append("two logs do not tell how far logs scatter beyond the errors of their fits")
     return out
 
@@ -147,7 +168,7 @@ def judged_text(j: Judged) -> str:
     value = with_unit(j.value, j.unit, 4) if isfinite(j.value) else "unknown"
     interval = ""
     if isfinite(j.low) and isfinite(j.high) and j.low < j.high:
-        (low, high), unit = _numbers(j.unit, j.low, j.high)
+        (low, high), unit = _numbers(j.unit, j.low, j.high, digits=4)
         interval = f" ({low} to {high}{unit})"
     text = f"{noun(j.name)} {value}{interval}, {band_text(j)}: {j.holds.value}"
     if j.why:
@@ -162,10 +183,10 @@ def band_text(j: Judged) -> str:
     """A band as people say it."""
     low, high = j.band.low, j.band.high
     if isfinite(low) and isfinite(high):
-        (a, b), unit = _numbers(j.unit, low, high)
+        (a, b), unit = _numbers(j.unit, low, high, digits=SET)
         return f"band {a} to {b}{unit}"
     word, end = ("at least", low) if isfinite(low) else ("at most", high)
-    return f"{word} {with_unit(end, j.unit, 4)}"
+    return f"{word} {with_unit(end, j.unit, SET)}"
 
 
 def damper_texts(d: Damper) -> list[str]:
@@ -187,10 +208,14 @@ def head(found: Compared) -> str:
     changed = [
         d for d in found.dampers if d.changes or any(p.changes or p.together for p in d.pairs)
     ]
-    many, logs = len(found.dampers), found.logs
-    text = (
-        f"{len(changed) or 'none'} of {many} dampers changed"
-        if many > 1
-        else f"{'changed' if changed else 'nothing changed'} beyond the errors"
-    )
-    return f"{counted(logs, 'log')}, {text}"
+    many, alone = len(found.dampers), sum(not d.compared for d in found.dampers)
+    logs = counted(found.logs, "log")
+    if alone == many:
+        return f"{logs}, no damper with an earlier one"
+    if many > 1:
+        text = f"{len(changed) or 'none'} of {many} dampers changed"
+        return f"{logs}, {text}" + (f", {alone} without an earlier log" if alone else "")
+    pairs = found.dampers[0].pairs
+    if pairs and not any(p.told for p in pairs):
+        return f"{logs}, no change can be told"
+    return f"{logs}, {'changed' if changed else 'nothing changed'} beyond the errors"

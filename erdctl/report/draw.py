@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from erdctl.report.subject import Subject
+    from erdctl.report.subject import Flags, Subject
 
 LOOPS = 5  # typical cycles of a level
 POINTS = 500  # pixel columns of one cycle
@@ -98,21 +98,26 @@ def lines(ax: Axes, subject: Subject, across: str, force: Array, name: str, **ho
         )
 
 
-def typical(subject: Subject, force: Array, code: int, most: int = LOOPS) -> list[Index]:
+def typical(
+    subject: Subject, force: Array, code: int, most: int = LOOPS, when: Flags | None = None
+) -> list[Index]:
     """Samples of the cycles of one group that differ most in stroke, speed and force.
+
+    when : (n,) samples that count; None for all
 
     The cycles with the highest and the lowest force are among them. Where the duty changes within
     every cycle, the parts at that level; where there is no cycle, all samples in their order.
     """
-    r, codes = subject.recording, groups(subject).code
+    r, own = subject.recording, groups(subject).code == code
+    own = own if when is None else own & when
     first, end = subject.cycles
-    here = np.concatenate([[0], np.cumsum(codes == code)])
+    here = np.concatenate([[0], np.cumsum(own)])
     share = (here[end] - here[first]) / np.maximum(end - first, 1)
     usable = np.flatnonzero(share == 1.0)
     if not usable.size:
         usable = np.flatnonzero(share > PART)
     if not usable.size:
-        pieces = _runs(np.flatnonzero(codes == code), r.starts)
+        pieces = _runs(np.flatnonzero(own), r.starts)
         evenly = np.linspace(0, len(pieces) - 1, min(len(pieces), MANY)).astype(int)
         return [_thinned(pieces[i], force) for i in evenly.tolist()]
     a, b = first[usable], end[usable]
@@ -127,7 +132,7 @@ def typical(subject: Subject, force: Array, code: int, most: int = LOOPS) -> lis
     out = []
     for i in sorted(chosen):
         rows = np.arange(a[i], b[i])
-        out += [_thinned(run, force) for run in _runs(rows[codes[rows] == code], r.starts)]
+        out += [_thinned(run, force) for run in _runs(rows[own[rows]], r.starts)]
     return out
 
 

@@ -180,4 +180,6 @@ def part(
     rows = np.flatnonzero(keep)
     if len(rows) < 2:
         raise UsageProblem("span and records leave fewer than two samples")
-    return cut(subject, rows)
+    # What it is about is the whole log, and its number of samples not that of the picture.
+    drawn = f"{subject.about}; {len(rows):,} drawn" if subject.about else ""
+    return replace(cut(subject, rows), about=drawn)

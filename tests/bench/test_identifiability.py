@@ -181,3 +181,27 @@ def test_a_log_that_shows_nothing_is_surveyed() -> None:
     parameters, unseen = lacking(still)
     assert len(parameters) == 10
     assert {"backlash", "fluid_inertia", "field_threshold", "gas_polytropic"} <= unseen
+
+
+def test_what_is_said_of_a_direction_is_true_of_the_log() -> None:
+    """A control that follows the motion gives a field in compression alone; the log has one."""
+    r = sine(1.0, 0.01, 8.0, 0.0)
+    r = replace(r, duty=np.where(r.xdot > 0, 0.3, 0.0))
+    covers = {c.name: c for c in coverage.parameters(Survey.of(r))}
+    lack = covers["release.sigma"].lack
+    assert lack is not None
+    assert "in this direction" in lack.reason
+    assert {c.what for c in covers["release.sigma"].checks} == {
+        "samples that move this way", "samples that move this way with a duty above zero",
+        "highest over lowest duty above zero while it moves this way",
+    }  # fmt: skip
+    held = covers["compression.sigma"].lack
+    assert held is not None
+    assert "one duty level above zero in this direction" in held.reason
+
+
+def test_levels_are_counted_as_is_said() -> None:
+    """30 and 31 % are two levels of the log, and one of those 5 % apart."""
+    r = concatenate([sine(1.0, 0.01, 4.0, duty) for duty in (0.30, 0.31)])
+    found = REQUIREMENTS[Requirement.LEVELS].check(Survey.of(r), Bench.of(Survey.of(r)))
+    assert str(found) == "duty levels above zero, 5 % apart: 1, at least 3 needed"

@@ -244,3 +244,57 @@ def test_what_cannot_be_refitted_is_said(
 def test_campaign_tables_are_not_refitted(campaign: Path) -> None:
     done = run("compare", campaign, "--refit")
     assert (done.exit_code, "--refit takes" in done.stderr) == (2, True)
+
+
+def test_the_order_given_holds_where_not_all_have_a_date(tmp_path: Path) -> None:
+    """The file with a date came first, whatever was given, and the change had the other sign."""
+    a = damper(tmp_path / "old.json", 60.0)
+    b = damper(tmp_path / "new.json", 40.0, date="2024-05-01")
+    said = run("compare", a, b).stderr
+    assert "fell from 60 to 40" in said
+    assert "not all logs have a date" in said
+    c = damper(tmp_path / "older.json", 80.0, date="2020-05-01")
+    said = run("compare", b, c).stderr  # dates decide where all have one
+    assert "fell from 80 to 40" in said
+    assert "not all logs" not in said
+
+
+def test_what_cannot_be_told_or_was_not_compared_is_not_unchanged(tmp_path: Path) -> None:
+    """Ten times the viscosity and no error, or a single file: both were "unchanged"."""
+    paths = [damper(tmp_path / f"{c}.json", c) for c in (60.0, 600.0)]
+    for path in paths:
+        document = json.loads(path.read_text())
+        for d in ("compression", "release"):
+            document[d] = {symbol: {"value": v["value"]} for symbol, v in document[d].items()}
+        path.write_text(json.dumps(document))
+    done = run("compare", *paths, "--json")
+    assert json.loads(done.stdout)["dampers"][0]["attention"] == "cannot tell"
+    assert "2 logs, no change can be told" in done.stderr
+    assert "unchanged" not in done.stderr
+    page = tmp_path / "one.html"
+    done = run("compare", paths[0], "--json", "--report", page)
+    assert json.loads(done.stdout)["dampers"][0]["attention"] == "no earlier log"
+    assert "1 log, no damper with an earlier one" in done.stderr
+    assert "unchanged" not in done.stderr
+    assert "no parameter changed" not in page.read_text()
+    assert "no log has an earlier one" in page.read_text()
+
+
+def test_a_sentence_says_nothing_that_its_numbers_do_not(tmp_path: Path) -> None:
+    """0.02 of 60 is a change where the errors are 0.001: it was said to grow from 60 to 60, what
+    is the same to fall to itself, and a band to end at 70.1 where 70.123 was set."""
+    a, b = damper(tmp_path / "a.json", 60.0), damper(tmp_path / "b.json", 60.02)
+    for path in (a, b):
+        document = json.loads(path.read_text())
+        document["compression"]["c_vis"]["stderr"] = 0.001
+        path.write_text(json.dumps(document))
+    done = run("compare", a, b, "--json")
+    texts = {
+        d["parameter"]: d["text"]
+        for d in json.loads(done.stdout)["dampers"][0]["pairs"][0]["differences"]
+    }
+    assert texts["compression.c_vis"] == "c_vis in compression grew from 60 to 60.02 N s/m"
+    assert texts["compression.T_d"] == "T_d in compression is the same, 43 ms"
+    limits = tmp_path / "limits.toml"
+    limits.write_text("c_vis = { low = 70.123, high = 1234.5 }")
+    assert "band 70.123 to 1234.5 N s/m: fail" in run("compare", a, "--limits", limits).stderr

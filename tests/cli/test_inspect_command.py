@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 import pytest
 from places import FIXTURES
@@ -82,3 +83,37 @@ def test_a_bad_log_is_one_line(case: dict[str, Any], monkeypatch: pytest.MonkeyP
     assert len(errors) == 1
     for word in case["mentions"]:
         assert word.casefold() in errors[0].casefold()
+
+
+def log_of(path: Path, force: Any, **more: Any) -> Path:
+    t = np.arange(400) * 0.005
+    x = 0.01 * np.sin(6.0 * t)
+    columns = {"t": t, "x": x, "xdot": 0.06 * np.cos(6.0 * t), "duty": 0.2, "force": force}
+    pd.DataFrame({**columns, **more}).to_csv(path, index=False)
+    return path
+
+
+def test_a_force_without_steps_is_not_said_to_come_in_any(tmp_path: Path) -> None:
+    """The least difference of 400 noisy values is chance; of a force in steps of 0.5 N it is 0.5 N,
+    and of a constant one there is none."""
+    noisy = np.random.default_rng(1).normal(0.0, 3.0, 400)
+    for force, said in (
+        (noisy, "smallest difference seen between two values of the force is"),
+        (0.5 * np.rint(noisy / 0.5), "two values of the force is 0.5 N"),
+        (np.full(400, 5.0), "every value seen of the force is the same"),
+    ):
+        text = inspect(log_of(tmp_path / "log.csv", force)).stderr.decode()
+        assert said in text
+        assert "in steps of" not in text
+
+
+def test_the_zero_of_a_unit_is_shown_with_its_factor(tmp_path: Path) -> None:
+    """70 degF are 70 x 0.5556 - 17.78 = 21.11 degC; a log of other units has no such column."""
+    log = log_of(tmp_path / "log.csv", np.arange(400.0), temp=np.linspace(70.0, 74.0, 400))
+    row = next(
+        line.split() for line in
+        inspect(log, "--map", "temperature=temp[degF]").stderr.decode().splitlines()
+        if "temperature" in line
+    )  # fmt: skip
+    assert row[2:4] == ["0.5556", "-17.78"]
+    assert "plus" not in inspect(log).stderr.decode()

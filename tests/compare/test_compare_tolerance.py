@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from erdctl.compare.history import History, Series
 from erdctl.compare.tolerance import Band, Holds, Judged, Rule, judge
 from erdctl.compare.trend import trend
+from erdctl.io.limits_file import read_limits
 
 NONE = np.array([np.nan])
 DAMPER = "backlash.g"
@@ -84,3 +88,41 @@ def test_when_a_ramp_leaves_its_band() -> None:
     assert abs(j.reached[0] - truth) < 150
     out = Rule(name=DAMPER, unit="N", band=Band(low=99.0))
     assert judge(history, {DAMPER: found}, [out])[0].holds is Holds.FAIL
+
+
+def test_what_goes_into_its_band_does_not_leave_it() -> None:
+    """Falling, and 0.1 above a band now, which it goes into. It was said to
+    be out of it as it goes on, and its damper the next to fail."""
+    t = 18000.0 + 30.4375 * np.arange(60)
+    years, noise = (t - t[0]) / 365.25, np.random.default_rng(0).standard_normal(60)
+    s = Series(
+        name=DAMPER, unit="N", at=np.arange(60), t=t, value=100.0 - 5.0 * years + noise,
+        stderr=np.full(60, np.nan), low=np.full(60, np.nan), high=np.full(60, np.nan),
+    )  # fmt: skip
+    found = trend(s, 1e-4)
+    assert found is not None
+    history = History(damper="D", logs=("a",) * 60, t=t, series={DAMPER: s})
+    rule = Rule(name=DAMPER, unit="N", band=Band(high=found.now[0] - 0.1))
+    j = judge(history, {DAMPER: found}, [rule])[0]
+    assert j.holds is Holds.UNKNOWN
+    assert j.reached is None
+
+
+def test_an_effect_of_two_signs_may_be_on_either_side(tmp_path: Path) -> None:
+    """Named from 4 N on: a zero error of -4 N would not have been, and is out of -1 to 5 N. A play
+    of less than 4 mm cannot be negative."""
+    path = tmp_path / "limits.toml"
+    path.write_text(
+        '"force_offset.F_z" = { low = -1, high = 5 }\n"backlash.g" = { low = -1, high = "5 mm" }'
+    )
+    for rule in read_limits(str(path)):
+        signed = rule.name == "force_offset.F_z"
+        limit = 4.0 if signed else 4e-3
+        found = judge(unnamed(rule.name, limit), {}, [rule])[0]
+        assert (found.low, found.high) == (-limit if signed else 0.0, limit)
+        assert found.holds is (Holds.UNKNOWN if signed else Holds.PASS)
+
+
+def unnamed(name: str, limit: float) -> History:
+    h = one(np.nan, np.nan, 0.0, limit)
+    return replace(h, series={name: replace(h.series[DAMPER], name=name)})

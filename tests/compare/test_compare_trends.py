@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,7 @@ from erdctl.compare.scatter import extra_scatter, spread
 from erdctl.compare.shape import Course
 from erdctl.compare.trend import Trend, trend
 from erdctl.core.recording import Array
+from erdctl.report.changes import trend_text
 
 SURE = 0.02 / 300  # as in a fleet of 20 dampers with 15 parameters
 MONTH = 30.4375
@@ -98,6 +101,19 @@ def test_a_line() -> None:
     low, high = t.band(later)
     assert low[0] < 100.0 + 3.0 * (YEARS[-1] + 1.0) < high[0]
     assert high[0] - low[0] > 3.92 * t.spread
+
+
+def test_what_falls_falls_by_a_positive_rate() -> None:
+    """Both "fell" and a minus sign would say that it rose."""
+    rest, error = noise(5)
+    for slope, word in ((3.0, "grew"), (-3.0, "fell")):
+        t = found(100.0 + slope * YEARS + rest, error)
+        assert t.rate is not None
+        assert np.sign(t.rate[0]) == np.sign(slope)
+        said = re.fullmatch(rf"free play {word} .*, by (\S+) \+- (\S+) mm a year", trend_text(t))
+        assert said is not None, trend_text(t)
+        assert float(said[1]) == pytest.approx(1e3 * abs(t.rate[0]), rel=0.01)
+        assert float(said[2]) == pytest.approx(1e3 * t.rate[1], rel=0.01)
 
 
 def test_the_same_in_any_unit() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,10 +15,12 @@ from drawing import caught, labels, line, panels, run, units
 from places import FIXTURES
 from typer.testing import CliRunner
 
+from erdctl.bench.drive import drives
 from erdctl.cli.app import build
 from erdctl.report import pictures, style
 from erdctl.report.picture import figure
 from erdctl.report.subject import Subject
+from erdctl.report.subjects import located
 
 CAMPAIGN = FIXTURES / "healthy_campaign.parquet"
 SCHEDULE = FIXTURES / "schedule_60s.csv"
@@ -291,3 +294,48 @@ def test_slow_strokes_between_fast_ones_are_found(noise: float, folder: Path) ->
     pd.DataFrame({"t": t, "x": x, "xdot": xdot, "duty": 0.0, "force": force}).to_csv("a.csv")
     erdctl("plot", "a.csv", "--kind", "slow", "-o", "a.png")
     assert Path("a.png").exists()
+
+
+def test_a_fault_is_drawn_where_it_acts(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
+    """Half the oil is half the force, Eq. 20; the cycle at hand was one from before the onset."""
+    t = np.arange(0.0, 12.0, 0.005)
+    w = 4.0 * np.pi
+    late = pd.DataFrame({"t": t, "x": 0.01 * np.sin(w * t), "xdot": 0.01 * w * np.cos(w * t)})
+    late.assign(duty=np.where(t < 6.0, 0.1, 0.2)).to_csv("late.csv", index=False)
+    command = f"erdctl plot late.csv --params {TABLE_2} --fault oil=0.5@8 -o late.png"
+    (figure,) = run(command, monkeypatch, folder)
+    never, later = (ax for ax in panels(figure) if ax.get_title("left"))
+    assert never.get_title("left") == "PWM duty 10 %, no fault acts"
+    assert later.get_title("left") == "PWM duty 20 %"
+    top = {line.get_label(): np.nanmax(line.get_ydata()) for line in later.get_lines()}
+    assert top["oil=0.5@8"] == pytest.approx(0.5 * top["healthy"], rel=1e-6)
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["healthy", "oil=0.5@8"]
+
+
+def test_a_misfit_map_names_its_model_and_its_grey() -> None:
+    """One model is no "model before"; a cell of 4 samples is grey, and in the log all the same."""
+    r = drives(["sine:freq=1,amp=0.01,duty=0.1|0.2,hold=5,duration=20"])
+    force = 100.0 * r.xdot + np.random.default_rng(0).normal(0.0, 0.1, len(r))
+    r = replace(r, force=force)
+    missed = force - 5.0 * (np.abs(r.xdot) < 0.01)
+    subject = Subject(recording=r, modelled=missed, regions=located(r, missed))
+    for given, said in ((subject, ["model"]), (replace(subject, before=force),
+                        ["model before", "model"])):  # fmt: skip
+        left, right = panels(figure("misfit", given))
+        assert left.get_title("left") == "by velocity and PWM duty; grey: fewer than 5 samples"
+        legend = right.get_legend()
+        assert legend is not None
+        assert [text.get_text() for text in legend.get_texts()] == said
+
+
+def test_a_part_says_how_much_is_drawn(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
+    """2 s of 60 s at 200 Hz, both ends in it."""
+    for words, said in (
+        ("", "schedule_60s.csv: 12,000 samples"),
+        ("--span 2:4 ", "schedule_60s.csv: 12,000 samples; 401 drawn"),
+    ):
+        command = f"erdctl plot {SCHEDULE} {words}--kind motion -o a.png"
+        (found,) = run(command, monkeypatch, folder)
+        (corner,) = (t.get_text() for t in found.texts if "samples" in t.get_text())
+        assert corner.endswith(said)

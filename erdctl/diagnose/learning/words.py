@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from erdctl.diagnose import thresholds
+from erdctl.diagnose.findings import Finding
 from erdctl.diagnose.learning.stage import LearnedLaw
 from erdctl.model.learned.law import Law, LawSlot
 
@@ -40,16 +41,25 @@ def law_text(found: LearnedLaw) -> str:
     """A law, how far it goes, and what it is worth."""
     law, worth = found.law, found.finding
     text = law_words(law, found.tau) + _course(found)
-    text += (
-        f": leaving it out costs {100 * worth.gain.gain:.0f} % of the mean square error on data"
-        f" that the fit had not seen (NRMSE {worth.before:.4f} without it, {worth.after:.4f} with"
-        " it)"
-    )
+    text += f": {worth_text(worth)}"
     if found.alike:
         text += f"; as well would do {' or '.join(law_words(a) for a in found.alike)}"
     if worth.test is not None:
         text += worth.test.advice("them apart")
     return text
+
+
+def worth_text(worth: Finding) -> str:
+    """How much less a model misses with an effect or a law than without.
+
+    The gain is a part of what is missed without it, so what leaving it out adds, as a part of what
+    is missed with it, may be several times that.
+    """
+    return (
+        "with it the mean square error on data that the fit had not seen is"
+        f" {100 * worth.gain.gain:.0f} % lower (NRMSE {worth.before:.4f} without it,"
+        f" {worth.after:.4f} with it)"
+    )
 
 
 def _course(found: LearnedLaw) -> str:

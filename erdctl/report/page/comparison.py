@@ -13,6 +13,7 @@ from erdctl.compare.tolerance import Holds
 from erdctl.compare.trend import Trend
 from erdctl.core.messages import counted
 from erdctl.report.changes import (
+    SET,
     damper_texts,
     head,
     month,
@@ -34,7 +35,7 @@ MONTH = 30.4375  # days
 def comparison_page(found: Compared, *, run: Run) -> str:
     """The page."""
     dampers = found.dampers[:ROWS]
-    detailed = [d for d in dampers if d.attention is not Attention.QUIET][:DETAILS]
+    detailed = [d for d in dampers if d.attention < Attention.QUIET][:DETAILS]
     figures, details = _details(detailed)
     urgent = [d for d in details if d["said"]]
     changed = [n for d in dampers for n, t in d.trends.items() if t.changed]
@@ -55,6 +56,7 @@ def comparison_page(found: Compared, *, run: Run) -> str:
         urgent=urgent[:FIRST],
         more=max(0, len(urgent) - FIRST),
         checks=_checks(found),
+        compared=any(d.compared for d in found.dampers),
         sure=_sure(found),
         columns=[noun(n) for n in columns],
         rows=[_row(d, columns, ids.get(id(d), "")) for d in dampers],
@@ -68,7 +70,8 @@ def _mood(found: Compared) -> str:
     first = min((d.attention for d in found.dampers), default=Attention.QUIET)
     if first is Attention.FAILS:
         return "bad"
-    return "good" if first is Attention.QUIET else "mid"
+    alone = first is Attention.ALONE and not found.count(Holds.PASS)
+    return "mid" if first < Attention.QUIET or alone else "good"
 
 
 def _period(found: Compared) -> str:
@@ -153,7 +156,7 @@ def _figure(d: Damper, t: Trend) -> Json:
         corners[2] = np.nextafter(corners[1], np.inf)
     named = s.named
     marks = [
-        {"value": end * factor, "text": f"limit {digits(end * factor, 3)}"}
+        {"value": end * factor, "text": f"limit {digits(end * factor, SET)}"}
         for j in d.judged if j.name == s.name for end in (j.band.low, j.band.high) if isfinite(end)
     ]  # fmt: skip
     bands = []

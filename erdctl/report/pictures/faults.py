@@ -6,37 +6,55 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from erdctl.model.faults import parse_fault
 from erdctl.report import draw, style, thin
 from erdctl.report.kind import Picture
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from erdctl.report.subject import Subject
+    from erdctl.report.subject import Flags, Subject
 
 COLUMNS = 3
 
 
 def faults(figure: Figure, subject: Subject) -> None:
-    """A column for each level (lowest, middle, highest), deflection above, velocity below."""
+    """A column for each level (lowest, middle, highest), deflection above, velocity below.
+
+    Over cycles in which the fault acts: in others the faulty damper is a healthy one.
+    """
     shown = shown_levels(subject)
     panels = figure.subplots(2, len(shown), sharey=True, sharex="row", squeeze=False)
-    forces = list(subject.cases.values())
+    looks = dict(zip(subject.cases, style.series(len(subject.cases)), strict=True))
+    healthy, *faulty = subject.cases
     for column, code in enumerate(shown):
-        loops = draw.typical(subject, forces[0], code)
+        loops = {
+            name: draw.typical(subject, subject.cases[name], code, when=_acts(name, subject))
+            for name in faulty
+        }
+        acting = any(loops.values())
+        loops[healthy] = [piece for own in loops.values() for piece in own] or draw.typical(
+            subject, subject.cases[healthy], code
+        )
         for row, across in enumerate(("x", "xdot")):
             ax = panels[row, column]
             scale, _ = style.label(ax, across, "force")
             if column:
                 ax.set_ylabel("")
-            for (name, force), (colour, ls) in zip(
-                subject.cases.items(), style.series(len(forces)), strict=True
-            ):
-                x, y = thin.joined(loops, getattr(subject.recording, across), force)
-                ax.plot(x * scale, y, color=colour, ls=ls, label=name)
-        panels[0, column].set_title(f"PWM duty {style.percent(subject.levels[code])}")
-    handles, labels = panels[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower left", ncols=4)
+            for name, force in subject.cases.items():
+                x, y = thin.joined(loops[name], getattr(subject.recording, across), force)
+                ax.plot(x * scale, y, color=looks[name][0], ls=looks[name][1], label=name)
+        level = f"PWM duty {style.percent(subject.levels[code])}"
+        panels[0, column].set_title(level if acting else f"{level}, no fault acts")
+    marks = [draw.mark(name, color=colour, ls=ls) for name, (colour, ls) in looks.items()]
+    figure.legend(handles=marks, loc="outside lower left", ncols=4)
+
+
+def _acts(spec: str, subject: Subject) -> Flags:
+    """(n,) samples at which a fault acts, as `--fault` describes it."""
+    fault, t = parse_fault(spec), subject.recording.t
+    begins = t >= (-np.inf if fault.start is None else fault.start)
+    return begins & (t < (np.inf if fault.end is None else fault.end))
 
 
 def shown_levels(subject: Subject) -> list[int]:

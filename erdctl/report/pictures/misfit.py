@@ -10,7 +10,7 @@ from erdctl.core.signals import Signals
 from erdctl.diagnose.residual.localisation import UNITS, variables
 from erdctl.report import style
 from erdctl.report.kind import Picture
-from erdctl.score.misfit import along, edges_of, misfit_map
+from erdctl.score.misfit import FEWEST, along, edges_of, misfit_map
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -59,7 +59,7 @@ def misfit(figure: Figure, subject: Subject) -> None:
     )
     left.grid(False)
     figure.colorbar(mesh, ax=left, label="misfit [N rms]", pad=0.02)
-    left.set_title("by velocity and PWM duty; grey: not in the log")
+    left.set_title(f"by velocity and PWM duty; grey: fewer than {FEWEST} samples")
 
 
 def _profile(ax: Axes, subject: Subject, before: Array) -> None:
@@ -74,7 +74,8 @@ def _profile(ax: Axes, subject: Subject, before: Array) -> None:
     if high - low > 12 * width > 0:  # else the region would be a line
         low, high = max(low, region.low - 5 * width), min(high, region.high + 5 * width)
     edges = edges_of(np.array([low, high]))
-    forces = {subject.names[2]: before}
+    # One model alone is before nothing.
+    forces = {subject.names[1 if subject.before is None else 2]: before}
     if subject.before is not None and subject.modelled is not None:
         forces[subject.names[1]] = subject.modelled
     for (name, force), (colour, ls) in zip(forces.items(), style.series(3)[1:], strict=False):
