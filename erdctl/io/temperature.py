@@ -21,6 +21,7 @@ from erdctl.io.logs import Log
 from erdctl.io.units import WrongUnit, between, listed, name_and_unit
 
 TARGET = "temperature"
+COLDEST = -273.0  # degC, of a limit
 UNITS_OF_IT = ("degC", "degF", "K", "degR")
 
 # Parts of words that mean a temperature in any place, without accents and in lower case.
@@ -121,13 +122,16 @@ def guarded(
 
     say_map, say_decline : how a caller writes these options, `{}` for what is mapped
 
-    Raises UsageProblem if only a column that is not read looks like a temperature.
+    Raises UsageProblem for what is no temperature, whether or not the log has one, and if only a
+    column that is not read looks like one.
     """
+    if not limit >= COLDEST:
+        raise UsageProblem(f"the highest temperature is in degC, not {limit:g}")
     declined = declined or limit == float("inf")
     recording = log.recording
     found = looks_like_temperatures(log.unread, log.units)
     mapped = next((c for c in log.channels if c.name == TARGET), None)
-    name = _files(recording)
+    name = files_of(recording)
     if mapped is not None and recording.temperature is None and not declined:
         raise UsageProblem(
             f"{name}: only some of the logs have a column '{mapped.column}', so that the others may"
@@ -164,7 +168,8 @@ def _overlooked(found: list[LikelyTemperature], say_map: str, say_decline: str) 
     )
 
 
-def _files(recording: Recording) -> str:
+def files_of(recording: Recording) -> str:
+    """The files that a log came from, in words."""
     names = [s.name for s in recording.sources]
     return listed(names, 3) if names else "the log"
 
