@@ -8,15 +8,15 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from c_built import block_of, forces
-from c_motion import bench
+from c_built import block_of, forces, parameters_of
+from c_motion import bench, random_motion
 from places import FIXTURES
 from typer.testing import CliRunner
 
 import erdctl
 from erdctl.cli.app import build
 from erdctl.effects import catalogue, get
-from erdctl.export.c.source import on_the_vehicle
+from erdctl.export.c.source import on_the_vehicle, write_c
 from erdctl.io.parameters import read_parameters
 from erdctl.model.composed import Model
 
@@ -53,6 +53,19 @@ def test_it_is_what_the_block_computes(name: str, tmp_path: Path) -> None:
     expected = forces(block_of(Model((get(name),)), parameters.values, s), s)
     found = erdctl.simulate(file, LOG).force
     assert np.abs(found - expected).max() <= 1e-9 * np.ptp(expected)
+
+
+@pytest.mark.parametrize("spring", ["fluid_compressibility", "mount_compliance"])
+def test_a_spring_is_the_same_on_a_road_that_is_faster_than_the_bench(spring: str) -> None:
+    """The laws behind it are tabulated: up to the speeds of the bench alone they stood still."""
+    effects = tuple(get(name) for name in (spring, "shear_thinning"))
+    values = {e.key(q.symbol): q.start for e in effects for q in e.quantities}
+    values |= read_parameters(str(FIXTURES / "table_2.json")).values
+    s = random_motion()
+    model, slow = Model(effects), 0.1 * float(np.abs(s.xdot).max())
+    block = write_c(parameters_of(model, values, ranges={"xdot": [-slow, slow]}), prefix="damper")
+    expected = model.past_alone().force(s, values)
+    assert np.abs(forces(block, s) - expected).max() <= 1e-9 * np.ptp(expected)
 
 
 def test_with_and_without_the_bench_it_is_the_same_on_the_command_line(tmp_path: Path) -> None:
