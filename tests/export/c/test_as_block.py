@@ -55,6 +55,21 @@ def test_it_is_what_the_block_computes(name: str, tmp_path: Path) -> None:
     assert np.abs(found - expected).max() <= 1e-9 * np.ptp(expected)
 
 
+@pytest.mark.parametrize("T_d", [0.0, 0.02])
+def test_that_a_block_does_not_know_the_step_ahead_is_said(T_d: float, tmp_path: Path) -> None:
+    """Without a lag the force at a sample is that of a duty that still slews in the step ahead."""
+    path = Path(damper(tmp_path, "supply_slew", "field_saturation"))
+    document = json.loads(path.read_text())
+    for way in ("compression", "release"):
+        document[way]["T_d"]["value"] = T_d
+    path.write_text(json.dumps(document))
+    said = run(str(path), LOG, "--causal", "-o", str(tmp_path / "out.csv"))
+    header = write_c(read_parameters(str(path)), prefix="damper").header
+    assert ("supply_slew: in a block, without T_d" in said) is (T_d == 0.0)
+    assert ("supply_slew, in C: without T_d" in header) is (T_d == 0.0)
+    assert "field_saturation: in a block" not in said
+
+
 @pytest.mark.parametrize("spring", ["fluid_compressibility", "mount_compliance"])
 def test_a_spring_is_the_same_on_a_road_that_is_faster_than_the_bench(spring: str) -> None:
     """The laws behind it are tabulated: up to the speeds of the bench alone they stood still."""
