@@ -17,6 +17,7 @@ from typing import Any, Literal
 
 from erdctl.core.errors import UsageProblem
 from erdctl.core.recording import Recording
+from erdctl.io.identity import STDIN
 from erdctl.io.logs import Log
 from erdctl.io.units import WrongUnit, between, listed, name_and_unit
 
@@ -170,7 +171,7 @@ def _overlooked(found: list[LikelyTemperature], say_map: str, say_decline: str) 
 
 def files_of(recording: Recording) -> str:
     """The files that a log came from, in words."""
-    names = [s.name for s in recording.sources]
+    names = ["stdin" if s.name == STDIN else s.name for s in recording.sources]
     return listed(names, 3) if names else "the log"
 
 
