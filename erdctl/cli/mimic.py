@@ -107,7 +107,7 @@ def command(
     from erdctl.core.labels import labels_of
     from erdctl.io import documents, pwm
     from erdctl.io.parameters import parse_parameters
-    from erdctl.io.temperature import guarded
+    from erdctl.io.temperature import files_of, guarded
     from erdctl.mimic.sequence import at_duty, sequence, strain, too_hot
     from erdctl.mimic.trusted import refuse_untrusted
     from erdctl.model.amplifier import Amplifier
@@ -149,7 +149,10 @@ def command(
         say(line)
     heat = None if guard.limit is None else too_hot(read.recording, guard.limit)
     if heat is not None and not force:
-        raise InputProblem(f"{heat}; nothing was written (--force overrides, Sec. 5.4)")
+        raise InputProblem(
+            f"{heat}; nothing was written (--force overrides, Sec. 5.4)",
+            file=files_of(read.recording),
+        )
     if heat is not None:
         say(heat, "warning")
     recording = at_duty(read.recording, duty, "--duty")

@@ -232,16 +232,21 @@ def _limits(found: InForce, context: Any, of: Sequence[Labels]) -> Chosen:
             name = key.split(".")[1]
             if name not in own or not _applies(context, name):
                 continue
-            if name not in out or looser(name, out[name][1].value, said.value):
+            last = out[name][1].value if name in out else None
+            # Of two resolutions that do not fit into each other the coarser.
+            if last is None or (looser(name, last, said.value)
+                                and not _off_steps(name, last, said.value)):  # fmt: skip
                 out[name] = (tuple(key.split(".")), said)
     for name, (keys, said) in out.items():
         flag, value = f"--{name.replace('_', '-')}", context.params.get(name)
         limit = f"{said.key(*keys)} = {_shown(said.value)} of {project.name}"
         key = ".".join(keys)
         if said.at and key in general and looser(name, said.value, general[key].value):
-            say(f"{limit} is beyond {key} = {_shown(general[key].value)}, and holds", "warning")
+            how = _how(name, said.value, general[key].value)
+            say(f"{limit} is {how} {key} = {_shown(general[key].value)}, and holds", "warning")
         if is_given(context, name) and looser(name, value, said.value):
-            say(f"{flag} {_shown(value)} is beyond {limit}; the command line holds", "warning")
+            how = _how(name, value, said.value)
+            say(f"{flag} {_shown(value)} is {how} {limit}; the command line holds", "warning")
         if name == "max_temperature" and context.params.get("ignore_temperature"):
             say(f"--ignore-temperature sets {limit} aside", "warning")
     if own & LOOSER.keys() and _limited(context):
@@ -269,7 +274,25 @@ def looser(name: str, value: Any, limit: Any) -> bool:
     if name not in LOOSER:
         return False
     way = LOOSER[name]
-    return bool(value != limit) if way is None else not way * value <= way * limit
+    if way is None:
+        return bool(value != limit)
+    return not way * value <= way * limit or _off_steps(name, value, limit)
+
+
+def _off_steps(name: str, value: float, limit: float) -> bool:
+    """Whether a resolution is coarser than another, but not made of its steps.
+
+    An amplifier with steps of 0.01 knows no duty of 0.015.
+    """
+    if name != "resolution" or not 0.0 < limit < value:
+        return False
+    steps = value / limit
+    return abs(steps - round(steps)) > 1e-6 * steps
+
+
+def _how(name: str, value: float, limit: float) -> str:
+    """How a looser value stands to its limit, in words."""
+    return "no multiple of" if _off_steps(name, value, limit) else "beyond"
 
 
 def _left_aside(context: Any) -> None:

@@ -46,10 +46,12 @@ def command(
     its first sample; the duty is held from each sample to the next; sign(0) = 0.
 
     What is known at a sample is of the past alone, as on a vehicle: the force is that of the block
-    which `erdctl export` writes, to the last digits. Effects of the bench (a drift of the load
-    cell, a skew of its clock) are no part of a block; --causal leaves them out here too, and says
-    so, to check one against the other. A fit, which has the whole log, looks ahead in two places,
-    which cost little: `fluid_inertia`, and how `presliding_friction` begins.
+    which `erdctl export` writes, to the last digits. Of a record that begins at rest the direction
+    of the first motion is known as well; a block takes it for compression unless it is told
+    (first_compressing of an FMU, the function PREFIX_begin of C). Effects of the bench (a drift of
+    the load cell, a skew of its clock) are no part of a block; --causal leaves them out here too,
+    and says so, to check one against the other. A fit, which has the whole log, looks ahead in two
+    places, which cost little: `fluid_inertia`, and how `presliding_friction` begins.
 
     A long Parquet or Arrow file is read in stretches, and may be larger than memory.
 

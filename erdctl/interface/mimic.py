@@ -14,7 +14,7 @@ from erdctl.interface.arguments import Given, ParametersLike, given_parameters
 from erdctl.interface.display import draw, frame_of, html, option, text
 from erdctl.interface.log import BenchLog, LogLike, Place, log_of, samples, texts
 from erdctl.io import documents, pwm
-from erdctl.io.temperature import TemperatureGuard, guarded
+from erdctl.io.temperature import TemperatureGuard, files_of, guarded
 from erdctl.mimic.sequence import (
     PwmSequence,
     at_duty,
@@ -209,7 +209,9 @@ def mimic(
     )  # fmt: skip
     heat = None if guard.limit is None else too_hot(read.recording, guard.limit)
     if heat is not None:
-        raise InputProblem(f"{heat}; max_temperature=None overrides (Sec. 5.4)")
+        raise InputProblem(
+            f"{heat}; max_temperature=None overrides (Sec. 5.4)", file=files_of(read.recording)
+        )
     recording = at_duty(read.recording, duty, "duty")
     found = sequence(
         given.parameters, recording, chosen, amplifier, static=uncompensated,

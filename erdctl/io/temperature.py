@@ -17,10 +17,12 @@ from typing import Any, Literal
 
 from erdctl.core.errors import UsageProblem
 from erdctl.core.recording import Recording
+from erdctl.io.identity import STDIN
 from erdctl.io.logs import Log
 from erdctl.io.units import WrongUnit, between, listed, name_and_unit
 
 TARGET = "temperature"
+COLDEST = -273.0  # degC, of a limit
 UNITS_OF_IT = ("degC", "degF", "K", "degR")
 
 # Parts of words that mean a temperature in any place, without accents and in lower case.
@@ -121,13 +123,16 @@ def guarded(
 
     say_map, say_decline : how a caller writes these options, `{}` for what is mapped
 
-    Raises UsageProblem if only a column that is not read looks like a temperature.
+    Raises UsageProblem for what is no temperature, whether or not the log has one, and if only a
+    column that is not read looks like one.
     """
+    if not limit >= COLDEST:
+        raise UsageProblem(f"the highest temperature is in degC, not {limit:g}")
     declined = declined or limit == float("inf")
     recording = log.recording
     found = looks_like_temperatures(log.unread, log.units)
     mapped = next((c for c in log.channels if c.name == TARGET), None)
-    name = _files(recording)
+    name = files_of(recording)
     if mapped is not None and recording.temperature is None and not declined:
         raise UsageProblem(
             f"{name}: only some of the logs have a column '{mapped.column}', so that the others may"
@@ -164,8 +169,9 @@ def _overlooked(found: list[LikelyTemperature], say_map: str, say_decline: str) 
     )
 
 
-def _files(recording: Recording) -> str:
-    names = [s.name for s in recording.sources]
+def files_of(recording: Recording) -> str:
+    """The files that a log came from, in words."""
+    names = ["stdin" if s.name == STDIN else s.name for s in recording.sources]
     return listed(names, 3) if names else "the log"
 
 

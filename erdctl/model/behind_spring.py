@@ -26,12 +26,15 @@ if TYPE_CHECKING:  # it is compiled, and to load a compiler costs an export 0.3 
     from erdctl.model.at_speed import Other
 
 NODES = 192  # of the speed grid: laws between nodes are straight lines
+# m/s that the grid is made for at least. One made for a bench would be left on a road, and what a
+# log is simulated on would depend on which samples it has.
+FASTEST = 1.0
 
 
 @lru_cache(maxsize=64)
 def speed_grid(fastest: float) -> Array:
     """(NODES,) speeds [m/s] on which laws are tabulated, well beyond the fastest recorded one."""
-    return np.geomspace(1e-7, 4.0 * max(fastest, 1e-3), NODES)
+    return np.geomspace(1e-7, 4.0 * max(fastest, FASTEST), NODES)
 
 
 def level_beyond(law: Array) -> Array:

@@ -184,7 +184,9 @@ def test_limits_hold_in_mimic(lab: Path) -> None:
     assert pd.read_csv("p.csv")["duty"].max() == pytest.approx(0.2)
     assert "warning: --" not in said
     hot = [*MIMIC[:2], str(FIXTURES / "schedule_hot.csv"), *MIMIC[3:]]
-    assert "50" in erdctl(*hot, code=3).stderr
+    error = erdctl(*hot, code=3).stderr
+    assert "limit of 50 degC" in error
+    assert f"erdctl: error: {hot[2]}: the damper reached" in error  # not the parameter file too
 
 
 @pytest.mark.parametrize(
@@ -193,6 +195,7 @@ def test_limits_hold_in_mimic(lab: Path) -> None:
         (["--duty-max", "0.4"], "--duty-max 0.4 is beyond amplifier.duty_max = 0.2"),
         (["--slew", "9"], "--slew 9 is beyond amplifier.slew = 5"),
         (["--resolution", "0"], "--resolution 0 is beyond amplifier.resolution = 0.01"),
+        (["--resolution", "0.015"], "--resolution 0.015 is no multiple of amplifier.resolution"),
         (["--max-temperature", "60"], "--max-temperature 60 is beyond rig.max_temperature = 50"),
         (["--ignore-temperature"], "--ignore-temperature sets rig.max_temperature = 50"),
         (["--no-project"], "no project file is used, nor the limits in"),
@@ -204,8 +207,8 @@ def test_a_limit_is_never_loosened_in_silence(lab: Path, words: list[str], said:
     project(LIMITS)
     assert f"erdctl: warning: {said}" in erdctl(*MIMIC, *words, "--quiet").stderr
     # What is tighter needs no word.
-    tight = erdctl(*MIMIC, "--duty-max", "0.1", "--slew", "1", "--quiet").stderr
-    assert "beyond" not in tight
+    tight = ["--duty-max", "0.1", "--slew", "1", "--resolution", "0.03"]
+    assert "warning: --" not in erdctl(*MIMIC, *tight, "--quiet").stderr
 
 
 def test_limits_of_a_damper(lab: Path) -> None:

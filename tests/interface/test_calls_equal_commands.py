@@ -212,6 +212,7 @@ def test_wrong_options_and_things_are_refused() -> None:
 
 def test_a_hot_log_is_refused() -> None:
     hot = FIXTURES / "schedule_hot.csv"
-    with pytest.raises(erdctl.ErdctlError, match=r"above the limit of 60 degC; max_temperature"):
+    said = r"schedule_hot.csv: .* above the limit of 60 degC; max_temperature"
+    with pytest.raises(erdctl.ErdctlError, match=said):
         erdctl.mimic(TABLE_2, hot, "oil=0.5@1:5")
     assert erdctl.mimic(TABLE_2, hot, "oil=0.5@1:5", max_temperature=None).to_dict()

@@ -120,6 +120,22 @@ def test_python_does_the_same() -> None:
     }  # fmt: skip
 
 
+@pytest.mark.parametrize(("name", "code"), [("temperature", 3), ("Oil [degC]", 2)])
+def test_a_log_on_stdin_is_called_so(name: str, code: int) -> None:
+    call = ["mimic", str(TABLE_2), "-", "--fault", "oil=0.5"]
+    run = CliRunner().invoke(build(["mimic"]), call, input=log(name, 90.0).to_csv(index=False))
+    assert run.exit_code == code
+    assert run.stderr.startswith("erdctl: error: stdin: ")
+
+
+@pytest.mark.parametrize("limit", [float("nan"), -300.0, float("-inf")])
+@pytest.mark.parametrize("name", ["temperature", "pressure"])
+def test_a_limit_that_is_no_temperature_is_refused(name: str, limit: float) -> None:
+    """Also where the log has none: the manifest would state it."""
+    with pytest.raises(UsageProblem, match="the highest temperature is in degC"):
+        erdctl.mimic(TABLE_2, log(name), "oil=0.5", max_temperature=limit)
+
+
 def test_one_of_several_is_enough_and_the_others_are_named() -> None:
     given = log("temperature").assign(**{"Oil RL [degC]": 90.0})
     found = erdctl.mimic(TABLE_2, given, "oil=0.5")

@@ -9,12 +9,10 @@ from erdctl.export.c.functions import call, function, law_of
 from erdctl.export.c.hooks import AT, total
 from erdctl.export.c.layout import CMember
 from erdctl.export.c.names import identifier, part
-from erdctl.model.behind_spring import masses, refuse, sliding
+from erdctl.model.behind_spring import FASTEST, masses, refuse, sliding
 from erdctl.model.effect import Effect, in_slot
 from erdctl.model.parameters import Parameters
 from erdctl.model.slots import FeedbackSlot, HysteresisSlot, SeriesSlot, SignSlot, YieldSlot
-
-FASTEST = 1.0  # m/s, where the logs do not say
 
 
 def spring_of(effects: Sequence[Effect]) -> Effect | None:
@@ -42,7 +40,7 @@ def fastest(parameters: Parameters) -> CMember:
     ranges = dict(parameters.provenance.get("ranges", {}))
     ends = [abs(float(e)) for e in ranges.get("xdot", ())]
     return CMember(
-        "fastest", max(ends, default=FASTEST), "m/s",
+        "fastest", max([FASTEST, *ends]), "m/s",
         "highest speed of the rod: the laws behind the spring are tabulated up to four times of it",
     )  # fmt: skip
 

@@ -175,11 +175,16 @@ def _stroke(
     seen: tuple[float, float] | None, asked: float | None, remarks: list[str]
 ) -> tuple[float, float]:
     """Centre and amplitude: half the way to the nearer end of what was seen, about 0 if it can."""
-    low, high = (-STROKE, STROKE) if seen is None else seen
+    known, (low, high) = seen is not None, seen or (-STROKE, STROKE)
     centre = 0.0 if low < 0.0 < high else 0.5 * (low + high)
     reach = min(centre - low, high - centre)
     if reach < 2.0 * SMALLEST:
-        centre, reach = 0.5 * (low + high), STROKE
+        known, centre, reach = False, 0.5 * (low + high), STROKE
+    if not known and asked is None:
+        remarks.append(
+            "the parameters do not say which stroke they were identified on: the sines of the"
+            f" table have {0.5 * reach:g} m; --amplitude gives another"
+        )
     if asked is not None and seen is not None and asked > (1.0 + BEYOND) * reach:
         remarks.append(
             f"the sines of the table have {asked:.3g} m, but the parameters were identified on"

@@ -14,6 +14,8 @@ from erdctl.export.tables.static_cost import Cost
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
 
+SEEN = 1e-3  # of the range of a table's forces: a step that is smaller is none
+
 
 def taken(table: PeakMap) -> list[str]:
     """How the forces were taken, and what their errors are."""
@@ -22,18 +24,38 @@ def taken(table: PeakMap) -> list[str]:
         f"force at the highest speed of steady sines of {1e3 * g.amplitude:.4g} mm about"
         f" x = {1e3 * g.centre:.4g} mm, the duty held; in between, interpolate linearly"
     )
-    jump = (
-        f"no row at speed 0: the force jumps where the motion turns, and what is looked up between"
-        f" {1e3 * _inner(table, -1):.3g} and {1e3 * _inner(table, 1):.3g} mm/s is a line over that"
-        " jump"
+    # In words, as a file may have the signs turned.
+    between = (
+        f"{1e3 * _inner(table, -1):.3g} mm/s in release and {1e3 * _inner(table, 1):.3g} mm/s in"
+        " compression"
     )
+    jump = f"no row at speed 0: what is looked up between {between} is a straight line"
+    if _jumps(table):
+        jump = (
+            "no row at speed 0: the force jumps, or nearly so, where the motion turns, and what is"
+            f" looked up between {between} is a line over that jump"
+        )
     warm = [] if g.temperature is None else [f"at a temperature of {g.temperature:g} degC"]
     return [how, jump, *warm, *_errors(table)]
 
 
+def _jumps(table: PeakMap) -> bool:
+    """Whether the curve of any duty, drawn on to speed 0 from both sides, has a step there.
+
+    Without control the paper's damper has none: F = k_nom x + c_vis xdot.
+    """
+    v, force = table.grid.speed, table.force
+    n = len(v) // 2
+    ends = [
+        force[i] - v[i] * (force[k] - force[i]) / (v[k] - v[i])
+        for i, k in ((n - 1, n - 2), (n, n + 1))
+    ]
+    return bool(np.abs(ends[1] - ends[0]).max() > SEEN * np.ptp(force))
+
+
 def _inner(table: PeakMap, way: int) -> float:
     v = table.grid.speed
-    return float(v[v * way > 0][0 if way > 0 else -1])
+    return float(abs(v[v * way > 0][0 if way > 0 else -1]))
 
 
 def _errors(table: PeakMap) -> list[str]:

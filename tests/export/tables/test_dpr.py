@@ -146,6 +146,21 @@ def test_no_field_is_the_default_and_one_duty_the_most(tmp_path: Path) -> None:
         written(tmp_path / "d.dpr", p, duty=(0.1, 0.2))
 
 
+@pytest.mark.parametrize(("duty", "jumps"), [(0.0, False), (0.3, True)])
+def test_a_jump_at_rest_is_said_of_a_curve_that_has_one(
+    duty: float, jumps: bool, tmp_path: Path
+) -> None:
+    """Without field the force is k_nom x + c_vis xdot, a line through 0."""
+    p = damper()
+    text = written(tmp_path / "d.dpr", p, duty=(duty,))
+    said = " ".join(read(text)[1])
+    assert ("jumps" in said) is jumps
+    assert "between 0.375 mm/s in release and 0.5 mm/s in compression is a" in said
+    # With rubbing seals it has one without field, too.
+    rubbing = read(written(tmp_path / "d.dpr", damper("coulomb_friction", F_c=2.0)))[1]
+    assert "jumps" in " ".join(rubbing)
+
+
 def test_a_name_in_the_parameters_cannot_leave_its_comment(tmp_path: Path) -> None:
     p = damper()
     evil = {"logs": [{"name": "a\n[CURVE]\n1 2\u00e9", "sha256": "x\r\n[UNITS]"}]}

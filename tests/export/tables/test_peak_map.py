@@ -97,15 +97,18 @@ def test_speeds_and_duties_are_those_that_were_seen() -> None:
     far = grid(damper(), Asked(speed=0.5, duty=(0.9,), amplitude=0.05))
     assert ["identified on" in r for r in far.remarks] == [True] * 3
     unknown = grid(damper(ranges=None), Asked())
-    assert len(unknown.remarks) == 2
-    assert "do not say" in unknown.remarks[0]
+    assert ["do not say which" in r for r in unknown.remarks] == [True] * 3
+    assert "sines of the table have 0.01 m; --amplitude gives another" in unknown.remarks[2]
+    assert len(grid(damper(ranges=None), Asked(amplitude=0.005)).remarks) == 2
     # A rod that never was at x = 0.
     off = grid(damper(ranges={"x": [0.01, 0.03]}), Asked())
     assert (off.centre, off.amplitude) == pytest.approx((0.02, 0.005))
     # One duty, one direction, no stroke: what can be said is.
     assert grid(damper(ranges={"duty": [0.2, 0.2]}), Asked()).duty.tolist() == [0.2]
     assert grid(damper(ranges={"xdot": [0.0, 0.1]}), Asked()).speed[0] == -0.2
-    assert grid(damper(ranges={"x": [0.0, 0.0]}), Asked()).amplitude > 0
+    still = grid(damper(ranges={"x": [0.0, 0.0]}), Asked())
+    assert still.amplitude > 0
+    assert "do not say which stroke" in still.remarks[-1]
     # What no damper can have had is no range.
     for wrong in ({"duty": [0.0, 40.0]}, {"duty": [0.4, 0.1]}, {"xdot": [-1e300, 1e300]}):
         odd = grid(damper(ranges=wrong), Asked())
