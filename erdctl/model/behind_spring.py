@@ -25,7 +25,7 @@ from erdctl.model.slots import (
 if TYPE_CHECKING:  # it is compiled, and to load a compiler costs an export 0.3 s
     from erdctl.model.at_speed import Other
 
-NODES = 192  # of the speed grid: laws between nodes are straight lines
+NODES = 256  # of the speed grid: laws between nodes are straight lines
 # m/s that the grid is made for at least. One made for a bench would be left on a road, and what a
 # log is simulated on would depend on which samples it has.
 FASTEST = 1.0

@@ -4,7 +4,7 @@
  *     F = gas(x - e) + viscous(v) + F_ER sign(v) + friction(v)
  *
  * implicit in v, with a stick branch v = 0; laws of v between their nodes are straight lines. */
-enum { NODES = 192 };
+enum { NODES = 256 };
 typedef struct PREFIX_spring Spring;
 
 static const real BEGUN = K(0.16);  /* s that a first force has acted before: as in 1 Hz */

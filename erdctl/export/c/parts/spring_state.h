@@ -1,6 +1,6 @@
     /* A spring in series: laws on speeds, for compression and release, and what marches with it. */
-    PREFIX_real grid[192], viscous_at[2][192], sign_at[2][192], friction_at[2][192],
-        factor_at[2][192];
+    PREFIX_real grid[256], viscous_at[2][256], sign_at[2][256], friction_at[2][256],
+        factor_at[2][256];
     PREFIX_real gas_past; /* [m] in place of x in the gas force, at the last sample */
     struct PREFIX_spring {
         PREFIX_real stretch, speed, yielding; /* [m], [m/s] behind it, [N] F_ER of Eq. 12 */
