@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pyarrow.parquet as pq
+import pytest
 
 from erdctl.diagnose.diagnosis import Verdict, diagnose
 from erdctl.diagnose.wording import remaining_text
@@ -13,6 +14,7 @@ from erdctl.io.logs import read_logs
 from erdctl.plant import draw, log
 
 
+@pytest.mark.long
 def test_chains_of_many_lengths_are_still_a_pre_yield_elasticity(tmp_path: Path) -> None:
     """They break one after the other, and the effect of the catalogue all alike: 97 % of what the
     paper's model misses. A curve over the travel since a turn fits better, and the name was gone:
