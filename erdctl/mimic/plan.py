@@ -137,7 +137,11 @@ def mimic(
         out_of_reach=out,
         limited=_held_back(found, duty, of_damper[0], hold, amplifier),
         limited_paper=_held_back(found, duty_paper, of_damper[1], hold, amplifier),
-        idle=tuple(fault for fault, at in zip(faults, on, strict=True) if not at.any()),
+        idle=tuple(
+            fault
+            for fault, at in zip(faults, on, strict=True)
+            if not at.any() or (fault.of_field and not signals.duty.any())
+        ),
         acting=hold.acting,
         reaches=reaches,
         correction=correction,

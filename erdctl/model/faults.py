@@ -75,6 +75,11 @@ class Fault:
     ramp: float = 0.0
     channel: Corner = Corner.FRONT_LEFT
 
+    @property
+    def of_field(self) -> bool:
+        """Whether it takes a part of the yield force alone: none without a duty."""
+        return self.kind.groups == ("yield",)
+
     def __str__(self) -> str:
         """The specification that `parse_fault` reads back as an equal fault."""
         size = f"{self.factor!r}" if self.flow is None else f"flow:{self.flow!r}"

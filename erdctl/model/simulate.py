@@ -150,8 +150,8 @@ class Remarks:
 
     def __init__(self, parameters: Parameters, faults: Sequence[str] = ()) -> None:
         self.parameters = parameters
-        self._idle = [parse_fault(f) for f in faults]
-        self._time = (inf, -inf)
+        self._acts = dict.fromkeys(map(parse_fault, faults), False)
+        self._field, self._time = False, (inf, -inf)
         ranges = dict(parameters.provenance.get("ranges", {}))
         self._ranges = {n: (float(a), float(b)) for n, (a, b) in ranges.items() if n in UNITS}
         self._seen = dict.fromkeys(self._ranges, (inf, -inf))
@@ -163,7 +163,9 @@ class Remarks:
         self._samples += len(recording)
         t, xdot, starts = recording.t, recording.xdot, recording.starts
         self._time = min(self._time[0], float(t.min())), max(self._time[1], float(t.max()))
-        self._idle = [f for f in self._idle if (effectiveness(f, t, xdot, starts) == 1.0).all()]
+        self._field |= bool(recording.duty.any())
+        for fault, acts in self._acts.items():
+            self._acts[fault] = acts or bool((effectiveness(fault, t, xdot, starts) != 1.0).any())
         for name, (low, high) in self._seen.items():
             values = getattr(recording, name)
             self._seen[name] = min(low, float(values.min())), max(high, float(values.max()))
@@ -197,7 +199,9 @@ class Remarks:
     def idle(self) -> list[str]:
         """One line for each fault that does nothing in the log."""
         return [
-            f"{without_effect(f, *self._time)}: force_model is as without it" for f in self._idle
+            f"{without_effect(fault, *self._time)}: force_model is as without it"
+            for fault, acts in self._acts.items()
+            if not acts or (fault.of_field and not self._field)
         ]
 
     def _beyond_laws(self) -> Iterator[str]:

@@ -40,12 +40,12 @@ def number(value: float | None, digits: int = 4) -> str:
     """A number with so many significant digits, or a dash; no exponent below a million.
 
     Check: 12345.6 with four digits is 12350.
-    >>> number(12345.6), number(0.25), number(None), number(2.5e-7)
-    ('12350', '0.25', '-', '2.5e-07')
+    >>> number(12345.6), number(0.25), number(None), number(2.5e-7), number(-0.0)
+    ('12350', '0.25', '-', '2.5e-07', '0')
     """
     if value is None:
         return "-"
-    text = f"{value:.{digits}g}"
+    text = f"{value + 0.0:.{digits}g}"  # a zero has no sign
     return f"{float(text):.0f}" if "e+" in text and abs(value) < 1e6 else text
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from unittest import mock
 
+import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 from places import FIXTURES
@@ -46,6 +47,17 @@ def test_a_fault_that_does_nothing_is_warned_of(stretches: bool, tmp_path: Path)
         lines = said(log, *FAULTS).splitlines()
     idle = [fault for fault, is_idle in FAULTS.items() if is_idle]
     assert lines == [f"erdctl: warning: {sentence(fault)}" for fault in idle]
+
+
+@pytest.mark.parametrize(("fault", "idle"), [("electrical=0.5", True), ("deformation=0.5", False)])
+def test_a_field_that_never_is_has_no_electrical_fault(
+    fault: str, idle: bool, tmp_path: Path
+) -> None:
+    log = pd.read_csv(LOG).assign(duty=0.0)
+    found = erdctl.simulate(TABLE_2, log, faults=[fault])
+    assert [r for r in found.remarks if "does nothing" in r] == [sentence(fault)] * idle
+    sequence = erdctl.mimic(TABLE_2, log, [fault])
+    assert any("does nothing" in r for r in sequence.remarks) == idle
 
 
 def test_a_call_has_it_among_its_remarks() -> None:

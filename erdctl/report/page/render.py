@@ -128,7 +128,7 @@ def digits(value: float | None, count: int = 4) -> str:
     """
     if value is None:
         return "–"
-    text = f"{value:.{count}g}"
+    text = f"{value + 0.0:.{count}g}"
     if "e+" in text and abs(value) < 1e6:
         text = f"{float(text):.0f}"
     number, _, power = text.replace("-", "−").partition("e")
