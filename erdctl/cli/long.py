@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from erdctl.model.parameters import Parameters
     from erdctl.score.nrmse import Normalise, Validation
 
+REPLACED = "the force_model that the log has is not in what is written: a new one is in its place"
 UNMODELLED = "the log has no column force_model; give a parameter file before it"
 
 
@@ -57,13 +58,16 @@ def simulate_long(
         if log is None:
             return False
         simulation, remarks = Simulation(parameters, faults), Remarks(parameters, faults)
+        again = False
         with table_writer(output, format) as writer, behind(writer) as write:
             for read in log.stretches(cut=simulation.cuts):
                 force = simulation.force(read.stretch)
                 remarks.add(read.stretch.own)
+                assert read.table is not None  # what a log is written with
+                again = again or "force_model" in read.table.column_names
                 write(append_column(read.table, "force_model", force))
             simulation.finish()
-    for line in remarks.lines():
+    for line in [*([REPLACED] if again else []), *remarks.lines()]:
         say(line)
     for line in remarks.idle():
         say(line, "warning")

@@ -64,6 +64,7 @@ def command(
       erdctl simulate damper.json drive.csv --causal -o as_exported.csv
       erdctl simulate damper.json drive.csv --fault oil=0.5 --plot faults.png -o out.parquet
     """
+    from erdctl.cli.long import REPLACED, simulate_long
     from erdctl.cli.pictures import draw, wanted
     from erdctl.core.errors import UsageProblem
     from erdctl.io.formats import CONTAINERS
@@ -85,7 +86,6 @@ def command(
         for line in said:
             say(line)
     if log is not None:
-        from erdctl.cli.long import simulate_long
         from erdctl.cli.reading import read_logs
 
         options: dict[str, Any] = {
@@ -112,7 +112,8 @@ def command(
         table = table_of(recording)
     remarks = Remarks(parameters, fault)
     remarks.add(recording)
-    for line in remarks.lines():
+    again = "force_model" in table.column_names
+    for line in [*([REPLACED] if again else []), *remarks.lines()]:
         say(line)
     for line in remarks.idle():
         say(line, "warning")

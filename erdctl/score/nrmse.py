@@ -142,9 +142,16 @@ def bins_of(seen: npt.NDArray[Any]) -> tuple[Array, Index]:
 
 
 def bins(duty: Array) -> Codes:
-    """(n,) the bin of 0.05 that each duty is in, from 1, of which BINS are the middles; 0 for 0."""
-    # Not from the rounded duty, which crosses the edges of the bins.
-    code = (np.floor(np.minimum(duty, 1.0 - 1e-12) / BIN) + 1).astype(np.int16)
+    """(n,) the bin of 0.05 that each duty is in, from 1, of which BINS are the middles; 0 for 0.
+
+    Check: 0.10 to below 0.15 is the third, 0.15 begins the fourth, and 1 is in the last.
+    >>> bins(np.array([0.0, 0.10, 0.1499, 0.15, 1.0])).tolist()
+    [0, 3, 3, 4, 20]
+    """
+    # Not from the rounded duty, which crosses the edges of the bins; but 0.15 is one, and its
+    # quotient is below 3 by the last digit.
+    last = round(1.0 / BIN) - 1
+    code = (np.minimum(np.floor(duty / BIN + 1e-9), last) + 1).astype(np.int16)
     code[duty == 0.0] = 0
     return code
 

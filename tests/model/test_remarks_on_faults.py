@@ -28,9 +28,9 @@ def sentence(fault: str) -> str:
     return f"{parse_fault(fault)} {does_nothing}"
 
 
-def said(log: Path, *faults: str) -> str:
+def said(log: Path, *faults: str, more: tuple[str, ...] = ("--quiet",)) -> str:
     options = [word for fault in faults for word in ("--fault", fault)]
-    words = ["simulate", str(TABLE_2), str(log), "--format", "parquet", "--quiet", *options]
+    words = ["simulate", str(TABLE_2), str(log), "--format", "parquet", *more, *options]
     run = CliRunner().invoke(build(), words)
     assert run.exit_code == 0
     return run.stderr
@@ -58,6 +58,17 @@ def test_a_field_that_never_is_has_no_electrical_fault(
     assert [r for r in found.remarks if "does nothing" in r] == [sentence(fault)] * idle
     sequence = erdctl.mimic(TABLE_2, log, [fault])
     assert any("does nothing" in r for r in sequence.remarks) == idle
+
+
+@pytest.mark.parametrize("stretches", [False, True])
+def test_a_force_model_that_goes_is_said_to(stretches: bool, tmp_path: Path) -> None:
+    log = tmp_path / "log.parquet"
+    pd.read_csv(LOG).assign(force_model=1.0).to_parquet(log)
+    with (
+        mock.patch("erdctl.io.batches.SMALL", 0),
+        mock.patch("erdctl.io.batches.STREAMED", 1 if stretches else 1 << 60),
+    ):
+        assert "the force_model that the log has is not in what is written" in said(log, more=())
 
 
 def test_a_call_has_it_among_its_remarks() -> None:
