@@ -69,7 +69,7 @@ def simulate_long(
             simulation.finish()
     for line in [*([REPLACED] if again else []), *remarks.lines()]:
         say(line)
-    for line in remarks.idle():
+    for line in remarks.of_faults():
         say(line, "warning")
     return True
 

@@ -115,7 +115,7 @@ def command(
     again = "force_model" in table.column_names
     for line in [*([REPLACED] if again else []), *remarks.lines()]:
         say(line)
-    for line in remarks.idle():
+    for line in remarks.of_faults():
         say(line, "warning")
     with progress() as step:
         force = simulate(parameters, recording, fault, progress=step)

@@ -146,6 +146,6 @@ def simulate(
     )
     remarks = Remarks(found, wanted)
     remarks.add(given.recording)
-    said = (*given.remarks, *told, *remarks.lines(), *remarks.idle())
+    said = (*given.remarks, *told, *remarks.lines(), *remarks.of_faults())
     force = simulated(found, given.recording, wanted)
     return Simulated(found, with_force(given, force), tuple(wanted), said)

@@ -196,9 +196,12 @@ class Remarks:
                 )
         return [*out, *self._beyond_laws()]
 
-    def idle(self) -> list[str]:
-        """One line for each fault that does nothing in the log."""
-        return [
+    def of_faults(self) -> list[str]:
+        """One line for each fault that does nothing in the log, and one on those of several dampers:
+        it is `mimic` that has one for each channel."""
+        corners = sorted({fault.channel.value for fault in self._acts})
+        several = f"faults of channels {' and '.join(corners)} act together on the one damper here"
+        return [several] * (len(corners) > 1) + [
             f"{without_effect(fault, *self._time)}: force_model is as without it"
             for fault, acts in self._acts.items()
             if not acts or (fault.of_field and not self._field)

@@ -71,6 +71,14 @@ def test_a_force_model_that_goes_is_said_to(stretches: bool, tmp_path: Path) -> 
         assert "the force_model that the log has is not in what is written" in said(log, more=())
 
 
+def test_dampers_are_one_here() -> None:
+    faults = ["oil=0.5,channel=rl", "oil=0.5"]
+    found = erdctl.simulate(TABLE_2, LOG, faults=faults)
+    assert "faults of channels fl and rl act together on the one damper here" in found.remarks
+    alone = erdctl.simulate(TABLE_2, LOG, faults=faults[:1])
+    assert not any("channels" in r for r in alone.remarks)
+
+
 def test_a_call_has_it_among_its_remarks() -> None:
     found = erdctl.simulate(TABLE_2, LOG, faults=["oil=0.5@100:200", "oil=0.5"])
     assert [r for r in found.remarks if "does nothing" in r] == [sentence("oil=0.5@100:200")]
