@@ -197,8 +197,8 @@ class Remarks:
         return [*out, *self._beyond_laws()]
 
     def of_faults(self) -> list[str]:
-        """One line for each fault that does nothing in the log, and one on those of several dampers:
-        it is `mimic` that has one for each channel."""
+        """One line for each fault that does nothing in the log, and one where they are of several
+        dampers, which `mimic` has."""
         corners = sorted({fault.channel.value for fault in self._acts})
         several = f"faults of channels {' and '.join(corners)} act together on the one damper here"
         return [several] * (len(corners) > 1) + [
