@@ -54,7 +54,9 @@ def answered(given: Parameters, recording: Recording) -> Diagnosis:
 
 
 @pytest.mark.parametrize("kind", quarter_car.FAULTS)
-@pytest.mark.parametrize(("seed", "left"), [(81, 0.6), (82, 0.85)])
+@pytest.mark.parametrize(
+    ("seed", "left"), [(81, 0.6), pytest.param(82, 0.85, marks=pytest.mark.long)]
+)
 def test_the_fault_and_what_is_left(kind: str, seed: int, left: float, halves: Any) -> None:
     given, _, damaged = halves(kind, seed, left)
     found = answered(given, damaged).as_fault
@@ -85,7 +87,7 @@ def test_it_is_written_with_its_share(halves: Any) -> None:
     assert "of the damper with the given parameters electrical_fault" in written["text"]
 
 
-@pytest.mark.parametrize("seed", [81, 82])
+@pytest.mark.parametrize("seed", [81, pytest.param(82, marks=pytest.mark.long)])
 def test_nothing_is_said_of_a_healthy_damper(seed: int, halves: Any) -> None:
     given, healthy, _ = halves("oil_leakage", seed, 0.6 if seed == 81 else 0.85)
     found = answered(given, healthy)

@@ -29,6 +29,7 @@ ALL = names()
 SAMPLES = 6000
 
 
+@pytest.mark.long
 def test_the_pair_is_named(tmp_path: Path) -> None:
     """A soft fluid with play was `explained` as a stretch before yield with play, 13 times off on
     fresh records: beside a loop, which all samples drop, no compliance was looked at."""

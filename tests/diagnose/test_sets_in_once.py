@@ -112,7 +112,9 @@ def diagnosed(recording: Recording) -> Diagnosis:
     return with_a_fault_once(run, recording)
 
 
-@pytest.mark.parametrize("onsets", [STAYS, ONCE], ids=["stays", "once"])
+@pytest.mark.parametrize(
+    "onsets", [STAYS, pytest.param(ONCE, marks=pytest.mark.long)], ids=["stays", "once"]
+)
 def test_it_is_said_with_all_that_a_second_search_finds(
     onsets: tuple[float, ...], recordings: Any
 ) -> None:
@@ -153,7 +155,7 @@ def test_a_fault_all_along_is_said_with_its_records(recordings: Any) -> None:
     assert "--where" not in text  # no one record holds its law
 
 
-@pytest.mark.parametrize("spread", [0.02, 0.1])
+@pytest.mark.parametrize("spread", [0.02, pytest.param(0.1, marks=pytest.mark.long)])
 def test_records_whose_gains_scatter_have_no_fault(spread: float, recordings: Any) -> None:
     """As of a rig that is off, however far."""
     recording = recordings("oil_leakage", (NEVER,) * 6, 76)
