@@ -94,7 +94,7 @@ def test_misfit_map_finds_the_cell() -> None:
 
 def test_two_samples_make_no_map() -> None:
     drive = drives(["sine:fs=10,duration=0.2"])
-    with pytest.raises(InputProblem, match="2 samples are too few"):
+    with pytest.raises(InputProblem, match="too few for a map of the misfit: 2 samples"):
         misfit_map(drive, drive.x)
 
 

@@ -57,7 +57,6 @@ def test_no_more_together_than_a_model_may_have() -> None:
     assert {"shear_thinning", "preyield_viscosity", "mount_compliance"} in names
 
 
-@pytest.mark.long
 @pytest.mark.real_data
 def test_they_are_found_together_and_hold_on_another_motion() -> None:
     log = read_logs([str(real("mr_sine.parquet", SHARED))], need_force=True, report=str).recording

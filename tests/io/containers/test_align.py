@@ -164,8 +164,8 @@ def test_what_was_done_is_said_of_the_records_that_it_was_done_to() -> None:
     assert got["record"].to_pylist() == ["a"] * 100 + ["b"] * 80 + ["c"] * 80 + ["d"] * 100
     assert said == [
         "record 'b': several time bases; the rows are those of force (100 Hz); interpolated"
-        " linearly: x (100 Hz); similarly in 1 more records",
-        "record 'b': force has a gap of 0.21 s after 0.39 s; similarly in 1 more records",
+        " linearly: x (100 Hz); similarly in 1 more record",
+        "record 'b': force has a gap of 0.21 s after 0.39 s; similarly in 1 more record",
     ]
 
 

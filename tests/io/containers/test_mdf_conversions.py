@@ -71,5 +71,5 @@ def test_a_group_that_is_shorter_than_it_says(mdf: Write, converted: Read) -> No
     at = data.find((1000).to_bytes(8, "little"), data.find(b"##CG"))
     data[at : at + 8] = (1200).to_bytes(8, "little")
     path.write_bytes(data)
-    with pytest.raises(InputProblem, match="said to have 1200 samples, and 1000 are there"):
+    with pytest.raises(InputProblem, match="said to have 1200 samples, but holds 1000"):
         converted(path)
