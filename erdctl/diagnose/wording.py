@@ -18,6 +18,7 @@ from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.fault_wording import sets_in_once_text
 from erdctl.diagnose.findings import Finding
 from erdctl.diagnose.learning.words import law_words, worth_text
+from erdctl.diagnose.residual.places import MISFIT, WITHOUT_IT
 from erdctl.diagnose.residual.predictability import LackOfFit
 from erdctl.diagnose.residual.record_levels import taken_by_levels
 from erdctl.diagnose.unseen import Left, Unseen
@@ -31,7 +32,9 @@ def finding_text(finding: Finding) -> str:
     e = finding.effect
     text = f"{e.title}: {worth_text(finding)}"
     if finding.where is not None:
-        text += f"; {finding.where.text.replace('the misfit', 'its force')}"
+        where = finding.where.text
+        own = where.replace(MISFIT, "of the square of its force", 1)
+        text += f"; {where if WITHOUT_IT in where else own}"
     if finding.equivalent:
         text += f"; these data cannot tell it from {' or '.join(finding.equivalent)}"
     if finding.test is not None:
