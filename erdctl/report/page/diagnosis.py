@@ -83,6 +83,7 @@ def diagnosis_page(
         records=record_table(doc.get("records")),
         heldout=heldout_table(doc, peak_of(recording.force)),
         unseen=[_sentence(u["text"]) for u in doc.get("unseen", [])],
+        remaining=_sentence(doc["remaining"]["text"]),
         undetected_header=HEADER,
         untestable=[[k, v] for k, v in doc["not_testable"].items()],
         undetected=undetected_rows(doc.get("undetected", [])),
@@ -172,6 +173,8 @@ def _answers(doc: Json, name: str, peak: float) -> Json:
         holds += (
             f" That is fitted to these logs; as given, {digits(doc['baseline']['rms'], 3)} N rms."
         )
+    if "as_fault" in doc:
+        holds += f" The given parameters do not hold: {doc['as_fault']['text']}."
     return {
         "head": head, "holds": holds, "where": where, "why": why,
         "causes": [
