@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import re
 from dataclasses import replace
+from typing import Any
 
 import pytest
 from rig import TRUTH, campaign, noisy
@@ -32,11 +33,12 @@ def weakened() -> Diagnosis:
     return diagnose(noisy(later, seed=2), FEW, given=given)
 
 
-def words(found: Diagnosis) -> str:
+def words(found: Diagnosis, **changed: Any) -> str:
     r = found.problem.recording
     before, after = (simulate(p, r) for p in (baseline(found), parameters(found)))
     run = Run(words=["diagnose"], logs=r.sources, labels=r.labels, details=[])
-    page = diagnosis_page(to_json(found), r, before=before, after=after, run=run)
+    document = to_json(found) | changed
+    page = diagnosis_page(document, r, before=before, after=after, run=run)
     return re.sub(r"\s+", " ", html.unescape(re.sub(r"<[^>]+>", "", page)))
 
 
@@ -54,3 +56,17 @@ def test_what_became_of_given_parameters_is_on_the_page(weakened: Diagnosis) -> 
     assert document["as_fault"]["effect"] == "electrical_fault"
     said = words(weakened)
     assert f"The given parameters do not hold: {document['as_fault']['text']}." in said
+
+
+def test_what_did_not_earn_a_name_is_not_said_to_improve_nothing(weakened: Diagnosis) -> None:
+    """Friction that took 33 % of what was missing was withdrawn, and "improves" nothing."""
+    said = words(weakened, withdrawn=["coulomb_friction"])
+    assert "No effect was named." in said
+    assert "of the effects that were asked for none has earned a name" in said
+
+
+def test_a_misfit_in_no_one_place_is_not_everywhere_alike(weakened: Diagnosis) -> None:
+    """A force that swings with the deflection gathers in no interval of it, and is not even."""
+    said = words(weakened, verdict="unexplained", mismatch=[])
+    assert "alike" not in said.split("Where does it not?")[1].split("Why?")[0]
+    assert "In no one place" in said
