@@ -73,6 +73,17 @@ def test_two_places_need_not_each_hold_half() -> None:
     assert all(r.share < thresholds.REGION_SHARE for r in found)
 
 
+def test_levels_that_differ_by_their_last_digits_are_one() -> None:
+    """Of such a log 69 % was said to lie "at 1.46e-13 to 10 % duty", for that at no duty."""
+    r = campaign()
+    jitter = 1e-12 * np.random.default_rng(1).random(len(r))
+    uneven = prepare(replace(r, duty=r.duty + jitter))
+    square = np.where(r.duty < 0.05, 1.0, 0.01)
+    found, plain = (of(Variable.DUTY, locate(p, square)) for p in (uneven, prepare(r)))
+    assert plain
+    assert [f.text for f in found] == [f.text for f in plain]
+
+
 def spread(reversals: float = 0.8) -> Array:
     """A misfit that gathers most after reversals, and less so at one end of the stroke."""
     s = signals()
