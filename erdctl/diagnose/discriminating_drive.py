@@ -40,11 +40,13 @@ def discriminating_drive(
 ) -> DiscriminatingDrive | None:
     """The drive within the recorded stroke and speed that tells a hypothesis from a look-alike.
 
-    None without a look-alike, and where one of both diverges on every drive.
+    None without a look-alike, and where one of both diverges on every drive, or they differ on none
+    by more than a simulation rounds.
     """
     if not look_alikes:
         return None
     name, look_alike = look_alikes[0]
+    rounding = thresholds.ROUNDING * float(np.ptp(problem.block.force))
     found = []
     for spec in _specs(problem):
         drive = drives([spec])
@@ -55,9 +57,9 @@ def discriminating_drive(
             continue  # such a drive would be no advice
         settled = signals.t > thresholds.DRIVE_SETTLES * thresholds.DRIVE_SECONDS
         found.append((float(np.sqrt(np.mean((a - b)[settled] ** 2))), spec))
-    if not found:
+    difference, spec = max(found, default=(0.0, ""))
+    if difference <= rounding:
         return None
-    difference, spec = max(found)
     return DiscriminatingDrive(spec, difference, name)
 
 

@@ -20,9 +20,14 @@ def amount_of(effect: Effect) -> Quantity:
     >>> amount_of(get("end_stop")).symbol, amount_of(get("cavitation")).symbol
     ('k_c', 'x_v')
     """
-    shapes = dict(effect.earlier)  # of a form that came later: they add to what is there
-    on = [q for q in effect.quantities if q.start != q.off and q.symbol not in shapes]
+    on = [q for q in effect.quantities if _grows(effect, q)]
     return next((q for q in on if not q.linear), (on or list(effect.quantities))[0])
+
+
+def _grows(effect: Effect, q: Quantity) -> bool:
+    """Whether a parameter is more where there is more of the effect; any other is a shape."""
+    shapes = dict(effect.earlier)  # of a form that came later: they add to what is there
+    return q.start != q.off and q.symbol not in shapes
 
 
 def ways(effect: Effect, problem: Problem, residual: Array) -> list[dict[str, float]]:
@@ -38,7 +43,7 @@ def ways(effect: Effect, problem: Problem, residual: Array) -> list[dict[str, fl
         if much == 0.0:
             continue
         shape = [
-            (values[q.symbol] - q.off) / (much if q.start != q.off else 1.0)
+            (values[q.symbol] - q.off) / (much if _grows(effect, q) else 1.0)
             for q in effect.quantities if not q.linear
         ]  # fmt: skip
         ways_.setdefault(tuple(float(f"{v:.6g}") for v in shape), []).append(values)
@@ -59,7 +64,7 @@ def point(effect: Effect, way: Mapping[str, float], s: float) -> dict[str, float
     linear = is_linear(effect)
 
     def value(q: Quantity) -> float:
-        if q.start == q.off:
+        if not _grows(effect, q):
             return way[q.symbol]
         return q.off if q.linear and not linear else q.off + s * (way[q.symbol] - q.off)
 
@@ -71,7 +76,7 @@ def span(effect: Effect, way: Mapping[str, float]) -> tuple[float, float]:
     low, high = 0.0, inf
     for q in effect.quantities:
         step = way[q.symbol] - q.off
-        if q.start == q.off or step == 0.0:
+        if not _grows(effect, q) or step == 0.0:
             continue
         ends = sorted(((q.low - q.off) / step, (q.high - q.off) / step))
         low, high = max(low, ends[0]), min(high, ends[1])
@@ -80,4 +85,4 @@ def span(effect: Effect, way: Mapping[str, float]) -> tuple[float, float]:
 
 def is_linear(effect: Effect) -> bool:
     """Whether the force grows in proportion to the effect."""
-    return all(q.linear for q in effect.quantities if q.start != q.off)
+    return all(q.linear for q in effect.quantities if _grows(effect, q))

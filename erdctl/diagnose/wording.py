@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isfinite
+from math import floor, isfinite, log10
 from typing import Any
 
 import numpy as np
@@ -18,9 +18,13 @@ from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.fault_wording import sets_in_once_text
 from erdctl.diagnose.findings import Finding
 from erdctl.diagnose.learning.words import law_words, worth_text
+from erdctl.diagnose.residual.places import MISFIT, WITHOUT_IT
 from erdctl.diagnose.residual.predictability import LackOfFit
 from erdctl.diagnose.residual.record_levels import taken_by_levels
 from erdctl.diagnose.unseen import Left, Unseen
+
+# Of what the shares of lines and jumps are, which are looked for behind the regressions.
+UNPREDICTED = "of the square of what no regression predicts, noise included,"
 
 
 def finding_text(finding: Finding) -> str:
@@ -28,7 +32,9 @@ def finding_text(finding: Finding) -> str:
     e = finding.effect
     text = f"{e.title}: {worth_text(finding)}"
     if finding.where is not None:
-        text += f"; {finding.where.text.replace('the misfit', 'its force')}"
+        where = finding.where.text
+        own = where.replace(MISFIT, "of the square of its force", 1)
+        text += f"; {where if WITHOUT_IT in where else own}"
     if finding.equivalent:
         text += f"; these data cannot tell it from {' or '.join(finding.equivalent)}"
     if finding.test is not None:
@@ -103,18 +109,18 @@ def _left(found: Diagnosis) -> str:
         words += "can be predicted from motion and duty, but by no effect in the catalogue"
     if left.spectral_line is not None:
         words += (
-            f"; {100 * left.spectral_line.share:.0f} % of it swings at"
+            f"; {100 * left.spectral_line.share:.0f} % {UNPREDICTED} swings at"
             f" {left.spectral_line.frequency:.3g} Hz and turns over with the motion, as a ripple of"
             " the yield force does"
         )
     if left.impulses > 0.0:
         words += (
-            f"; {100 * left.impulses:.0f} % of it comes in sudden jumps, as of a seal that sticks"
-            " and slips, a joint that knocks or a valve that opens"
+            f"; {100 * left.impulses:.0f} % {UNPREDICTED} comes in sudden jumps, as of a seal that"
+            " sticks and slips, a joint that knocks or a valve that opens"
         )
     if left.travel_line is not None:
         words += (
-            f"; {100 * left.travel_line.share:.0f} % of it comes again with every"
+            f"; {100 * left.travel_line.share:.0f} % {UNPREDICTED} comes again with every"
             f" {1e3 * left.travel_line.wavelength:.3g} mm of travel, as teeth of a seal that sticks"
             " and slips or a ripple of the bore do"
         )
@@ -142,14 +148,14 @@ def _noise(found: Diagnosis) -> str:
 
 def _of_records(found: Diagnosis) -> str:
     """That most of what is left tells records apart, and nothing of their motion."""
-    share = taken_by_levels(found.selection.best)
+    share = taken_by_levels((found.learned or found).selection.best)
     if len(found.problem.recording.names) < 2 or share < thresholds.LEVELS_SAID:
         return ""
     return (
-        f"; {100 * share:.0f} % of its square is a gain and a zero of each record's own: of a rig"
-        " whose records scatter, or of what changes from record to record in the damper, as its"
-        " warmth or the strokes that it has made; no motion within them tells which"
-        " (--record-gains --record-offsets carry it)"
+        f"; {100 * share:.0f} % of the square of all that remains is a gain and a zero of each"
+        " record's own: of a rig whose records scatter, or of what changes from record to record in"
+        " the damper, as its warmth or the strokes that it has made; no motion within them tells"
+        " which (--record-gains --record-offsets carry it)"
     )
 
 
@@ -210,8 +216,8 @@ def _withdrawn(found: Diagnosis) -> str:
     names = ", ".join(e.name for e in found.withdrawn)
     if found.taken is not None:
         return (
-            f"; the search had chosen {names} for {100 * found.taken:.0f} % of its square, less"
-            " than what stays, and so names nothing"
+            f"; the search had chosen {names} for {100 * found.taken:.0f} % of the square of what"
+            " was missing, less than what stays, and so names nothing"
         )
     return names and (
         f"; the search had chosen {names}, which predict the records kept aside worse than the"
@@ -224,8 +230,9 @@ def _hum(left: LackOfFit) -> str:
     if left.hum is None:
         return ""
     return (
-        f"; {100 * left.hum.share:.0f} % of its square is a line of {left.hum.frequency:.3g} Hz in"
-        " the force channel (hum, or its alias), which no motion makes: look at shields and earths"
+        f"; {100 * left.hum.share:.0f} % {UNPREDICTED} is a line of {left.hum.frequency:.3g} Hz"
+        " in the force channel (hum, or its alias), which no motion makes: look at shields and"
+        " earths"
     )
 
 
@@ -239,7 +246,8 @@ def undetected_text(undetected: Sequence[Detectable]) -> list[str]:
             for d in first
         )
         many = len(could) - len(first)
-        more = f", and {many} others from less force" if many else ""
+        others = "1 other" if many == 1 else f"{many} others"
+        more = f", and {others} from less force" if many else ""
         out.append(f"these data would have shown {sizes}{more}")
     never = [d.effect.name for d in undetected if d.size is None]
     if never:
@@ -248,8 +256,13 @@ def undetected_text(undetected: Sequence[Detectable]) -> list[str]:
 
 
 def _sized(d: Detectable) -> str:
+    """Its size with two digits of how far it is from off: of a factor of 0.996 that is 0.004."""
+    assert d.size is not None
     unit = "" if d.quantity.unit == "1" else f" {d.quantity.unit}"
-    return f"{d.size:.2g}{unit}"
+    apart = abs(d.size - d.quantity.off)
+    near = 0.0 < apart < abs(d.size)
+    more = floor(log10(abs(d.size))) - floor(log10(apart)) if near else 0
+    return f"{d.size:.{2 + more}g}{unit}"
 
 
 def record_values(found: Diagnosis) -> list[dict[str, Any]]:

@@ -59,6 +59,21 @@ def test_that_size_is_named_and_a_tenth_is_not(healthy: Diagnosis, name: str) ->
     assert tenth.findings == ()
 
 
+def test_a_shape_that_was_added_to_an_effect_does_not_switch_off_its_force() -> None:
+    """Of no size would a stop have been seen, it was said, since its contact may be damped."""
+    r, stop = noisy(campaign(100.0, 8.0), seed=31), get("end_stop")
+    found = diagnose(r, [stop], learning=False)
+    least = of(found, "end_stop").values
+    assert least is not None
+    full = found.selection.best.values | {stop.key(s): v for s, v in least.items()}
+    signals = found.problem.block.signals
+    added = Model((stop,)).force(signals, full) - Model(()).force(signals, full)
+    assert r.force is not None
+    for part, named in ((1.0, ["end_stop"]), (0.1, [])):
+        more = diagnose(replace(r, force=r.force + part * added), [stop], **SHORT)
+        assert [f.effect.name for f in more.findings] == named
+
+
 def test_every_effect_that_was_not_named_is_told(healthy: Diagnosis) -> None:
     document = to_json(healthy)["undetected"]
     assert {d["effect"] for d in document} == set(FEW)

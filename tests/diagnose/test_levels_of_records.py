@@ -70,7 +70,9 @@ def test_what_only_tells_records_apart_is_not_said_to_be_noise_alone(scatter: fl
     log = noisy(replace(r, force=r.force * np.repeat(gains, np.diff(r.starts))), seed=21)
     found = diagnose(log, [], limits=False, learning=False)
     assert (found.verdict is Verdict.ADEQUATE) == (scatter == 0.0)
-    assert ("of its square is a gain and a zero" in remaining_text(found)) == (scatter > 0.0)
+    assert ("of the square of all that remains is a gain and a zero" in remaining_text(found)) == (
+        scatter > 0.0
+    )
 
 
 @pytest.mark.parametrize("records", [2, 6])

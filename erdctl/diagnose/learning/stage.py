@@ -27,6 +27,7 @@ from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 from erdctl.model.learned.law import Law, LearnedEffect
 from erdctl.model.learned.surface import Surface
+from erdctl.model.slots import Values
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +109,7 @@ def learned(
         return None
     return Learned(
         selection=found,
-        laws=tuple(_law(found, f) for f in said if isinstance(f.effect, LearnedEffect)),
+        laws=tuple(_law(found, f, fit.values) for f in said if isinstance(f.effect, LearnedEffect)),
         findings=tuple(f for f in said if not isinstance(f.effect, LearnedEffect)),
         unseen=unseen,
         fit=fit,
@@ -121,10 +122,11 @@ def _of(hypothesis: Hypothesis) -> tuple[Model, dict[str, float]]:
     return hypothesis.model, hypothesis.values
 
 
-def _law(found: Selection, finding: Finding) -> LearnedLaw:
+def _law(found: Selection, finding: Finding, values: Values) -> LearnedLaw:
+    """A law with the values of the last step, which are those that are written."""
     effect = finding.effect
     assert isinstance(effect, LearnedEffect)
-    law, p = effect.law, effect.local(found.best.values)
+    law, p = effect.law, effect.local(values)
     curve = law.curve
     z = tuple(np.linspace(*axis.range, thresholds.CURVE_POINTS) for axis in curve.axes)
     if isinstance(curve, Surface):

@@ -23,6 +23,7 @@ from erdctl.diagnose.residual.localisation import (
 from erdctl.model.effect import Effect, Variable
 from erdctl.model.slots import Values
 
+MISFIT, WITHOUT_IT = "of the misfit", "without it"
 AGES = (Variable.TIME, Variable.ENERGY)  # what grows from the beginning of a record
 
 
@@ -33,15 +34,21 @@ def acting(
 
     One region, or two of one variable.
     squares : (n,) each, squared forces of the effect [N^2], as it is first and then as far as the
-        other parameters do not absorb it: what acts everywhere alike is seen by that alone
+        other parameters do not absorb it: what acts everywhere alike is seen by that alone, and
+        what is said then is said of that
     """
     onset = since_onset(problem, [effect], values, squares[0])
     if onset:
         return onset
     gathered = [locate(problem, square) for square in squares]
+    gathered[1:] = [[_without_it(r) for r in regions] for regions in gathered[1:]]
     own = [[r for r in regions if r.variable is effect.shows] for regions in gathered]
     sharpest = [[r for r in regions if r.variable is regions[0].variable] for regions in gathered]
     return next((regions for regions in own + sharpest if regions), [])
+
+
+def _without_it(region: Region) -> Region:
+    return replace(region, text=region.text.replace(MISFIT, f"{MISFIT} {WITHOUT_IT}", 1))
 
 
 def places(
@@ -107,7 +114,10 @@ def _after_less(effect: Effect, region: Region) -> Region:
 
 def _of_effect(problem: Problem, square: Array, effect: Effect, region: Region) -> Region:
     """A region in which an effect acts, with its share of a misfit that gathers nowhere."""
-    own = region.text.replace("of the misfit", f"of what {effect.name} adds", 1)
+    absorbed = f"{MISFIT} {WITHOUT_IT}"
+    own = region.text.replace(absorbed, f"{MISFIT} without {effect.name}", 1)
+    if absorbed not in region.text:
+        own = region.text.replace(MISFIT, f"of the square of what {effect.name} adds", 1)
     text = f"{own}; the misfit itself gathers nowhere"
     return replace(_measured(problem, region, square), text=text)
 

@@ -83,6 +83,7 @@ def diagnosis_page(
         records=record_table(doc.get("records")),
         heldout=heldout_table(doc, peak_of(recording.force)),
         unseen=[_sentence(u["text"]) for u in doc.get("unseen", [])],
+        remaining=_sentence(doc["remaining"]["text"]),
         undetected_header=HEADER,
         untestable=[[k, v] for k, v in doc["not_testable"].items()],
         undetected=undetected_rows(doc.get("undetected", [])),
@@ -157,21 +158,24 @@ def _answers(doc: Json, name: str, peak: float) -> Json:
         holds = f"{sure}. Its error is {digits(rms, 3)} N rms, the noise {digits(noise, 3)} N rms."
         where = "Nowhere: no misfit beyond the noise."
         why = (
-            "Nothing that these data show: no effect in the catalogue improves data that no fit has"
-            " seen. From which size each would have shown is under What stays open."
+            "Nothing that these data show: of the effects that were asked for none has earned a"
+            " name on data that no fit has seen. From which size each would have shown is under"
+            " What stays open."
         )
     else:
         holds = f"No. It misses {digits(missed, 3)} N rms beyond {digits(noise, 3)} N rms of noise."
         first = doc["mismatch"][:1]
         where = _sentence(first[0]["text"]) if first else (
-            "Everywhere alike: no interval of speed, deflection, duty, time or energy holds"
-            " more than its share."
+            "In no one place: no interval of speed, deflection, duty, time or energy holds so much"
+            " more of it than of the time as to point there."
         )  # fmt: skip
         why = _sentence(doc["remaining"]["text"])
     if "refitted" in doc:
         holds += (
             f" That is fitted to these logs; as given, {digits(doc['baseline']['rms'], 3)} N rms."
         )
+    if "as_fault" in doc:
+        holds += f" The given parameters do not hold: {doc['as_fault']['text']}."
     return {
         "head": head, "holds": holds, "where": where, "why": why,
         "causes": [
@@ -272,7 +276,7 @@ def _misfit_words(doc: Json) -> str:
         " left out."
     )
     if not doc["mismatch"]:
-        return f"{words} No interval of any variable holds more misfit than its share of the time."
+        return f"{words} No interval of any variable stands out by its part of the misfit."
     places = "; ".join(m["text"] for m in doc["mismatch"])
     return f"{_sentence(places)} These intervals are shaded in the profiles. {words}"
 

@@ -56,6 +56,17 @@ def test_its_errors_hold(warmed: Diagnosis) -> None:
     assert low - (high - low) < TAU < high + (high - low)  # of one log: three standard errors
 
 
+def test_it_is_told_with_the_values_that_are_written(warmed: Diagnosis) -> None:
+    """Curve and time constant were those of the search, a step before the parameters beside."""
+    assert warmed.learned is not None
+    (law,) = warmed.learned.laws
+    key, (z,) = law.finding.effect.key, law.z
+    size, tau = (parameters(warmed).estimates[key(s)].value for s in ("a", "tau"))
+    assert law.tau == tau
+    assert size is not None
+    assert law.f == pytest.approx(size * z / np.abs(z).max(), rel=1e-9, abs=1e-12)
+
+
 def test_the_document_holds_what_the_contract_asks_for(warmed: Diagnosis) -> None:
     document = json.loads(json.dumps(to_json(warmed)))
     assert document["verdict"] == "unexplained"

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -11,10 +14,12 @@ from rig import campaign
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.diagnose import thresholds
+from erdctl.diagnose.findings import Finding
 from erdctl.diagnose.problem import Problem, prepare
 from erdctl.diagnose.residual.localisation import Region, describe, locate
 from erdctl.diagnose.residual.places import acting, places
 from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
+from erdctl.diagnose.wording import finding_text
 from erdctl.effects import get
 from erdctl.model.effect import Variable
 
@@ -66,6 +71,17 @@ def test_two_places_need_not_each_hold_half() -> None:
     found = of(Variable.X, locate(problem(), square))
     assert len(found) == 2
     assert all(r.share < thresholds.REGION_SHARE for r in found)
+
+
+def test_levels_that_differ_by_their_last_digits_are_one() -> None:
+    """Of such a log 69 % was said to lie "at 1.46e-13 to 10 % duty", for that at no duty."""
+    r = campaign()
+    jitter = 1e-12 * np.random.default_rng(1).random(len(r))
+    uneven = prepare(replace(r, duty=r.duty + jitter))
+    square = np.where(r.duty < 0.05, 1.0, 0.01)
+    found, plain = (of(Variable.DUTY, locate(p, square)) for p in (uneven, prepare(r)))
+    assert plain
+    assert [f.text for f in found] == [f.text for f in plain]
 
 
 def spread(reversals: float = 0.8) -> Array:
@@ -136,8 +152,26 @@ def test_where_nothing_gathers_in_its_variable_an_effect_is_where_it_acts() -> N
     [only] = places(problem(), less, [(end_stop, acts)])
     assert (only.low, only.high) == (acted.low, acted.high)
     assert only.share < only.time
-    assert f"{100 * acted.share:.0f} % of what end_stop adds" in only.text
+    assert f"{100 * acted.share:.0f} % of the square of what end_stop adds" in only.text
     assert places(problem(), less, [(end_stop, acts)], sure=False) == []
+
+
+def test_what_the_other_parameters_leave_of_a_force_is_not_said_of_the_force() -> None:
+    """Of a constant force 68 % was said to lie around reversals, in 36 % of the time."""
+    preload, even = get("gas_preload"), np.ones(len(signals()))
+    acts = acting(problem(), preload, {}, [even, spread(8.0)])
+    assert acts
+    assert "% of the misfit without it lies" in acts[0].text
+    found = Finding(
+        effect=preload, equivalent=(), test=None, gain=cast(Any, SimpleNamespace(gain=0.9)),
+        acts=tuple(acts), before=0.1, after=0.01, runner_up=None,
+    )  # fmt: skip
+    assert "% of the misfit without it lies" in finding_text(found)
+    own = acting(problem(), preload, {}, [spread(8.0), even])
+    assert "% of the square of its force lies" in finding_text(replace(found, acts=tuple(own)))
+    # Where the misfit gathers nowhere it has the name of the effect.
+    [only] = places(problem(), even, [(preload, acts)])[:1]
+    assert "% of the misfit without gas_preload lies" in only.text
 
 
 def test_what_sets_in_at_a_time_acts_from_then_on() -> None:
