@@ -101,9 +101,9 @@ def command(
     """Run inspect, identify, validate and diagnose over many logs, into one table.
 
     The Parquet table has a row for each log, command and parameter, with what belongs to the log
-    in each of them: labels, score, verdict, findings, rig faults, hashes. A log that cannot be done
-    is a row with its error, and the exit code is then 1. The JSON documents of each log are in the
-    folder of --keep.
+    in each of them: labels, the score of its identified model (not of a diagnosis's corrected one),
+    verdict, findings, rig faults, hashes. A log that cannot be done is a row with its error, and
+    the exit code is then 1. The JSON documents of each log are in the folder of --keep.
 
     What is there and unchanged (by the log's SHA-256, the options and the version of erdctl) is not
     done again: a campaign that was ended anywhere, or to which logs were added, is taken up by the

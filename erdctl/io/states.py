@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from typing import Any
 
@@ -41,9 +41,9 @@ class DiagnosisIn(msgspec.Struct):
     schema: str
     verdict: str
     corrected: _CorrectedIn
-    baseline: _Scored = field(default_factory=_Scored)
+    baseline: _Scored = msgspec.field(default_factory=_Scored)
     noise_rms: float | None = None
-    limits: dict[str, Limit] = field(default_factory=dict)
+    limits: dict[str, Limit] = {}
 
 
 @dataclass(frozen=True, eq=False)
