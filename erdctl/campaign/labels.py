@@ -44,8 +44,18 @@ def labels_of_path(path: str, pattern: re.Pattern[str]) -> Labels | None:
 
 
 def iso_date(text: str, path: str) -> str:
-    """A date as ISO 8601, from the ways in which names of files write it."""
+    """A date as ISO 8601, from the ways in which names of files write it.
+
+    Raises UsageProblem for a date that is none, and for six digits that may be a year and a month
+    or a day of a year of two digits: 240501 would be a day in the year 2405.
+    """
     digits = text.replace("_", "-")
+    if re.fullmatch(r"[0-9]{6}", digits) and _is_date(digits, "%y%m%d"):
+        raise UsageProblem(
+            f"the date '{text}' may be year and month or, with a year of two digits, a day; write"
+            f" the year with four and the day, or say the form with labels.date in a project file,"
+            f" in place of --label: {path}"
+        )
     for form in (digits, f"{digits}-01", f"{digits}01"):
         try:
             datetime.fromisoformat(form)
@@ -55,6 +65,14 @@ def iso_date(text: str, path: str) -> str:
     raise UsageProblem(
         f"the date '{text}' is none, e.g. 2024-05-01 or 20240501T1430: see --label {path}"
     )
+
+
+def _is_date(text: str, form: str) -> bool:
+    try:
+        datetime.strptime(text, form)
+    except ValueError:
+        return False
+    return True
 
 
 def common(labels: Sequence[Labels]) -> Labels:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -17,6 +17,7 @@ from erdctl.core.messages import as_text
 from erdctl.core.version import __version__
 from erdctl.diagnose.thresholds import MOST_EFFECTS
 from erdctl.io.project.labels import Labels
+from erdctl.io.project.reading import ProjectReading
 
 Labelling = Callable[[str], Labels | None]
 STEM = 60  # characters of a log's name in the names of its documents
@@ -51,7 +52,7 @@ class StepOptions:
     seed: int = 0
 
 
-Reading = Callable[[StepOptions, str, Labels], StepOptions]
+Reading = Callable[[Mapping[str, Labels]], ProjectReading | None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,6 +62,7 @@ class Job:
     name : what the table calls it: the log's path, or the labels of a group
     problem : why nothing can be done of it;  known : hash of the log as it was done before
     folder : in which relative paths begin, on a worker too
+    project : how the logs are read where the options do not say it;  said : what it says of each
     """
 
     name: str
@@ -71,12 +73,14 @@ class Job:
     problem: str | None = None
     known: str | None = field(default=None, compare=False)
     folder: str = field(default_factory=os.getcwd, compare=False)
+    project: ProjectReading | None = field(default=None, compare=False)
+    said: tuple[object, ...] = ()
 
     @property
     def key(self) -> str:
         """SHA-256 of all that the outcome depends on beside the bytes of the logs."""
         paths = [as_text(path) for path in self.paths]
-        what = (self.name, paths, self.labels, self.asked, self.version, self.problem)
+        what = (self.name, paths, self.labels, self.asked, self.version, self.problem, *self.said)
         return hashlib.sha256(msgspec.json.encode(what)).hexdigest()
 
     def document(self, step: Step) -> str:
@@ -112,15 +116,22 @@ def plan(
     asked: StepOptions,
     labelling: Labelling = lambda path: None,
     group_by: Sequence[str] = (),
-    reading: Reading = lambda asked, path, labels: asked,
+    reading: Reading = lambda labels: None,
 ) -> list[Job]:
     """The jobs of a campaign, in the order of the table's rows.
 
     labelling : what is known of a log by its path; None for nothing, UsageProblem for nonsense
     group_by : labels that logs have in common which are taken together as one; each alone if empty
-    reading : what is asked of one log, whose damper may have columns of its own; of a group the
-        first says it
+    reading : how logs of these labels, by path, are read by a project file
     """
+
+    def job(name: str, labels: Labels, of: Mapping[str, Labels], problem: str | None = None) -> Job:
+        project = reading(of) if problem is None else None
+        return Job(
+            name=name, paths=tuple(of), labels=labels, asked=asked, problem=problem,
+            project=project, said=tuple(project.says(path) for path in of) if project else (),
+        )  # fmt: skip
+
     jobs: list[Job] = []
     groups: dict[tuple[str, ...], list[tuple[str, Labels]]] = {}
     for path in logs:
@@ -136,22 +147,8 @@ def plan(
         if group_by and problem is None:
             groups.setdefault(values, []).append((path, labels))
         else:
-            jobs.append(
-                Job(
-                    name=as_text(path),
-                    paths=(path,),
-                    labels=labels,
-                    asked=reading(asked, path, labels),
-                    problem=problem,
-                )
-            )
+            jobs.append(job(as_text(path), labels, {path: labels}, problem))
     for values, members in groups.items():
         name = ",".join(f"{n}={v}" for n, v in zip(group_by, values, strict=True))
-        jobs.append(
-            Job(
-                name=name, paths=tuple(path for path, _ in members),
-                labels=common([labels for _, labels in members]),
-                asked=reading(asked, *members[0]),
-            )
-        )  # fmt: skip
+        jobs.append(job(name, common([labels for _, labels in members]), dict(members)))
     return sorted(jobs, key=lambda job: job.name)

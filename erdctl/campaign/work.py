@@ -6,7 +6,7 @@ import hashlib
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import chdir, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from time import process_time
 from typing import Any
 
@@ -22,6 +22,7 @@ from erdctl.interface.log import BenchLog, open_log
 from erdctl.interface.validate import validate
 from erdctl.io import documents
 from erdctl.io.campaign_journal import Entry, ParameterEntry
+from erdctl.io.project.labels import OWN
 from erdctl.io.urls import fetch, is_url
 
 MOST_ERROR = 500  # characters of an error in a table
@@ -141,10 +142,13 @@ class _Work:
 
     def _read(self) -> BenchLog:
         force = self.asked.steps != (Step.INSPECT,)
+        project, changed = self.job.project, self.entry.by_project
+        if project is not None:
+            project = replace(project, used=changed.append)
         try:
             log = open_log(
                 self.job.paths, map=self.asked.maps, text=self.asked.text, where=self.asked.where,
-                need_force=force, want_force=True,
+                need_force=force, want_force=True, project=project,
             )  # fmt: skip
         except ErdctlError as error:
             # A log that is bad today is not read again tomorrow, unless it has changed.
@@ -153,6 +157,9 @@ class _Work:
             raise
         self.entry.hash = _together([s.sha256 for s in log.recording.sources])
         self.entry.remarks = [*log.remarks]
+        stated = log.recording.labels  # by a project file also those of columns
+        for name in OWN:
+            setattr(self.entry, name, getattr(self.entry, name) or stated.get(name))
         return log.labelled(date=self.job.labels.date, damper=self.job.labels.damper)
 
     def _falls_short(self) -> bool:

@@ -13,14 +13,13 @@ from erdctl.cli.rig import Accept
 from erdctl.core.messages import counted
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
     from re import Pattern
 
-    from erdctl.campaign.plan import Labelling, Reading, StepOptions
+    from erdctl.campaign.plan import Labelling, Reading
     from erdctl.campaign.run import Crew
     from erdctl.cli.in_force import InForce
     from erdctl.io.campaign_journal import Entry
-    from erdctl.io.project.labels import Labels
 
 
 class Action(StrEnum):
@@ -102,9 +101,9 @@ def command(
     """Run inspect, identify, validate and diagnose over many logs, into one table.
 
     The Parquet table has a row for each log, command and parameter, with what belongs to the log
-    in each of them: labels, score, verdict, findings, rig faults, hashes. A log that cannot be done
-    is a row with its error, and the exit code is then 1. The JSON documents of each log are in the
-    folder of --keep.
+    in each of them: labels, the score of its identified model (not of a diagnosis's corrected one),
+    verdict, findings, rig faults, hashes. A log that cannot be done is a row with its error, and
+    the exit code is then 1. The JSON documents of each log are in the folder of --keep.
 
     What is there and unchanged (by the log's SHA-256, the options and the version of erdctl) is not
     done again: a campaign that was ended anywhere, or to which logs were added, is taken up by the
@@ -160,7 +159,7 @@ def command(
             _crew(jobs, cluster, len(planned)) as crew,
             counting("campaign", len(planned)) as count,
         ):
-            tally = _Tally(count)
+            tally = _Tally(count, project)
             run(planned, kept, crew, tally.take)
         rows = write_table(entries(planned, kept), output, folder)
     say(
@@ -169,7 +168,7 @@ def command(
     )
     if pattern is not None and (silent := sum(1 for p in found if not pattern.search(p))):
         without = counted(silent, "path")
-        say(f"without labels, as --label does not match: {without}", "warning")
+        say(f"without labels by --label, which does not match: {without}", "warning")
     if tally.bad:
         raise CheckFailed(f"{tally.bad} of {len(planned)} could not be done: see column 'error'")
 
@@ -182,32 +181,22 @@ def _as_said(
 
     from erdctl.campaign.labels import labels_of_path
     from erdctl.core.errors import ErdctlError, UsageProblem
+    from erdctl.io.project.labels import Labels
+    from erdctl.io.project.reading import ProjectReading
 
     def labelling(path: str) -> Labels | None:
-        if pattern is not None or project is None:
-            return pattern and labels_of_path(path, pattern)
+        given = pattern and labels_of_path(path, pattern)
+        if project is None:
+            return given
         try:
-            return project.reading.labels(path)
+            return replace(project.reading, given={path: given or Labels()}).labels(path)
         except ErdctlError as error:  # a date that is none is a row, not the end
             raise UsageProblem(str(error)) from None
 
-    def reading(asked: StepOptions, path: str, labels: Labels) -> StepOptions:
-        if project is None or not project.project.reads(path):
-            return asked
-        said = project.project
-        columns, text, where = said.columns(labels), said.text(labels), said.where(labels)
-        for what, keys in (("columns", columns), ("text", text), ("where", where)):
-            if keys:
-                project.use(what)
-        given = {one.partition("=")[0].strip() for one in asked.maps}
-        return replace(
-            asked,
-            maps=(*(f"{k}={s.value}" for k, s in columns.items() if k not in given), *asked.maps),
-            text=(*(f"{k}={s.value}" for k, s in text.items()), *asked.text),
-            where=(
-                *(f"{k}={value}" for k, s in where.items() for value in s.value), *asked.where,
-            ),
-        )  # fmt: skip
+    def reading(labels: Mapping[str, Labels]) -> ProjectReading | None:
+        if project is None:
+            return None
+        return ProjectReading(project.project, given=labels)
 
     return labelling, groups, reading
 
@@ -218,14 +207,19 @@ MOST_SAID = 20  # errors of logs on stderr; the table has all
 class _Tally:
     """Counts what comes, and says what went wrong as it does."""
 
-    def __init__(self, count: Callable[[str], None]) -> None:
-        self.count, self.new, self.before, self.bad = count, 0, 0, 0
+    def __init__(self, count: Callable[[str], None], project: InForce | None) -> None:
+        self.count, self.project = count, project
+        self.new, self.before, self.bad = 0, 0, 0
 
     def take(self, entry: Entry, new: bool) -> None:
         from erdctl.report.text import say
 
         self.new += new
         self.before += not new
+        if self.project is not None:
+            for what in entry.by_project:
+                if what.startswith(("columns ", "text ", "where ")):  # its labels are in the table
+                    self.project.use(what)
         if entry.error is not None:
             self.bad += 1
             if self.bad <= MOST_SAID:

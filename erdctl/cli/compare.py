@@ -95,7 +95,9 @@ def command(
       "backlash.g" = { high = "0.5 mm" }
       nrmse = { high = 0.02 }
     A band passes or fails only if the 95 % interval lies all within or all without; else it cannot
-    be told. What is judged is the trend at the last date, or else the last log.
+    be told. What is judged is the trend at the last date, or else the last log. The parameters are
+    those of a diagnosis's corrected model where there is one; nrmse and nrmse_worst are always of
+    its baseline, the model before anything was found (in a campaign, the identified one).
 
     \b
     Examples:

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
+    from erdctl.io.project.reading import ProjectReading
+
 FRAME = "DataFrame"  # what messages and records call a log that is one
 
 
@@ -208,6 +210,7 @@ def open_log(
     need_force: bool = False,
     want_force: bool = False,
     keep_table: bool = False,
+    project: ProjectReading | None = None,
 ) -> BenchLog:
     """Logs out of paths and frames; the options are those of `erdctl.io.logs.read_logs`.
 
@@ -228,7 +231,7 @@ def open_log(
     log = read_logs(
         names, maps=maps_of(map), text=text, where=maps_of(where), need_force=need_force,
         want_force=want_force, keep_table=keep_table and len(names) == 1, want_hash=True,
-        others=PROGRAMME if want_force else (), held=held, report=remarks.append,
+        others=PROGRAMME if want_force else (), held=held, project=project, report=remarks.append,
     )  # fmt: skip
     return BenchLog(log, tuple(remarks))
 

@@ -42,6 +42,7 @@ class Entry(msgspec.Struct, kw_only=True):
 
     key : hash of what was asked;  documents : command -> file in the folder
     seconds : that each step took, for whoever counts costs: in no table
+    by_project : what a project file changed in reading the logs: in no table
     """
 
     schema: str = SCHEMA
@@ -66,6 +67,7 @@ class Entry(msgspec.Struct, kw_only=True):
     exit_code: int = 0
     error: str | None = None
     seconds: dict[str, float] = {}
+    by_project: list[str] = []
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
-from datetime import datetime
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
 from typing import Any
 
 import msgspec
@@ -41,9 +41,9 @@ class DiagnosisIn(msgspec.Struct):
     schema: str
     verdict: str
     corrected: _CorrectedIn
-    baseline: _Scored = field(default_factory=_Scored)
+    baseline: _Scored = msgspec.field(default_factory=_Scored)
     noise_rms: float | None = None
-    limits: dict[str, Limit] = field(default_factory=dict)
+    limits: dict[str, Limit] = {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -201,8 +201,5 @@ def _date(given: object, name: str) -> datetime | None:
         raise InputProblem(
             f"provenance.date: expected a date, not {text[:40]!r}", file=name
         ) from None
-    return (
-        found.replace(tzinfo=None)
-        if found.tzinfo is None
-        else found.astimezone().replace(tzinfo=None)
-    )
+    # In UTC, as a campaign's table has it: here and there the order of logs is the same.
+    return found if found.tzinfo is None else found.astimezone(UTC).replace(tzinfo=None)

@@ -16,8 +16,9 @@ from erdctl.core.messages import counted
 from erdctl.report.readable import number, scaled, with_unit
 
 SCORES = {
-    "nrmse": "the NRMSE",
-    "nrmse_worst": "the NRMSE of the worst level",
+    # Of a diagnosis, too: the parameters beside it are those of its corrected model.
+    "nrmse": "the baseline's NRMSE",
+    "nrmse_worst": "the baseline's NRMSE at the worst level",
     "noise_rms": "the noise",
 }
 SET = 9  # digits of what somebody has set, so that it stands as it was set
@@ -28,7 +29,7 @@ def noun(parameter: str) -> str:
     """What a parameter is called in a sentence.
 
     >>> noun("compression.c_vis"), noun("backlash.g"), noun("nrmse")
-    ('c_vis in compression', 'free play', 'the NRMSE')
+    ('c_vis in compression', 'free play', "the baseline's NRMSE")
     """
     from erdctl.effects import get, names
 
@@ -54,7 +55,7 @@ def _moved(name: str, unit: str, before: float, after: float) -> str:
     """A change with as many digits as show it.
 
     >>> _moved("compression.c_vis", "N s/m", 60.0, 60.02), _moved("nrmse", "1", 0.01, 0.01)
-    ('c_vis in compression grew from 60 to 60.02 N s/m', 'the NRMSE is the same, 0.01')
+    ('c_vis in compression grew from 60 to 60.02 N s/m', "the baseline's NRMSE is the same, 0.01")
     """
     if before == after:
         return f"{noun(name)} is the same, {with_unit(before, unit, 3)}"

@@ -38,6 +38,12 @@ def test_no_date_and_no_expression() -> None:
         pattern_of("D[0-9]+")
 
 
+@pytest.mark.parametrize("written", ["240501", "201205"])
+def test_six_digits_that_may_be_a_month_or_a_day_are_no_date(written: str) -> None:
+    with pytest.raises(UsageProblem, match=f"the date '{written}' may be year and month or"):
+        labels(f"lab/D7/fl_{written}_40C.csv")
+
+
 def test_a_group_has_what_its_logs_share() -> None:
     a = Labels("D1", "fl", "2024-05-01", {"oil": "40C", "rig": "2"})
     b = Labels("D1", "fr", "2024-05-01", {"oil": "20C", "rig": "2"})

@@ -12,6 +12,7 @@ from typing import Any
 
 import fleet
 import numpy as np
+import pandas as pd
 import pyarrow as pa
 import pyarrow.csv as pc
 import pyarrow.parquet as pq
@@ -294,3 +295,34 @@ def test_a_project_file_says_how_logs_are_read_and_of_which_damper(
     ours, theirs = rows(tmp_path / "by_project.parquet"), rows(tmp_path / "plain.parquet")
     assert {(r["damper"], str(r["date"])[:10]) for r in ours} == {("D07", "2024-05-01")}
     assert [r["value"] for r in ours] == pytest.approx([r["value"] for r in theirs], rel=1e-9)
+
+
+def test_a_project_file_holds_as_it_does_for_every_other_command(
+    lab: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A log of SI columns, one of two dampers, the command line that wins, labels of both."""
+    log = pq.read_table(min((lab / "lab").rglob("*.parquet"))).to_pandas()
+    log.to_csv(tmp_path / "A01_20240501_40C.csv", index=False)
+    harder = log.assign(force=2 * log["force"])
+    two = pd.concat([log.assign(who="FL"), harder.assign(who="FR")])
+    two.assign(Weg=1e3 * two.pop("x")).to_csv(tmp_path / "two.csv", index=False)
+    (tmp_path / "erdctl.toml").write_text(
+        "[labels]\npath = '(?P<damper>A[0-9]+)_(?P<date>[0-9]+)'\ncolumns = {damper = 'who'}\n"
+        "[columns]\nx = 'Weg[mm]'\n[where]\nwho = ['FL']\n"
+    )
+    monkeypatch.chdir(tmp_path)
+    logs = ("A01_20240501_40C.csv", "two.csv")
+    label = ("--label", "(?P<oil>[0-9]+C)")
+    said = campaign(*logs, "-o", "by.parquet", *label)
+    assert "by erdctl.toml: columns x; where who\n" in said
+    one, left = ([r for r in rows(tmp_path / "by.parquet") if r["log"] == name] for name in logs)
+    assert {(r["damper"], str(r["date"])[:10]) for r in one} == {("A01", "2024-05-01")}
+    assert dict(one[0]["conditions"]) == {"oil": "40C"}
+    assert {r["damper"] for r in left} == {"FL"}
+    assert [r["value"] for r in left] == pytest.approx([r["value"] for r in one], rel=1e-6)
+    assert "2 before" in campaign(*logs, "-o", "by.parquet", *label)
+    campaign("two.csv", "-o", "right.parquet", "--where", "who=FR")
+    right = rows(tmp_path / "right.parquet")
+    assert {r["damper"] for r in right} == {"FR"}
+    stiffness = [r["value"] for r in (*left, *right) if r["parameter"] == "release.k_nom"]
+    assert stiffness[1] == pytest.approx(2 * stiffness[0], rel=1e-3)

@@ -298,3 +298,22 @@ def test_a_sentence_says_nothing_that_its_numbers_do_not(tmp_path: Path) -> None
     limits = tmp_path / "limits.toml"
     limits.write_text("c_vis = { low = 70.123, high = 1234.5 }")
     assert "band 70.123 to 1234.5 N s/m: fail" in run("compare", a, "--limits", limits).stderr
+
+
+def test_the_nrmse_of_a_diagnosis_is_said_to_be_its_baselines(tmp_path: Path) -> None:
+    """Its parameters are those of the corrected model, which fits better than the score says."""
+    params = json.loads(damper(tmp_path / "a.json", 60.0).read_text())
+    path, limits = tmp_path / "diagnosis.json", tmp_path / "limits.toml"
+    document = {
+        "schema": "erdctl.diagnosis/1", "verdict": "explained", "noise_rms": 0.3,
+        "baseline": {"nrmse": 0.11}, "corrected": {"nrmse": 0.04, "params": params},
+    }  # fmt: skip
+    path.write_text(json.dumps(document))
+    limits.write_text("nrmse = { high = 0.05 }")
+    done = run("compare", path, "--limits", limits)
+    assert done.exit_code == 1
+    assert "the baseline's NRMSE 0.11, at most 0.05: fail" in done.stderr
+    del document["baseline"]
+    path.write_text(json.dumps(document))
+    done = run("compare", path)
+    assert (done.exit_code, done.exception) == (0, None)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import time
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +17,7 @@ from places import FIXTURES
 
 from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.io.campaign_in import as_declared, histories
+from erdctl.io.campaign_out import instant
 from erdctl.io.campaign_table import SCHEMA
 from erdctl.io.limits_file import read_limits
 from erdctl.io.states import read_inputs
@@ -53,8 +56,6 @@ def test_an_effect_is_absent_where_it_is_not_named() -> None:
 
 
 def test_logs_are_in_the_order_of_their_dates_and_dampers_have_corners() -> None:
-    from datetime import datetime
-
     rows = [
         {"log": log, "damper": "car 1", "corner": corner, "parameter": "release.beta", "unit": "1",
          "value": 0.5, "date": datetime(2024, month, 1)}
@@ -110,6 +111,23 @@ def test_documents_become_rows(tmp_path: Path) -> None:
     assert found.series["backlash.g"].value.tolist() == [2e-3]
     assert found.covariances[0].correlation[1, 0] == 0.25
     assert given.documents
+
+
+@pytest.mark.parametrize("here", ["UTC", "America/New_York"])
+def test_a_date_with_a_time_zone_is_that_of_a_campaign_wherever_it_is_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, here: str
+) -> None:
+    at = "2024-05-01T01:00+02:00"
+    path = tmp_path / "a.json"
+    path.write_text(json.dumps({**TABLE_2, "provenance": {"date": at}}))
+    monkeypatch.setenv("TZ", here)
+    time.tzset()
+    try:
+        found = read_inputs([str(path)]).table["date"][0].as_py()
+    finally:
+        monkeypatch.undo()
+        time.tzset()
+    assert found == instant(at) == datetime(2024, 4, 30, 23)
 
 
 @pytest.mark.parametrize(

@@ -39,6 +39,17 @@ class Labels:
         return {k: v for k, v in (given | {"conditions": said}).items() if v}
 
 
+def over(labels: Labels, given: Labels) -> Labels:
+    """Labels with those that are given in their place, name by name.
+
+    Check: a date that is given does not take the damper away.
+    >>> over(Labels("A07", date="2024-05-01"), Labels(date="2024-06-01"))
+    Labels(damper='A07', corner=None, date='2024-06-01', conditions={})
+    """
+    own = {name: given.value(name) or labels.value(name) for name in OWN}
+    return Labels(**own, conditions={**labels.conditions, **given.conditions})
+
+
 def relative(path: str, folder: str) -> str:
     """A path from the project's folder on, with / between folders; absolute where it is outside.
 

@@ -10,13 +10,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 from erdctl.core.errors import InputProblem
 from erdctl.io.dampers import Where, chosen_rows, needed_columns
 from erdctl.io.maps import Mapping as ColumnMapping
 from erdctl.io.maps import parse_maps
-from erdctl.io.project.labels import Labels, common
+from erdctl.io.project.labels import Labels, common, over
 from erdctl.io.project.project import Project, Said, chosen
 from erdctl.io.sources import TableSource, open_source, read_source
 from erdctl.io.text.options import TextOptions, TextSpec, pairs_of, parse_text_options
@@ -35,21 +36,39 @@ class OfLog:
     labels: Labels
 
 
+def _untold(what: str) -> None:
+    """Nobody asks; a function with a name goes to another process, a lambda does not."""
+
+
 @dataclass(frozen=True)
 class ProjectReading:
     """A project as the logs of one command are read by it.
 
     damper, corner : as the user gave them;  used : takes what the project changed
+    given : what the user said of single logs, by path; wins name by name
     """
 
     project: Project
     damper: str | None = None
     corner: str | None = None
-    used: Callable[[str], None] = lambda what: None
+    used: Callable[[str], None] = _untold
+    given: Mapping[str, Labels] = field(default_factory=dict)
 
-    def labels(self, path: str) -> Labels:
-        """What a log is of, as far as its path and the user say it."""
-        return chosen(self.project.labels(path), self.damper, self.corner)
+    def labels(self, path: str, columns: Mapping[str, str] | None = None) -> Labels:
+        """What a log is of, as far as its path, its columns and the user say it."""
+        found = over(self.project.labels(path, columns), self.given.get(path, Labels()))
+        return chosen(found, self.damper, self.corner)
+
+    def says(self, path: str) -> list[Any]:
+        """All that the reading of one log depends on, to see whether that is unchanged."""
+        content, labels = self.project.content, self.labels(path)
+        columns = content.labels.columns  # where they are asked, any damper may be found
+        sections = [
+            (at, section.columns, section.text, section.where)
+            for at, section in self.project.sections()
+            if at[:1] != ("damper",) or columns or at == ("damper", labels.damper)
+        ]
+        return [labels, self.project.reads(path), bool(content.logs), columns, sections]
 
     def text(self, path: str, given: TextSpec) -> tuple[TextOptions | None, TextOptions | None]:
         """How a text is written: what is said of this file, and what of any but plain CSV.
@@ -131,7 +150,7 @@ class ProjectReading:
             return labels
         rows = [*where, *(w for w in self._where(labels, where) if w.column in source.columns)]
         stated = _stated(source, here, rows, say)
-        return chosen(self.project.labels(source.path, stated), self.damper, self.corner)
+        return self.labels(source.path, stated)
 
     def _corner(self, source: TableSource, labels: Labels, needed: Sequence[str]) -> Labels:
         """The corner whose columns the log has, where nobody says it and it has those of one."""
