@@ -144,7 +144,7 @@ def bins_of(seen: npt.NDArray[Any]) -> tuple[Array, Index]:
 def bins(duty: Array) -> Codes:
     """(n,) the bin of 0.05 that each duty is in, from 1, of which BINS are the middles; 0 for 0.
 
-    Check: 0.10 to below 0.15 is the third, 0.15 begins the fourth, and 1 is in the last.
+    Check: 0 has 0, 0.10 to below 0.15 are in bin 3, 0.15 begins bin 4, and 1 is in the last, 20.
     >>> bins(np.array([0.0, 0.10, 0.1499, 0.15, 1.0])).tolist()
     [0, 3, 3, 4, 20]
     """
