@@ -17,6 +17,7 @@ WIDE = 2  # of those, the nearest, which it may take up itself
 SIGMAS = 8.0
 OVER = 3.0  # times what its surroundings vary by: noise with a memory has peaks, too
 RANGE = 0.04  # of the channel's range
+JUMPS = 3.0  # times what 98 % of a force span, beyond which no turn makes it jump there and back
 RANGE_X = 0.004  # the same of x, of which smaller ones harm
 COUNTS = 2.5  # steps of the recorder, of which one may flicker
 IN_STEPS = 1.5  # of what x rises in its steepest step there; a derived velocity smears a motion
@@ -79,8 +80,11 @@ def _spikes(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault]) -
             continue
         noise = p.noise(channel)[0]
         if channel == "force":
-            # Where the piston turns, or touches rest, a sound force jumps there and back.
+            # Where the piston turns, or touches rest, a sound force jumps there and back, but by no
+            # more than it spans.
+            low, high = percentiles(values, 1.0, 99.0)
             away = ~(p.turning(WIDE + 1) | p.stepped(2 * NEAR))[at]
+            away |= height > JUMPS * (high - low)
             at, height = at[away], height[away]
         lowest = (RANGE if channel == "force" else RANGE_X) * width
         least = np.full(len(at), max(lowest, COUNTS * resolution(p.of(channel))))

@@ -42,6 +42,7 @@ BEYOND = 2.5  # times what a model misses of the others, which of a weak record 
 # part of a force from which a term is strong; the part of its change by which its gain may differ.
 TERMS = ([0, 1, 2], [3, 4], [5, 6, 7])
 STRONG, SAME_GAIN = 0.2, 0.3
+AT_REST = 0.01  # of the longest stroke
 ZERO_EXPLAINED = 0.5  # part of a misfit to a model of the others that a zero takes
 UNITS = {
     "kilonewtons": 1e-3, "pounds-force": 1 / 4.4482216, "kilograms-force": 1 / 9.80665,
@@ -53,6 +54,9 @@ UNITS = {
 
 def check(found: Sequence[Piece]) -> list[RigFault]:
     """Records unlike the others."""
+    # What friction holds at rest is any force between its ends, and tells no zero and no gain.
+    stroke = max((spread(p.x) for p in found), default=0.0)
+    found = [p for p in found if spread(p.x) > AT_REST * stroke]
     if len({p.record for p in found}) < LEAST_RECORDS:
         return []
     out = _louder(found)
