@@ -681,6 +681,10 @@ REGION_OWN = 0.5
 # Origin: none.
 REGION_SAME = 0.5
 
+# Digits of a duty that tell levels apart where a misfit gathers.
+# Origin: no amplifier is finer; levels that differ by the last digits of a unit are one.
+DUTY_DIGITS = 6
+
 # Correlation with a simple form of motion and control; fading of one of them [s].
 # Decides: whether a resemblance is reported.
 # Origin: none.

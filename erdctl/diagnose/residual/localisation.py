@@ -27,7 +27,6 @@ UNITS = {
     Variable.RECORD: (1.0, ""),
 }
 
-DUTY_DIGITS = 6  # no amplifier is finer: levels that differ by the last digits of a unit are one
 TWO_SIDED = (Variable.X, Variable.XDOT)  # what has both ends or both directions
 
 
@@ -58,7 +57,7 @@ def variables(signals: Signals, force: Array) -> dict[Variable, Array]:
     return {
         Variable.XDOT: signals.xdot,
         Variable.X: signals.x,
-        Variable.DUTY: np.round(signals.duty, DUTY_DIGITS),
+        Variable.DUTY: np.round(signals.duty, thresholds.DUTY_DIGITS),
         Variable.TIME: signals.t,
         Variable.SINCE_REVERSAL: signals.since_reversal,
         Variable.SINCE_DUTY_STEP: signals.since_duty_step,

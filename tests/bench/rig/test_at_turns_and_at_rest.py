@@ -57,5 +57,5 @@ def friction(seed: int) -> Recording:
 
 @pytest.mark.parametrize("seed", [65, 72])
 def test_a_record_at_rest_has_no_zero_of_its_own(seed: int) -> None:
-    """What friction holds there was a zero of 9.6 N beside the other records (2 of 40 such logs)."""
+    """What friction holds there was a zero of 9.6 N beside others (in 2 of 40 such logs)."""
     assert look(friction(seed)).lines() == []
