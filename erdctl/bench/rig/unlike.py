@@ -54,14 +54,14 @@ UNITS = {
 
 def check(found: Sequence[Piece]) -> list[RigFault]:
     """Records unlike the others."""
-    # What friction holds at rest is any force between its ends, and tells no zero and no gain.
-    stroke = max((spread(p.x) for p in found), default=0.0)
-    found = [p for p in found if spread(p.x) > AT_REST * stroke]
     if len({p.record for p in found}) < LEAST_RECORDS:
         return []
     out = _louder(found)
     loud = {f.record for f in out}
-    rows = best_rows(first_of_each([p for p in found if p.record not in loud]))
+    # What friction holds at rest is any force between its ends, and tells no zero and no gain.
+    least = AT_REST * max(spread(p.x) for p in found)
+    moving = [p for p in found if spread(p.x) > least and p.record not in loud]
+    rows = best_rows(first_of_each(moving)) if moving else []
     kinds: list[Callable[[Sequence[Rows]], RigFault | None]] = [_gained, _zeroed, late]
     for kind in kinds:
         # The clearest first: left in, it widens the scatter that the next is held against.

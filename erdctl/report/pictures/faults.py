@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from erdctl.model.faults import parse_fault
+from erdctl.model.faults import effectiveness, parse_fault
 from erdctl.report import draw, style, thin
 from erdctl.report.kind import Picture
 
@@ -52,9 +53,9 @@ def faults(figure: Figure, subject: Subject) -> None:
 
 def _acts(spec: str, subject: Subject) -> Flags:
     """(n,) samples at which a fault acts, as `--fault` describes it."""
-    fault, t = parse_fault(spec), subject.recording.t
-    begins = t >= (-np.inf if fault.start is None else fault.start)
-    return begins & (t < (np.inf if fault.end is None else fault.end))
+    # A leakage by its flow is none at low speeds, and a ramp begins at nothing: the whole of each.
+    r, whole = subject.recording, replace(parse_fault(spec), factor=0.0, flow=None, ramp=0.0)
+    return effectiveness(whole, r.t, r.xdot, r.starts) < 1.0
 
 
 def shown_levels(subject: Subject) -> list[int]:

@@ -59,3 +59,12 @@ def friction(seed: int) -> Recording:
 def test_a_record_at_rest_has_no_zero_of_its_own(seed: int) -> None:
     """What friction holds there was a zero of 9.6 N beside others (in 2 of 40 such logs)."""
     assert look(friction(seed)).lines() == []
+
+
+def test_records_that_are_all_at_rest_are_not_held_against_each_other() -> None:
+    r = friction(65)
+    still = np.zeros(len(r))
+    force = np.repeat([0.6, -3.0, 2.0, 4.0, 0.1, -0.5], np.diff(r.starts))
+    force = force + 0.3 * np.random.default_rng(65).normal(size=len(r))
+    codes = {f.code for f in look(replace(r, x=still, xdot=still, force=force)).faults}
+    assert not codes & {"record_offset", "record_gain", "record_lag"}
