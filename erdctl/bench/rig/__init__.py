@@ -11,6 +11,7 @@ from dataclasses import replace
 from erdctl.bench.rig import (
     against_model,
     clipping,
+    control,
     frozen,
     losses,
     scale,
@@ -71,8 +72,8 @@ class Looking:
 
 def _look(recording: Recording, looked: Looked) -> list[RigFault]:
     found = looked.pieces(recording)
-    faults = scale.check(found) + velocity.check(found)
-    # What follows is held against the motion, so not against a velocity that is wrong itself.
+    faults = scale.check(found) + velocity.check(found) + control.check(found)
+    # What follows is held against motion and control, so not against what is wrong of these.
     if (sounder := sound(recording, faults)) is not recording:
         found = looked.pieces(sounder)
     clipped = clipping.check(found, "x")

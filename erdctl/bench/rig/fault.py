@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from erdctl.bench.held_duty import held_duty
 from erdctl.bench.rig.pieces import FEWEST
 from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.core.recording import Index, Recording
@@ -17,7 +18,8 @@ CODES = (
     "force_sign", "time_unit", "speed_unit", "stroke_unit", "force_unit", "duty_unit",
     "force_clipped", "x_clipped", "force_frozen", "x_frozen", "force_spikes", "x_spikes",
     "force_burst", "samples_missing", "x_jumps", "velocity_noise", "velocity_lag", "velocity_gain",
-    "velocity_offset", "record_gain", "record_offset", "record_lag", "record_noise",
+    "velocity_offset", "duty_noise", "record_gain", "record_offset", "record_lag",
+    "record_noise",
 )  # fmt: skip
 REFUSED = 3  # faults that one message tells
 VELOCITY_CODES = ("velocity_noise", "velocity_lag", "velocity_gain")
@@ -129,7 +131,7 @@ class Rig:
 
         Without the records that cannot be used, unless there are no others; samples at fault are
         marked in `excluded`; a velocity channel at fault is left out for the derivative of x, or
-        has its zero taken off.
+        has its zero taken off; a duty with noise is taken at the levels that it holds.
         """
         if self.recording is None:
             raise ValueError("a log that was read in stretches is not there to be used")
@@ -147,11 +149,14 @@ class Rig:
 
 def sound(recording: Recording, faults: Collection[RigFault]) -> Recording:
     """The recording with the derivative of x in the place of a velocity channel at fault, or with
-    that channel less its zero.
+    that channel less its zero; and with the levels of a duty with noise.
     """
+    codes = {f.code for f in faults}
+    if "duty_noise" in codes and (held := held_duty(recording.duty, recording.starts)) is not None:
+        recording = replace(recording, duty=held.duty)
     if zero := sum(f.zero for f in faults):
         return replace(recording, xdot=recording.xdot - zero)
-    if not any(f.code in VELOCITY_CODES for f in faults):
+    if codes.isdisjoint(VELOCITY_CODES):
         return recording
     from erdctl.bench.differentiation import derive_xdot
 
