@@ -246,8 +246,9 @@ def _zeroed(rows: Sequence[Rows]) -> RigFault | None:
 def _only_zero(rows: Sequence[Rows], index: int) -> bool:
     """Whether a constant is most of what a record has beside a model of the others.
 
-    A zero moves all of a force; physics that is missing leaves a mean here and there as well, and
-    where a gas is compressed a mean that a curve over the deflection makes.
+    A zero moves all of a force, from the first sample on. Physics that is missing leaves a mean here
+    and there as well, where a gas is compressed one that a curve over the deflection makes, and
+    where it warms one that grows from none.
     """
     r = rows[index]
     rest = (r.force - r.columns @ of_others(rows, index))[r.smooth]
@@ -255,5 +256,6 @@ def _only_zero(rows: Sequence[Rows], index: int) -> bool:
         return False
     x = r.columns[r.smooth, 1] + r.columns[r.smooth, 2]
     x = (x - x.mean()) / max(float(np.std(x)), 1e-12)
-    flat = np.linalg.lstsq(np.column_stack([np.ones_like(x), x, x * x]), rest, rcond=1e-9)[0][0]
-    return bool(flat / np.mean(rest) > ZERO_EXPLAINED)
+    t = np.linspace(0.0, 1.0, len(r.smooth))[r.smooth]
+    A = np.column_stack([np.ones_like(x), x, x * x, t])
+    return bool(np.linalg.lstsq(A, rest, rcond=1e-9)[0][0] / np.mean(rest) > ZERO_EXPLAINED)

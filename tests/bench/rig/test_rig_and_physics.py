@@ -76,6 +76,15 @@ def test_what_a_gas_adds_at_both_ends_is_no_zero() -> None:
     assert look(recorded(case)).lines() == []
 
 
+@pytest.mark.parametrize("seed", [1_720_015, 1_740_002])
+def test_a_gas_that_warms_is_no_zero(seed: int) -> None:
+    """Of the record that warmed most it was 5 and 29 N in the mean, and -1 and -6 N in its first
+    quarter: the record was left out, and the load cell to be set to zero."""
+    case = plant.draw(seed, known=frozenset(e.name for e in catalogue()))
+    assert [e["name"] for e in plant.key(case)["effects"]] == ["gas_thermal_drift"]
+    assert look(recorded(case)).lines() == []
+
+
 @pytest.mark.parametrize("counts", [60, 120, 250])
 def test_a_count_that_flickers_is_no_spike(counts: int) -> None:
     """A record of a weak force on a coarse channel had 1 to 8 spikes, of one count each."""
