@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from erdctl.bench.rig.fault import RigFault
-from erdctl.bench.rig.pieces import Piece, resolution, runs_of_equals, widened
+from erdctl.bench.rig.pieces import Piece, resolution, runs_of_equals, spread, widened
 
 RUN = 3  # samples that a visit lasts
 SAMPLES = 12  # at the limit, in all visits
@@ -15,6 +15,9 @@ VISITS = 2
 # A channel that is only coarse has about as many samples in its three next steps as in the last:
 # near its top a sine spends a time that grows with the root of the distance from it.
 CROWDED = 4.0
+STEPS, SIGMAS = 3.0, 4.0  # of the recorder, and of noise, that a rod moves beyond the limit of x
+CHANGE = 0.02  # of the range of the force, by which it changes as the rod turns there
+SETTLING = 0.6  # of its change from the first quarter of a stay to the next
 UNITS = {"force": (1.0, "N"), "x": (1e3, "mm")}
 
 
@@ -64,14 +67,38 @@ def _visits(
             continue
         first, length = runs_of_equals(np.where(at, 1.0, np.arange(len(p)) + 2.0))
         last = first + length - 1
-        # At rest a channel may well stay where it is, and at the end of a stroke x does.
+        # At rest a channel may well stay where it is.
         moved = np.abs(p.x[last] - p.x[first]) + np.abs(p.xdot[first]) * p.step
-        kept = moved > 1e-6 * p.stroke if channel == "force" else np.ones(len(first), dtype=bool)
+        kept = moved > 1e-6 * p.stroke
+        if channel == "x":
+            turns = [_turns(p, a, a + n, 2.0 * within) for a, n in zip(first, length, strict=True)]
+            kept = np.array(turns, dtype=np.bool_)
         firsts.append(first[kept] + p.first)
         lengths.append(length[kept])
     if not firsts:
         return np.empty(0, dtype=np.intp), np.empty(0, dtype=np.intp)
     return np.concatenate(firsts), np.concatenate(lengths)
+
+
+def _turns(p: Piece, a: int, b: int, step: float) -> bool:
+    """Whether the rod went on and came back while x stayed at its limit: it may also have rested.
+
+    step : of the recorder [m]
+    """
+    if b - a < RUN:
+        return False
+    if p.recording.xdot_note == "measured":
+        walk = SIGMAS * p.noise("xdot")[0] * p.step * (b - a) ** 0.5
+        # A rest may begin and end between two samples.
+        change = np.abs(np.diff(p.xdot[a:b]))
+        edges = 0.5 * p.step * float(change[0] + change[-1])
+        return p.travelled(a, b) > max(STEPS * step, walk + edges)
+    if p.recording.force is None:
+        return False  # nothing tells a limit from a rest that a drive asks for
+    # As a rod turns, the force goes on changing; at rest it settles.
+    first, *later = np.abs(np.diff([q.mean() for q in np.array_split(p.force[a:b], 4) if len(q)]))
+    least = SIGMAS * p.noise("force")[0] * (8.0 / (b - a)) ** 0.5
+    return bool(max(later) > max(CHANGE * spread(p.force), least, SETTLING * first))
 
 
 def _with_next(found: Sequence[Piece], samples: np.ndarray) -> np.ndarray:

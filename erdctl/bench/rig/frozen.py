@@ -66,15 +66,7 @@ def _works(piece: Piece, channel: str, a: int, b: int) -> bool:
             ((v > 0).any() and (v < 0).any()) or np.ptp(x) > 0.2 * piece.stroke
         )
     if piece.recording.xdot_note == "measured":
-        # To and fro as well: a channel may have stood at a limit over a whole turn. But while a rod
-        # rests its velocity goes on by what its zero is off, as it does elsewhere.
-        steps = np.diff(piece.t)
-        far = steps * piece.xdot[:-1]
-        off, time = far - np.diff(piece.x), steps.copy()
-        off[max(a - 1, 0) : b] = time[max(a - 1, 0) : b] = 0.0
-        zero = float(off.sum()) / max(float(time.sum()), 1e-300)
-        travelled = np.cumsum(np.append(0.0, far[a : b - 1] - zero * steps[a : b - 1]))
-        return float(np.ptp(travelled)) > MOVED * piece.stroke
+        return piece.travelled(a, b) > MOVED * piece.stroke
     force = piece.recording.force
     if force is None or np.ptp(piece.of("duty")[a:b]) > 0:
         return False

@@ -16,6 +16,7 @@ MOST = 500_000  # samples that are looked at; of a longer log, even stretches
 STRETCHES = 100  # of a longer log
 THIN = 3_000  # samples that a percentile is taken of
 RECORDS = 200  # records that are looked at, evenly
+BREAKS = 0.3  # of the effective speed, by which it changes in a step where it breaks
 STEP = 0.02  # of the duty, that a force answers visibly
 NEAR = 8  # samples next to a reversal or a duty step, where a force may jump
 
@@ -73,13 +74,30 @@ class Piece:
 
             x_{i+1} - x_i - h (13 (v_i + v_{i+1}) - v_{i-1} - v_{i+2}) / 24
 
-        of which trapezoids would leave 40 % of a motion with three samples a cycle.
+        of which trapezoids would leave 40 % of a motion with three samples a cycle. Where the speed
+        breaks (a triangle turns), trapezoids are the better ones next to it, and right to half of
+        the break at it: less than that is none.
         """
-        v = self.xdot
+        v, broken = self.xdot, self._broken
         padded = np.pad(v, 1, mode="edge")
         two = v[1:] + v[:-1]
         bend = two - padded[:-3] - padded[3:]
-        return np.asarray(np.diff(self.x) - np.diff(self.t) * (0.5 * two + bend / 24.0))
+        dt = np.diff(self.t)
+        straight = np.diff(self.x) - dt * 0.5 * two
+        out = straight - dt * bend / 24.0
+        better = widened(broken > 0, 1) & (np.abs(straight) < np.abs(out))
+        out = np.where(better, straight, out)
+        return np.asarray(out - np.clip(out, -0.5 * dt * broken, 0.5 * dt * broken))
+
+    @property
+    def _broken(self) -> Array:
+        """(n - 1,) by how much xdot changes in a step beyond what it does near it [m/s]; 0 where
+        the motion turns as smoothly as it goes on.
+        """
+        change = np.abs(np.diff(self.xdot))
+        wide = np.pad(change, 2, mode="edge")
+        broken = change - np.maximum(wide[:-4], wide[4:])
+        return np.where(broken > BREAKS * self.speed, broken, 0.0)
 
     @cached_property
     def moved(self) -> Array:
@@ -134,6 +152,19 @@ class Piece:
         if channel not in self._noises:
             self._noises[channel] = white_noise(self.of(channel))
         return self._noises[channel]
+
+    def travelled(self, a: int, b: int) -> float:
+        """How far apart the places are that a measured xdot leads to from sample a to b [m].
+
+        To and fro as well: x may have stood at a limit over a whole turn. But while a rod rests its
+        velocity goes on by what its zero is off, as it does elsewhere.
+        """
+        steps = np.diff(self.t)
+        far = 0.5 * steps * (self.xdot[1:] + self.xdot[:-1])
+        off, time = -self.beyond, steps.copy()
+        off[max(a - 1, 0) : b] = time[max(a - 1, 0) : b] = 0.0
+        zero = float(off.sum()) / max(float(time.sum()), 1e-300)
+        return float(np.ptp(np.cumsum(np.append(0.0, (far - zero * steps)[a : b - 1]))))
 
     def stepped(self, reach: int) -> npt.NDArray[np.bool_]:
         """(n,) samples so near to a step of the duty that the force may overshoot."""
