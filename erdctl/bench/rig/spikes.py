@@ -90,7 +90,7 @@ def _spikes(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault]) -
         least = np.full(len(at), max(lowest, COUNTS * resolution(p.of(channel))))
         if channel == "x":
             least = np.maximum(least, SIGMAS * p.unresolved[at])
-            # What a trapezoid lacks of a speed that changes within a step or two, as triangles turn.
+            # What a trapezoid lacks of a speed that changes within a step or two, as of triangles.
             change = largest_near(p.xdot, WIDE) + largest_near(-p.xdot, WIDE)
             least = np.maximum(least, p.step * change[at] / 8.0)
             in_a_step = largest_near(np.abs(p.beyond), WIDE)[at]

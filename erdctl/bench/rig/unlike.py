@@ -246,9 +246,9 @@ def _zeroed(rows: Sequence[Rows]) -> RigFault | None:
 def _only_zero(rows: Sequence[Rows], index: int) -> bool:
     """Whether a constant is most of what a record has beside a model of the others.
 
-    A zero moves all of a force, from the first sample on. Physics that is missing leaves a mean here
-    and there as well, where a gas is compressed one that a curve over the deflection makes, and
-    where it warms one that grows from none.
+    A zero moves all of a force, from the first sample on. Physics that is missing leaves a mean
+    here and there as well, where a gas is compressed one that a curve over the deflection makes,
+    and where it warms one that grows from none.
     """
     r = rows[index]
     rest = (r.force - r.columns @ of_others(rows, index))[r.smooth]
