@@ -92,7 +92,7 @@ def _turns(p: Piece, a: int, b: int, step: float) -> bool:
         # A rest may begin and end between two samples.
         change = np.abs(np.diff(p.xdot[a:b]))
         edges = 0.5 * p.step * float(change[0] + change[-1])
-        return p.travelled(a, b) > max(STEPS * step, walk + edges)
+        return bool(p.travelled(a, b) > max(STEPS * step, walk + edges))
     if p.recording.force is None:
         return False  # nothing tells a limit from a rest that a drive asks for
     # As a rod turns, the force goes on changing; at rest it settles.

@@ -16,9 +16,7 @@ SHAPES: dict[str, Callable[[Array], Array]] = {  # speed over the phase of a cyc
     "triangle": lambda p: np.where(p < 0.5, 1.0, -1.0),
     "ramps with dwells": lambda p: np.select([p < 0.3, p < 0.5, p < 0.8], [1.0, 0.0, -1.0], 0.0),
     "out fast and back slowly": lambda p: np.where(p < 0.2, 1.0, -0.25),
-    "two speeds each way": lambda p: np.select(
-        [p < 0.2, p < 0.5, p < 0.7], [1.0, 0.3, -1.0], -0.3
-    ),
+    "two speeds each way": lambda p: np.select([p < 0.2, p < 0.5, p < 0.7], [1.0, 0.3, -1.0], -0.3),
 }
 
 
