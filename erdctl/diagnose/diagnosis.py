@@ -78,6 +78,7 @@ class Diagnosis:
         that leave more of the misfit than the part `taken` that they take
     undetected : what was not named, and the size from which these data would have shown it
     rig : what is wrong with the recording; if all of it is, nothing was searched
+    tried : how many effects were
     learned : what the data say of a rest that no effect explains; `fit`, `corrected` and all that
         is said of the best model are then of the one with these laws
     once : a fault that sets in once; what it does to the data, no law is learned from
@@ -108,6 +109,7 @@ class Diagnosis:
     undetected: tuple[Detectable, ...]
     rig: Rig
     learned: Learned | None
+    tried: int
     once: SetsInOnce | None = None
     as_fault: FaultOfGiven | None = None
 
@@ -269,6 +271,7 @@ def diagnose(
         undetected=undetected,
         rig=rig,
         learned=more,
+        tried=len(testable),
         once=None if untold else fault,
         as_fault=as_fault,
     )

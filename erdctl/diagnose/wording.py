@@ -102,11 +102,11 @@ def _left(found: Diagnosis) -> str:
     words += f"{left.misfit_rms:.3g} N rms beyond a noise of {left.noise_rms:.3g} N "
     if left.records > 0.0:
         words += (
-            "are explained by no effect in the catalogue; the gains of records differ by"
+            f"are explained by {_none_of(found)}; the gains of records differ by"
             f" {100 * left.records:.2g} % (standard deviation), and those of a rig hardly would"
         )
     else:
-        words += "can be predicted from motion and duty, but by no effect in the catalogue"
+        words += f"can be predicted from motion and duty, but by {_none_of(found)}"
     if left.spectral_line is not None:
         words += (
             f"; {100 * left.spectral_line.share:.0f} % {UNPREDICTED} swings at"
@@ -130,6 +130,14 @@ def _left(found: Diagnosis) -> str:
     words += sets_in_once_text(found) or _of_records(found)
     words += _hum(left) + _withdrawn(found)
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
+
+
+def _none_of(found: Diagnosis) -> str:
+    """What does not explain something: as many effects as could be tried, of all or of those
+    asked for.
+    """
+    several = f"none of the {found.tried} effects tried"
+    return several if found.tried > 1 else "no effect that was tried"
 
 
 def _noise(found: Diagnosis) -> str:
@@ -209,7 +217,7 @@ def _laws(found: Diagnosis) -> str:
     assert found.learned is not None
     said = "; ".join(law_words(law.law, law.tau) for law in found.learned.laws)
     rest = "what those named leave" if found.findings else "the misfit"
-    return f"no effect of the catalogue explains {rest}, and the data say: {said}"
+    return f"{_none_of(found)} explains {rest}, and the data say: {said}"
 
 
 def _withdrawn(found: Diagnosis) -> str:

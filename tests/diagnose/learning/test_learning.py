@@ -79,6 +79,7 @@ def test_the_document_holds_what_the_contract_asks_for(warmed: Diagnosis) -> Non
     assert law["heldout"]["nrmse_after"] < 0.5 * law["heldout"]["nrmse_before"]
     assert len(law["curve"]["z"]) == len(law["curve"]["f"])
     assert "the data say" in document["remaining"]["text"]
+    assert "none of the " in document["remaining"]["text"]
     assert "is noise" in document["remaining"]["text"]
 
 
