@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from erdctl.bench.rig.fault import RigFault
-from erdctl.bench.rig.pieces import Piece, resolution, runs_of_equals, spread, widened
+from erdctl.bench.rig.pieces import Piece, resolution, runs_of_equals, widened
 
 RUN = 3  # samples that a visit lasts
 SAMPLES = 12  # at the limit, in all visits
@@ -16,8 +16,6 @@ VISITS = 2
 # near its top a sine spends a time that grows with the root of the distance from it.
 CROWDED = 4.0
 STEPS, SIGMAS = 3.0, 4.0  # of the recorder, and of noise, that a rod moves beyond the limit of x
-CHANGE = 0.02  # of the range of the force, by which it changes as the rod turns there
-SETTLING = 0.6  # of its change from the first quarter of a stay to the next
 UNITS = {"force": (1.0, "N"), "x": (1e3, "mm")}
 
 
@@ -95,10 +93,7 @@ def _turns(p: Piece, a: int, b: int, step: float) -> bool:
         return bool(p.travelled(a, b) > max(STEPS * step, walk + edges))
     if p.recording.force is None:
         return False  # nothing tells a limit from a rest that a drive asks for
-    # As a rod turns, the force goes on changing; at rest it settles.
-    first, *later = np.abs(np.diff([q.mean() for q in np.array_split(p.force[a:b], 4) if len(q)]))
-    least = SIGMAS * p.noise("force")[0] * (8.0 / (b - a)) ** 0.5
-    return bool(max(later) > max(CHANGE * spread(p.force), least, SETTLING * first))
+    return p.goes_on(a, b)
 
 
 def _with_next(found: Sequence[Piece], samples: np.ndarray) -> np.ndarray:

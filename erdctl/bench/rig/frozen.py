@@ -70,4 +70,5 @@ def _works(piece: Piece, channel: str, a: int, b: int) -> bool:
     force = piece.recording.force
     if force is None or np.ptp(piece.of("duty")[a:b]) > 0:
         return False
-    return spread(piece.force[a:b]) > 4.0 * MOVED * spread(piece.force)
+    changed = spread(piece.force[a:b]) > 4.0 * MOVED * spread(piece.force)
+    return changed and piece.goes_on(a, b)

@@ -16,6 +16,9 @@ MOST = 500_000  # samples that are looked at; of a longer log, even stretches
 STRETCHES = 100  # of a longer log
 THIN = 3_000  # samples that a percentile is taken of
 RECORDS = 200  # records that are looked at, evenly
+CHANGE = 0.02  # of the range of the force, by which it changes as the rod turns
+SETTLING = 0.6  # of its change from the first quarter of a rest to the next
+SIGMAS = 4.0  # of its noise
 BREAKS = 0.3  # of the effective speed, by which it changes in a step where it breaks
 STEP = 0.02  # of the duty, that a force answers visibly
 NEAR = 8  # samples next to a reversal or a duty step, where a force may jump
@@ -165,6 +168,16 @@ class Piece:
         off[max(a - 1, 0) : b] = time[max(a - 1, 0) : b] = 0.0
         zero = float(off.sum()) / max(float(time.sum()), 1e-300)
         return float(np.ptp(np.cumsum(np.append(0.0, (far - zero * steps)[a : b - 1]))))
+
+    def goes_on(self, a: int, b: int) -> bool:
+        """Whether the force goes on changing from sample a to b, as where a rod turns.
+
+        At rest it settles: from quarter to quarter it changes less and less.
+        """
+        quarters = np.array_split(self.force[a:b], min(4, b - a))
+        first, *later = np.abs(np.diff([float(q.mean()) for q in quarters]))
+        least = SIGMAS * self.noise("force")[0] * (8.0 / (b - a)) ** 0.5
+        return bool(max(later) > max(CHANGE * spread(self.force), least, SETTLING * first))
 
     def stepped(self, reach: int) -> npt.NDArray[np.bool_]:
         """(n,) samples so near to a step of the duty that the force may overshoot."""

@@ -18,7 +18,7 @@ from erdctl.plant import draw, log
 def test_chains_of_many_lengths_are_still_a_pre_yield_elasticity(tmp_path: Path) -> None:
     """They break one after the other, and the effect of the catalogue all alike: 97 % of what the
     paper's model misses. A curve over the travel since a turn fits better, and the name was gone:
-    `no effect of the catalogue explains the misfit`."""
+    no effect of the catalogue explained the misfit."""
     case = draw(1580399, known=names())
     assert [t.name for t in case.truth] == ["preyield_elasticity"]
     pq.write_table(log(case), tmp_path / "log.parquet")
@@ -27,5 +27,5 @@ def test_chains_of_many_lengths_are_still_a_pre_yield_elasticity(tmp_path: Path)
     assert [f.effect.name for f in found.findings] == ["preyield_elasticity"]
     assert found.verdict is Verdict.UNEXPLAINED
     assert found.learned is not None
-    assert "no effect of the catalogue explains what those named leave" in remaining_text(found)
+    assert "no effect that was tried explains what those named leave" in remaining_text(found)
     assert found.corrected.overall.nrmse < 0.35 * found.baseline.overall.nrmse
