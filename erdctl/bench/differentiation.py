@@ -25,6 +25,7 @@ FEWEST = 5  # samples of a window; three would let the noise through unfiltered
 JITTER = 1e-3  # of the step, and so of xdot: below it the times count as evenly spaced
 CLOCK_DIGITS = 9  # of seconds, in which steps of a rounded clock are alike
 OF_A_STEP = 0.75  # of a step, which the last digit is below: else a lost sample would be rounding
+NOTHING = 1e-12  # of x, below which what it changes by in a step is rounding
 GAP = 10.0  # steps; across a longer pause there is no local polynomial
 
 
@@ -78,7 +79,9 @@ def derive_xdot(
         even = bool(max(steps.max() - step, step - steps.min()) <= JITTER * step)
         even = even or _rounded(t[part], steps)
         del steps
-        xdot[part], note = _record(t[part], x[part], step, even)
+        slope, note = _record(t[part], x[part], step, even)
+        # A rod at rest has no direction; rounding would give it one at random.
+        xdot[part] = np.where(np.abs(slope) * step > NOTHING * np.abs(x[part]).max(), slope, 0.0)
         notes[note] = None
     kinds = list(notes)
     more = f"; and {len(kinds) - 3} other windows" if len(kinds) > 3 else ""
