@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from erdctl.bench.corners import at_corners
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array, Index
 
@@ -45,8 +46,9 @@ def derive_xdot(
     over the samples k of a window of about 20 ms, at least 5 samples, centred on sample i (at
     the ends of a record: the first or the last window). Evenly spaced, this is the
     Savitzky-Golay filter, and where x is noisy the window is wider, up to 160 ms, and where it
-    moves fast the polynomial of degree 4, as long as that halves the error (`_window`); otherwise
-    the quadratic is fitted at the actual times.
+    moves fast the polynomial of degree 4, as long as that halves the error (`_window`), and next to
+    a corner of the motion a line on one side (`at_corners`); otherwise the quadratic is fitted at
+    the actual times.
 
     t : (n,) strictly increasing within a record [s];  x : (n,) [m];  starts : (r + 1,) offsets
     file, row_of : for messages; row of a sample
@@ -127,8 +129,11 @@ def _record(t: Array, x: Array, step: float, even: bool) -> tuple[Array, str]:
 
     # The mean step: the median of times rounded to a few digits is off by the rounding.
     mean = float(t[-1] - t[0]) / (t.size - 1)
-    xdot = savgol_filter(x, width, degree, deriv=1, delta=mean, mode="interp")
-    return xdot, f"a Savitzky-Golay filter ({DEGREES[degree]}, {span}; -3 dB at {fallen})"
+    slope = savgol_filter(x, width, degree, deriv=1, mode="interp")
+    smooth = savgol_filter(x, width, degree, mode="interp")
+    slope, cornered = at_corners(x, slope, smooth, width, _noise(_looked(x)))
+    note = f"a Savitzky-Golay filter ({DEGREES[degree]}, {span}; -3 dB at {fallen})"
+    return slope / mean, note + ", next to corners a line on one side" * cornered
 
 
 def _rounded(t: Array, steps: Array) -> bool:
