@@ -71,6 +71,7 @@ def test_they_are_found_together_and_hold_on_another_motion() -> None:
     assert error(other, of_model(found.selection.best, other)) < 0.025
 
 
+@pytest.mark.long
 def test_what_has_a_part_without_the_field_is_found_together(tmp_path: Path) -> None:
     """Of Dahl's damper under sines, each with one duty, a friction without the field leaves 99 % of
     the mean square and a viscosity that grows with it 94 %; both leave half, the noise. The log was
