@@ -33,7 +33,9 @@ def at_corners(
     m = width // 2 + 1
     if m < FEWEST or len(x) < 2 * width or square <= 0.0:
         return slope, False
-    bent = np.convolve((x - smooth) ** 2, np.ones(2 * m - 1), "same") > BENT * square * (2 * m - 1)
+    from scipy.ndimage import uniform_filter1d
+
+    bent = uniform_filter1d((x - smooth) ** 2, 2 * m - 1, mode="constant") > BENT * square
     if not bent.any():
         return slope, False
     line, rest = _lines(x - x.mean(), m)

@@ -25,14 +25,12 @@ SURE = 5.0  # standard errors from 0, within which such a level is none
 class HeldDuty:
     """What of a duty is held, and what is noise.
 
-    duty : (n,) the levels;  noise : rms of the rest, where there is one [1]
-    records : how many have such noise
+    duty : (n,) the levels;  noise : rms of the rest, in the records that have one [1]
     before, after : steps of the duty within these as it was read, and of the levels
     """
 
     duty: Array
     noise: float
-    records: int
     before: int
     after: int
 
@@ -67,7 +65,7 @@ def held_duty(duty: Array, starts: Index) -> HeldDuty | None:
         out[at] = levels
         before += int(np.count_nonzero(np.diff(duty[at])))
         after += int(np.count_nonzero(np.diff(out[at])))
-    return HeldDuty(out, noise, len(noisy), before, after)
+    return HeldDuty(out, noise, before, after)
 
 
 def _levels(duty: Array) -> Array | None:
@@ -79,10 +77,10 @@ def _levels(duty: Array) -> Array | None:
     small = np.abs(d[np.abs(d) < LARGEST])
     if np.count_nonzero(small) < max(FLICKERS * n, 2.0):
         return None
-    # Of a normal difference 50 % are below 0.674 and 90 % below 1.645 deviations; noise that is cut
-    # off at 0 has many that are none.
-    half, most = percentiles(small, 50.0, 90.0)
-    noise = max(half / 0.6745, most / 1.6449) / 2.0**0.5
+    # Of a normal difference 50, 90 and 99 % are below 0.674, 1.645 and 2.576 deviations; noise that
+    # is cut off at 0, or in whole counts of a converter, has many that are none.
+    half, most, all_but = percentiles(small, 50.0, 90.0, 99.0)
+    noise = max(half / 0.6745, most / 1.6449, all_but / 2.5758) / 2.0**0.5
     noise = noise or float(np.sqrt(0.5 * np.mean(small**2)))
     edges = np.flatnonzero(np.abs(d) > SIGMAS * 2.0**0.5 * noise) + 1
     # A single sample that is off by little is noise as well, and steps there and back.

@@ -11,6 +11,7 @@ from rig import real
 from rig_errors import ERRORS, RigError, chosen
 from scipy.signal import savgol_filter
 
+from erdctl.bench.differentiation import derive_xdot
 from erdctl.bench.rig import Rig, look
 from erdctl.bench.rig.fault import CODES, RigFault, sound
 from erdctl.core.errors import InputProblem, UsageProblem
@@ -162,6 +163,19 @@ def test_the_zero_of_a_velocity_is_taken_off(good: Recording, zero: float) -> No
     np.testing.assert_allclose(rig.usable().xdot, good.xdot, atol=0.1 * abs(v_0))
     accepted = rig.accept(["velocity_offset"]).usable()
     np.testing.assert_array_equal(accepted.xdot, good.xdot + v_0)
+
+
+@pytest.mark.parametrize("measured", [True, False])
+def test_a_limit_is_told_from_a_rest_with_and_without_a_velocity(
+    good: Recording, measured: bool
+) -> None:
+    """By the velocity, which goes on at a limit, or else by the force, which does."""
+    r = ERRORS["x clipped"].spoil(good, np.random.default_rng(0))
+    r = replace(r, xdot_note="measured")
+    if not measured:
+        xdot, note = derive_xdot(r.t, r.x, r.starts)
+        r = replace(r, xdot=xdot, xdot_note=note)
+    assert "x_clipped" in {f.code for f in look(r).faults}
 
 
 def test_a_rod_at_rest_has_no_frozen_deflection(
