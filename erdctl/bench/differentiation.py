@@ -9,6 +9,14 @@ from itertools import pairwise
 import numpy as np
 
 from erdctl.bench.corners import at_corners
+from erdctl.bench.deflection_noise import (
+    at_rest,
+    digit,
+    looked_at,
+    slope_errors,
+    variance,
+    variance_at,
+)
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array, Index
 
@@ -16,12 +24,7 @@ WINDOW = 0.020  # s: passes what a damper test moves at (below 20 Hz), averages 
 WIDEST = 8.0  # times that, where the noise of x asks for it
 STEP = math.sqrt(2.0)  # from a width to the next
 WORTH = 0.5  # of the mean square error of the velocity: what another window must leave at most
-LOOK, PARTS = 80_000, 8  # samples of a record that are looked at for this, and in how many parts
 DEGREES = {2: "quadratic", 4: "quartic"}
-NOISE_ORDER = 6  # of the differences that tell the noise of x
-OF_SIGMA = 0.6745  # of a normal deviation: the median of its size
-ROUNDING = 1e-6  # of the stroke, below which steps of x are no digits of a recorder
-OF_A_DIGIT = 0.05  # as near as steps of x are to whole numbers of them
 FEWEST = 5  # samples of a window; three would let the noise through unfiltered
 JITTER = 1e-3  # of the step, and so of xdot: below it the times count as evenly spaced
 CLOCK_DIGITS = 9  # of seconds, in which steps of a rounded clock are alike
@@ -45,10 +48,10 @@ def derive_xdot(
 
     over the samples k of a window of about 20 ms, at least 5 samples, centred on sample i (at
     the ends of a record: the first or the last window). Evenly spaced, this is the
-    Savitzky-Golay filter, and where x is noisy the window is wider, up to 160 ms, and where it
-    moves fast the polynomial of degree 4, as long as that halves the error (`_window`), and next to
-    a corner of the motion a line on one side (`at_corners`); otherwise the quadratic is fitted at
-    the actual times.
+    Savitzky-Golay filter; where x is noisy the window is wider, up to 160 ms, and where it moves
+    fast the polynomial of degree 4, as long as that halves the error (`_window`); and next to a
+    corner of the motion it is the line of either side (`at_corners`). Otherwise the quadratic is
+    fitted at the actual times. Where a slope is that of noise, xdot is 0 (`at_rest`).
 
     t : (n,) strictly increasing within a record [s];  x : (n,) [m];  starts : (r + 1,) offsets
     file, row_of : for messages; row of a sample
@@ -82,7 +85,7 @@ def derive_xdot(
         even = even or _rounded(t[part], steps)
         del steps
         slope, note = _record(t[part], x[part], step, even)
-        # A rod at rest has no direction; rounding would give it one at random.
+        # A rod at rest has no direction; rounding, as noise, would give it one at random.
         xdot[part] = np.where(np.abs(slope) * step > NOTHING * np.abs(x[part]).max(), slope, 0.0)
         notes[note] = None
     kinds = list(notes)
@@ -120,20 +123,24 @@ def _record(t: Array, x: Array, step: float, even: bool) -> tuple[Array, str]:
     if width < FEWEST:
         return np.gradient(x, t), "differences of neighbours (fewer than 5 samples in a record)"
     width, degree = _window(x, width, most) if even else (width, 2)
+    square = variance(looked_at(x)) if even else variance_at(t, x)
+    error = square**0.5 * slope_errors(x.size, width, degree)
     span = f"{width} samples = {1e3 * (width - 1) * step:.3g} ms"
     fallen = f"{bandwidth(width, step, degree):.3g} Hz"
     if not even:
         note = f"local quadratic fits at the uneven times ({span}; -3 dB near {fallen})"
-        return _at_actual_times(t, x, width), note
+        slope = _at_actual_times(t, x, width)
+        return np.where(at_rest(slope * step, error), 0.0, slope), note
     from scipy.signal import savgol_filter
 
     # The mean step: the median of times rounded to a few digits is off by the rounding.
     mean = float(t[-1] - t[0]) / (t.size - 1)
     slope = savgol_filter(x, width, degree, deriv=1, mode="interp")
     smooth = savgol_filter(x, width, degree, mode="interp")
-    slope, cornered = at_corners(x, slope, smooth, width, _noise(_looked(x)))
+    slope, cornered = at_corners(x, slope, smooth, width, square)
+    slope = np.where(at_rest(slope, error), 0.0, slope)
     note = f"a Savitzky-Golay filter ({DEGREES[degree]}, {span}; -3 dB at {fallen})"
-    return slope / mean, note + ", next to corners a line on one side" * cornered
+    return slope / mean, note + ", next to corners the line of either side" * cornered
 
 
 def _rounded(t: Array, steps: Array) -> bool:
@@ -145,7 +152,7 @@ def _rounded(t: Array, steps: Array) -> bool:
     >>> [_rounded(clock, np.diff(clock)) for clock in (t, late)]
     [True, False]
     """
-    q = _digit(np.unique(np.round(steps, CLOCK_DIGITS)))
+    q = digit(np.unique(np.round(steps, CLOCK_DIGITS)))
     even = np.linspace(t[0], t[-1], t.size)
     fine = 0.0 < q < OF_A_STEP * float(even[1] - even[0])
     return fine and float(np.abs(t - even).max()) <= q
@@ -167,23 +174,14 @@ def _window(x: Array, least: int, most: int) -> tuple[int, int]:
     >>> _window(noise, 5, 999), _window(np.sin(0.1 * np.arange(4000)), 5, 999)
     ((35, 2), (5, 4))
     """
-    looked = _looked(x)
-    square, most = _noise(looked), min(most, looked.shape[-1])
+    looked = looked_at(x)
+    square, most = variance(looked), min(most, looked.shape[-1])
     found = [(*_widened(looked, least, most, degree, square), degree) for degree in DEGREES]
     error, width, degree = found[0]
     for other in found[1:]:
         if other[0] < WORTH * error:
             error, width, degree = other
     return width, degree
-
-
-def _looked(x: Array) -> Array:
-    """(p, m) all of the values (n,), or of a long record evenly spaced parts."""
-    if x.size <= LOOK:
-        return x[None]
-    length = LOOK // PARTS
-    first = np.linspace(0, x.size - length, PARTS).astype(int)
-    return np.stack([x[a : a + length] for a in first.tolist()])
 
 
 def _widened(x: Array, least: int, most: int, degree: int, square: float) -> tuple[float, int]:
@@ -210,38 +208,6 @@ def _widened(x: Array, least: int, most: int, degree: int, square: float) -> tup
         if after >= WORTH * error:
             return error, width
         width, slopes, weights, error = wider, more, own, after
-
-
-def _noise(x: Array) -> float:
-    """Variance of white noise in x, by its sixth differences, which no motion of a bench has.
-
-    By their median: a corner of a triangle has some. At least that of a last digit q, q^2 / 12.
-    Noise that is not white, as behind a filter, has fewer.
-    Check: noise of 3.0, beside a motion that has no sixth differences.
-    >>> noise = 3.0 * np.random.default_rng(0).standard_normal(4000)
-    >>> round(_noise(noise + np.arange(4000.0) ** 2) ** 0.5, 1)
-    3.0
-    """
-    differences = np.abs(np.diff(x, NOISE_ORDER))
-    if not differences.size:
-        return 0.0
-    gain = math.comb(2 * NOISE_ORDER, NOISE_ORDER)  # sum of the squares of their weights
-    return max(float(np.median(differences) / OF_SIGMA) ** 2 / gain, _digit(x) ** 2 / 12.0)
-
-
-def _digit(x: Array) -> float:
-    """The digit q of which all values are multiples; 0 of a channel that is finer than its noise.
-
-    >>> _digit(np.array([0.0, 0.25, 1.0, 1.5])), _digit(np.array([0.0, 0.25, 1.0, 1.6]))
-    (0.25, 0.0)
-    """
-    steps = np.abs(np.diff(x))
-    steps = steps[steps > ROUNDING * float(np.ptp(x))]
-    if not steps.size:
-        return 0.0
-    q = float(steps.min())
-    off = np.abs(steps / q - np.round(steps / q))
-    return q if float(np.quantile(off, 0.9)) < OF_A_DIGIT else 0.0
 
 
 def _at_actual_times(t: Array, x: Array, width: int) -> Array:

@@ -15,6 +15,9 @@ DIRECTION_SIGMAS = 3.0
 # Share of the velocity's spectral energy that is motion, the multiple of its frequency beyond which
 # the spectrum is noise, and the bins added to it.
 MOTION_ENERGY, NOISE_BEYOND, NOISE_BINS = 0.99, 3, 8
+# A step of the speed through 0 is a corner if it is as many times those beside it; and the share of
+# it by which x turns inside of the step.
+CORNER, INSIDE = 3.0, 0.3
 LEAST_SPECTRUM = 32  # samples of a record whose velocity noise can be estimated
 
 
@@ -33,7 +36,8 @@ def uncertain(signals: Signals) -> npt.NDArray[np.bool_]:
 
     A differentiated, noisy deflection has the wrong sign at some samples next to reversals, and a
     sign law turns each into an error of twice the yield force. These samples say nothing about the
-    physics; the noise of xdot is what it holds above the frequencies of its motion.
+    physics; the noise of xdot is what it holds above the frequencies of its motion. Where a
+    triangle turns, no speed is small, and a filter may put the turn a sample from where it is.
     """
     out = np.zeros(len(signals), dtype=np.bool_)
     for a, b in zip(signals.starts[:-1].tolist(), signals.starts[1:].tolist(), strict=True):
@@ -41,6 +45,30 @@ def uncertain(signals: Signals) -> npt.NDArray[np.bool_]:
         if b - a < LEAST_SPECTRUM:
             continue
         out[a:b] = np.abs(xdot) < DIRECTION_SIGMAS * velocity_noise(xdot)
+        out[a:b] |= _beside_corners(signals.x[a:b], xdot, signals.step[a:b])
+    return out
+
+
+def _beside_corners(x: Array, xdot: Array, step: Array) -> npt.NDArray[np.bool_]:
+    """(n,) of the two samples between which the direction jumps those that x may have on one side.
+
+    Check: of a turn from 1 to -1 after the fifth sample, for which x turns in the middle between,
+    near the fifth, and near the sixth.
+    >>> v, t, at = np.repeat([1.0, -1.0], 5), np.arange(10.0), (4.5, 4.1, 4.9)
+    >>> turns = [_beside_corners(-np.abs(t - turn), v, np.ones(10)) for turn in at]
+    >>> [np.flatnonzero(turn).tolist() for turn in turns]
+    [[], [4], [5]]
+    """
+    out = np.zeros(len(xdot), dtype=np.bool_)
+    change = np.abs(np.diff(xdot))
+    way = np.sign(xdot)
+    i = np.flatnonzero(way[1:] != way[:-1])
+    i = i[(i > 2) & (i < len(change) - 3)]
+    beside = np.maximum(change[i - 3] + change[i - 2], change[i + 2] + change[i + 3]) / 2.0
+    i = i[change[i] > CORNER * beside]
+    after = ((x[i + 1] - x[i]) / step[i] - xdot[i]) / (xdot[i + 1] - xdot[i])  # of the turn
+    out[i[after > 1.0 - INSIDE]] = True
+    out[i[after < INSIDE] + 1] = True
     return out
 
 

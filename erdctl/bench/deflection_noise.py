@@ -1,0 +1,114 @@
+"""Noise of a deflection, told from what moves."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from erdctl.core.recording import Array
+
+LOOK, PARTS = 80_000, 8  # samples of a record that are looked at for this, and in how many parts
+NOISE_ORDER = 6  # of the differences that tell the noise of x
+OF_SIGMA = 0.6745  # of a normal deviation: the median of its size
+ROUNDING = 1e-6  # of the stroke, below which steps of x are no digits of a recorder
+OF_A_DIGIT = 0.05  # as near as steps of x are to whole numbers of them
+SURE = 4.0  # standard errors of a slope that is none
+
+
+def looked_at(x: Array) -> Array:
+    """(p, m) all of the values (n,), or of a long record evenly spaced parts."""
+    if x.size <= LOOK:
+        return x[None]
+    length = LOOK // PARTS
+    first = np.linspace(0, x.size - length, PARTS).astype(int)
+    return np.stack([x[a : a + length] for a in first.tolist()])
+
+
+def variance(x: Array) -> float:
+    """Variance of white noise in x, by its sixth differences, which no motion of a bench has.
+
+    By their median: a corner of a triangle has some. At least that of a last digit q, q^2 / 12.
+    Noise that is not white, as behind a filter, has fewer.
+    Check: noise of 3.0, beside a motion that has no sixth differences.
+    >>> noise = 3.0 * np.random.default_rng(0).standard_normal(4000)
+    >>> round(variance(noise + np.arange(4000.0) ** 2) ** 0.5, 1)
+    3.0
+    """
+    differences = np.abs(np.diff(x, NOISE_ORDER))
+    if not differences.size:
+        return 0.0
+    gain = math.comb(2 * NOISE_ORDER, NOISE_ORDER)  # sum of the squares of their weights
+    return max(float(np.median(differences) / OF_SIGMA) ** 2 / gain, digit(x) ** 2 / 12.0)
+
+
+def variance_at(t: Array, x: Array) -> float:
+    """The same by divided differences, of x at uneven times t.
+
+        sum_k x_k / prod over j of (t_k - t_j),   j and k of seven samples on end, j not k
+
+    Check: noise of 3.0, with steps of 0.7 to 1.3 beside a motion of the square of t.
+    >>> random = np.random.default_rng(0)
+    >>> t = np.cumsum(random.uniform(0.7, 1.3, 4000))
+    >>> round(variance_at(t, t**2 + 3.0 * random.standard_normal(4000)) ** 0.5)
+    3
+    """
+    if len(t) <= NOISE_ORDER:
+        return 0.0
+    of = [slice(k, len(t) - NOISE_ORDER + k) for k in range(NOISE_ORDER + 1)]
+    apart = [[(t[k] - t[j]) / (t[-1] - t[0]) * len(t) for j in of if j != k] for k in of]
+    weights = [1.0 / np.prod(others, axis=0) for others in apart]
+    difference = sum(w * x[k] for w, k in zip(weights, of, strict=True))
+    size = np.sqrt(sum(w * w for w in weights))
+    noise = float(np.median(np.abs(difference / size))) / OF_SIGMA
+    return max(noise**2, digit(x) ** 2 / 12.0)
+
+
+def digit(x: Array) -> float:
+    """The digit q of which all values are multiples; 0 of a channel that is finer than its noise.
+
+    >>> digit(np.array([0.0, 0.25, 1.0, 1.5])), digit(np.array([0.0, 0.25, 1.0, 1.6]))
+    (0.25, 0.0)
+    """
+    steps = np.diff(np.unique(x))  # at one speed those from sample to sample are far larger
+    steps = steps[steps > ROUNDING * float(np.ptp(x))]
+    if not steps.size:
+        return 0.0
+    q = float(steps.min())
+    off = np.abs(steps / q - np.round(steps / q))
+    return q if float(np.quantile(off, 0.9)) < OF_A_DIGIT else 0.0
+
+
+def slope_errors(n: int, width: int, degree: int) -> Array:
+    """(n,) standard errors of slopes a sample, times the noise, by polynomials through `width`.
+
+    Those of the middle of a window, and of the rest of the first and the last at the ends.
+    Check: a quadratic through five samples, of slope (-2, -1, 0, 1, 2) / 10 in the middle and
+    (-54, 13, 40, 27, -26) / 70 at the end.
+    >>> (slope_errors(9, 5, 2)[[4, 0]] ** 2).round(4).tolist()
+    [0.1, 1.2429]
+    """
+    half = width // 2
+    u = np.arange(-half, half + 1) / half
+    of = np.vander(u, degree + 1, increasing=True)
+    derived = np.arange(degree + 1) * np.pad(of, ((0, 0), (1, 0)))[:, :-1]
+    square = np.sum(derived @ np.linalg.inv(of.T @ of) * derived, axis=1)
+    error = np.sqrt(square) / half
+    middle = np.full(n - 2 * half, error[half])
+    return np.concatenate([error[:half], middle, error[half + 1 :]])
+
+
+def at_rest(slope: Array, error: Array) -> npt.NDArray[np.bool_]:
+    """(n,) whether a slope (n,) with standard errors (n,) is that of noise.
+
+    Noise gives a rod at rest a direction, of which the yield force is a fault of as much again.
+    Beside a turn a small slope is one still, as it goes on to larger ones of its direction.
+    Check: of a turn and a rest the samples of another direction than before and after.
+    >>> at_rest(np.array([9.0, 1.0, -1.0, 1.0, -1.0, -9.0, 0.5, -0.5]), np.ones(8)).astype(int)
+    array([0, 0, 1, 1, 0, 0, 1, 1])
+    """
+    way = np.sign(slope)
+    first = np.concatenate([[0], np.flatnonzero(way[1:] != way[:-1]) + 1])
+    most = np.maximum.reduceat(np.abs(slope) - SURE * error, first)
+    return np.asarray(np.repeat(most <= 0.0, np.diff(first, append=len(slope))))
