@@ -52,8 +52,8 @@ def uncertain(signals: Signals) -> npt.NDArray[np.bool_]:
 def _beside_corners(x: Array, xdot: Array, step: Array) -> npt.NDArray[np.bool_]:
     """(n,) of the two samples between which the direction jumps those that x may have on one side.
 
-    Check: of a turn from 1 to -1 after the fifth sample, for which x turns in the middle between,
-    near the fifth, and near the sixth.
+    Check: of a turn from 1 to -1 after sample 4, for which x turns in the middle to 5, near 4, and
+    near 5.
     >>> v, t, at = np.repeat([1.0, -1.0], 5), np.arange(10.0), (4.5, 4.1, 4.9)
     >>> turns = [_beside_corners(-np.abs(t - turn), v, np.ones(10)) for turn in at]
     >>> [np.flatnonzero(turn).tolist() for turn in turns]
