@@ -26,70 +26,9 @@ hypothesis.settings.load_profile("the same")
 # Typer makes Click's commands of an app anew at each call, which takes longer than most calls do.
 typer.testing._get_command = cache(typer.testing._get_command)  # type: ignore[attr-defined]  # its own
 
-# Diagnoses of minutes, and what runs nothing of erdctl: tracing costs them half again to twice as
-# much again, and others run the same lines. Single tests of that kind have the mark `untraced`.
-UNTRACED = (
-    "bench/rig/test_rig_in_a_car.py",
-    "cli/test_narrow_screens.py",
-    "diagnose/learning/test_laws_over_two.py",
-    "diagnose/learning/test_learning.py",
-    "diagnose/learning/test_logged_temperature.py",
-    "diagnose/learning/test_one_motion_alone.py",
-    "diagnose/residual/test_loud_parts.py",
-    "diagnose/residual/test_record_levels.py",
-    "diagnose/residual/test_variance.py",
-    "diagnose/test_alike_under_misfit.py",
-    "diagnose/test_beginnings.py",
-    "diagnose/test_carry_over.py",
-    "diagnose/test_clipped.py",
-    "diagnose/test_companions_beside_others.py",
-    "diagnose/test_decisions.py",
-    "diagnose/test_detectable.py",
-    "diagnose/test_earned_names.py",
-    "diagnose/test_executor.py",
-    "diagnose/test_fault_of_given.py",
-    "diagnose/test_fault_onsets.py",
-    "diagnose/test_few_records.py",
-    "diagnose/test_findings_order.py",
-    "diagnose/test_guo_loop.py",
-    "diagnose/test_in_the_place_of_another.py",
-    "diagnose/test_invariance.py",
-    "diagnose/test_jittering_clock.py",
-    "diagnose/test_levels_of_records.py",
-    "diagnose/test_limit_of_effects.py",
-    "diagnose/test_measuring_chain_and_limits.py",
-    "diagnose/test_no_lag.py",
-    "diagnose/test_real_data.py",
-    "diagnose/test_record_effects.py",
-    "diagnose/test_resolved.py",
-    "diagnose/test_samples_of_search.py",
-    "diagnose/test_sets_in_once.py",
-    "diagnose/test_slight_lag.py",
-    "diagnose/test_smoothed_records.py",
-    "diagnose/test_unseen.py",
-    "docs/test_docs.py",
-    "estimate/test_identify.py",
-    "estimate/test_measurement_noise.py",
-    "export/c/test_catalogue_in_c.py",
-    "export/c/test_learned_in_c.py",
-    "export/c/test_models_in_c.py",
-    "export/emulator/test_emulator_corrected.py",
-    "fuzz/test_binary_bombs.py",
-    "fuzz/test_fuzz.py",
-    "interface/test_calls_equal_commands.py",
-    "mimic/test_mimic_corrected.py",
-    "mimic/test_random_plans.py",
-    "plant/test_plant_asked.py",
-    "plant/test_plant_case.py",
-    "plant/test_plant_leak.py",
-    "prove/test_coverage.py",
-    "prove/test_prove_command.py",
-    "prove/test_prove_nulls.py",
-    "prove/test_prove_on_log.py",
-    "prove/test_small_proof.py",
-    "tests/test_architecture.py",
-)
-
+# Tracing costs a test half as much again, up to as much; these reach next to nothing that others do
+# not (see choose_untraced.py). Single tests of that kind have the mark `untraced`.
+UNTRACED = frozenset((ROOT / "tests" / "untraced.txt").read_text().split())
 TRACED: set[str] = set()  # tests of which one set of parameters ran in this process
 
 
@@ -105,7 +44,9 @@ def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object
     again = test in TRACED
     TRACED.add(test)
     if control is None or not (
-        again or item.path.as_posix().endswith(UNTRACED) or item.get_closest_marker("untraced")
+        again
+        or item.nodeid.partition("::")[0].removeprefix("tests/") in UNTRACED
+        or item.get_closest_marker("untraced")
     ):
         return (yield)
     control.pause()

@@ -31,7 +31,7 @@ def session(
     """A session over a plain test and one file more, with the project's own conftest."""
     tests = folder / "work" / "tests"
     tests.mkdir(parents=True)
-    for name in ("conftest.py", "places.py", "quick_approx.py", "real_data.py"):
+    for name in ("conftest.py", "places.py", "quick_approx.py", "real_data.py", "untraced.txt"):
         shutil.copyfile(ROOT / "tests" / name, tests / name)
     (tests / "test_plain.py").write_text(PLAIN)
     (tests / "test_real.py").write_text(test)

@@ -83,9 +83,8 @@ def held_out(found: Diagnosis, held: Recording) -> tuple[float, float]:
     return paper, corrected
 
 
-@pytest.mark.parametrize(
-    ("text", "plain"), [("5mm_3Hz", 0.075), pytest.param("25mm", 0.13, marks=pytest.mark.long)]
-)
+@pytest.mark.parametrize(("text", "plain"), [("5mm_3Hz", 0.075), ("25mm", 0.13)])
+@pytest.mark.long
 def test_magnetorheological_damper(text: str, plain: float) -> None:
     """From one stroke to the other at another frequency; an expert working by hand reached 0.04.
 

@@ -188,7 +188,9 @@ def test_a_fault_in_the_end_of_one_record_is_not_called_noise(seed: int, recordi
     assert once["interval"][0] - 0.01 <= 6.4 <= once["interval"][1] + 0.01
 
 
-@pytest.mark.parametrize("seed", [52, 53, 55, 56])
+@pytest.mark.parametrize(
+    "seed", [55, *(pytest.param(seed, marks=pytest.mark.long) for seed in (52, 53, 56))]
+)
 def test_what_is_a_single_place_to_a_search_is_fitted_beside_its_names(
     seed: int, recordings: Any
 ) -> None:
@@ -269,6 +271,7 @@ def test_a_record_that_shows_nothing_of_the_force_is_not_accused() -> None:
     assert stays.of_those((0, 1, 2, 3, 5), begins) is stays  # it is there from one record on
 
 
+@pytest.mark.long
 def test_what_is_said_in_the_end_is_of_the_records_that_tell_of_it(recordings: Any) -> None:
     """Before the drive with the fault come two without a duty, r3 and r4: both were accused, the
     onset "0 to 8 s" of r3."""

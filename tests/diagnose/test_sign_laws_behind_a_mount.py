@@ -16,9 +16,8 @@ from erdctl.plant import draw, log
 SAMPLES = 3000  # of 35,630: steps of 48 ms, whose own errors no play may take
 
 
-@pytest.mark.parametrize(
-    "name", ["yield_hysteresis", pytest.param("signed_yield_lag", marks=pytest.mark.long)]
-)
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["yield_hysteresis", "signed_yield_lag"])
 def test_both_are_named(name: str, tmp_path: Path) -> None:
     """No model had both: one was named, and the other's force was said to be of other effects."""
     pair = ["mount_compliance", name]

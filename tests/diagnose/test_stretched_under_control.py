@@ -26,6 +26,7 @@ def dahl(tmp_path: Path) -> Recording:
     return read_logs([str(path)], need_force=True, report=lambda line: None).recording
 
 
+@pytest.mark.long
 def test_dahls_damper_under_a_control_that_steps_is_explained(dahl: Recording) -> None:
     """33 N was left beyond a noise of 13 by a force that builds up anew after each step;
     T_d was 4 ms for 16.7, `field_viscosity` was not named, and the log was `unexplained`."""

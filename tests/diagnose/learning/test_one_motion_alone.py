@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pyarrow.parquet as pq
+import pytest
 
 from erdctl.diagnose.diagnosis import Verdict, diagnose
 from erdctl.effects import get, names
@@ -12,6 +13,7 @@ from erdctl.io.logs import read_logs
 from erdctl.plant import draw, log
 
 
+@pytest.mark.long
 def test_a_swing_that_one_record_alone_excites_is_no_law(tmp_path: Path) -> None:
     """A valve that bleeds at one motion was a swing at that motion's frequency: the others gained,
     rid of it, and what was learned was twice as far off on fresh motion as the paper's model."""
