@@ -8,9 +8,7 @@ from erdctl.core.recording import Array, Index
 
 LENGTHS = (4, 2, 1)  # of the lines beside a corner, in half windows; the longest that are straight
 FEWEST = 5  # samples of a line
-BETTER = (
-    25.0  # variances of the noise, by which two lines leave less than a quartic polynomial does
-)
+BETTER = 25.0  # variances of the noise, by which two lines leave less than a quartic polynomial
 STRAIGHT = 2.5  # variances a sample, which they leave themselves at most
 AT_THE_CORNER = 2.0  # standard deviations of what noise leaves beside the corner itself
 SURE = 4.0  # standard errors of a slope that is none

@@ -54,12 +54,13 @@ def variance_at(t: Array, x: Array) -> float:
     >>> round(variance_at(t, t**2 + 3.0 * random.standard_normal(4000)) ** 0.5)
     3
     """
-    if len(t) <= NOISE_ORDER:
+    count = t.shape[-1] - NOISE_ORDER
+    if count <= 0:
         return 0.0
-    of = [slice(k, len(t) - NOISE_ORDER + k) for k in range(NOISE_ORDER + 1)]
-    apart = [[(t[k] - t[j]) / (t[-1] - t[0]) * len(t) for j in of if j != k] for k in of]
-    weights = [1.0 / np.prod(others, axis=0) for others in apart]
-    difference = sum(w * x[k] for w, k in zip(weights, of, strict=True))
+    of = range(NOISE_ORDER + 1)
+    ats = [t[..., k : k + count] / float(np.median(np.diff(t))) for k in of]
+    weights = [1.0 / math.prod(ats[k] - ats[j] for j in of if j != k) for k in of]
+    difference = sum(weights[k] * x[..., k : k + count] for k in of)
     size = np.sqrt(sum(w * w for w in weights))
     noise = float(np.median(np.abs(difference / size))) / OF_SIGMA
     return max(noise**2, digit(x) ** 2 / 12.0)

@@ -123,7 +123,8 @@ def _record(t: Array, x: Array, step: float, even: bool) -> tuple[Array, str]:
     if width < FEWEST:
         return np.gradient(x, t), "differences of neighbours (fewer than 5 samples in a record)"
     width, degree = _window(x, width, most) if even else (width, 2)
-    square = variance(looked_at(x)) if even else variance_at(t, x)
+    looked = looked_at(x)
+    square = variance(looked) if even else variance_at(looked_at(t), looked)
     error = square**0.5 * slope_errors(x.size, width, degree)
     span = f"{width} samples = {1e3 * (width - 1) * step:.3g} ms"
     fallen = f"{bandwidth(width, step, degree):.3g} Hz"
