@@ -12,11 +12,11 @@ from erdctl.io import documents
 from erdctl.model.geometry import Geometry
 
 SCHEMA = "erdctl.geometry/1"
-# SI units by field; alpha carries volts per metre to the power beta, which no unit library writes.
+# SI units by field.
 UNITS = {
     "A_p": "m^2", "A_s": "m^2", "L_d": "m", "d": "m", "R_d": "m", "mu": "Pa s", "c": "1",
-    "alpha": None, "beta": "1", "U_m": "V", "d_e": "m", "P_0": "Pa", "V_0": "m^3", "gamma": "1",
-    "stroke": "m",
+    "alpha": "Pa (m/V)^beta", "beta": "1", "U_m": "V", "d_e": "m", "P_0": "Pa",
+    "V_0": "m^3", "gamma": "1", "stroke": "m",
 }  # fmt: skip
 
 
@@ -58,8 +58,12 @@ def read_geometry(path: str) -> Geometry:
         given = getattr(document, field.name)
         value, unit = (given.value, given.unit) if isinstance(given, Measure) else (given, None)
         si = UNITS[field.name]
-        if unit is not None and si is not None and unit != si:
+        if unit is not None and unit != si:
             from erdctl.io.units import factor_between
+
+            # Volts per metre to the power beta, which no unit library writes, are not converted.
+            if field.name == "alpha":
+                raise InputProblem(f"alpha is given in '{unit}'; expected {si}", file=name)
 
             value *= factor_between(unit, si, f"{name}: {field.name}")
         if value != value or abs(value) == float("inf"):
