@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import fields
-from typing import Any
+from typing import Any, Final, Literal
 
 import msgspec
 
@@ -11,7 +11,7 @@ from erdctl.core.errors import InputProblem
 from erdctl.io import documents
 from erdctl.model.geometry import Geometry
 
-SCHEMA = "erdctl.geometry/1"
+SCHEMA: Final = "erdctl.geometry/1"
 # SI units by field.
 UNITS = {
     "A_p": "m^2", "A_s": "m^2", "L_d": "m", "d": "m", "R_d": "m", "mu": "Pa s", "c": "1",
@@ -30,7 +30,7 @@ class Measure(msgspec.Struct):
 class GeometryFile(msgspec.Struct, kw_only=True):
     """Dimensions and fluid data of a damper, in SI units unless a unit is given."""
 
-    schema: str
+    schema: Literal["erdctl.geometry/1"]
     A_p: Measure | float
     A_s: Measure | float
     L_d: Measure | float

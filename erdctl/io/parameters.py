@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, Final, Literal
 
 import msgspec
 
@@ -17,7 +17,7 @@ from erdctl.model.effect import Effect
 from erdctl.model.paper import QUANTITIES
 from erdctl.model.parameters import Estimate, Parameters
 
-SCHEMA = "erdctl.parameters/1"
+SCHEMA: Final = "erdctl.parameters/1"
 
 
 class Value(msgspec.Struct, omit_defaults=True):
@@ -69,7 +69,7 @@ class KnownProvenance(msgspec.Struct):
 class ParameterFile(msgspec.Struct, kw_only=True):
     """Parameters of a damper."""
 
-    schema: str
+    schema: Literal["erdctl.parameters/1"]
     compression: Direction
     release: Direction
     effects: list[ExtraEffect] = []

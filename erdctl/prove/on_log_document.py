@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, TypedDict
+from typing import Any, Final, Literal, TypedDict
 
 import msgspec
 
@@ -12,7 +12,7 @@ from erdctl.prove.on_log import Host, Trial
 from erdctl.prove.tables import Table
 from erdctl.report.readable import number, with_unit
 
-SCHEMA = "erdctl.proof-on/1"
+SCHEMA: Final = "erdctl.proof-on/1"
 
 
 class AddedParameter(TypedDict):
@@ -83,7 +83,7 @@ class ProofOnFile(TypedDict):
     what another names that answers for the model so corrected
     """
 
-    schema: str
+    schema: Literal["erdctl.proof-on/1"]
     erdctl: str
     logs: list[dict[str, str]]
     thin: int
