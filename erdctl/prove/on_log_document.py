@@ -154,9 +154,13 @@ def tables(trials: Sequence[Trial]) -> Iterator[Table]:
         rows.append(["nothing", *_counts(sum(bool(t.said) for t in nulls), len(nulls))])
     if rows:
         yield "Named, by what was hidden", ["hidden", "named", "of", ""], rows
-    skipped = {t.effect or "": t.skipped for t in trials if t.skipped}
-    if skipped:
-        yield "Not hidden", ["", "why"], [[n, str(why)] for n, why in skipped.items()]
+    skipped: dict[tuple[str, str], list[str]] = {}
+    for t in trials:
+        if t.skipped:
+            skipped.setdefault((t.effect or "nothing", t.skipped), []).append(f"{t.wanted:g}")
+    rows = [[name, " ".join(at), why] for (name, why), at in skipped.items()]
+    if rows:
+        yield "Not hidden", ["", "x noise", "why"], rows
 
 
 def line(trial: Trial) -> str:
