@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from math import isfinite
-from typing import Any, TypedDict
+from typing import Any, Final, Literal, TypedDict
 
 import msgspec
 import numpy as np
@@ -15,7 +15,7 @@ from erdctl.compare.tolerance import Holds, Judged
 from erdctl.compare.trend import Trend
 from erdctl.core.version import __version__
 
-SCHEMA = "erdctl.comparison/1"
+SCHEMA: Final = "erdctl.comparison/1"
 
 
 class WithError(TypedDict):
@@ -161,7 +161,7 @@ class ComparisonFile(TypedDict):
     of them is told to change where none does
     """
 
-    schema: str
+    schema: Literal["erdctl.comparison/1"]
     erdctl: str
     logs: int
     tests: int

@@ -6,9 +6,12 @@ values are those of the law; what it is called, and its source in the literature
 
 from __future__ import annotations
 
+import builtins
 import keyword
 import re
+import sys
 from dataclasses import replace
+from importlib.util import find_spec
 from textwrap import wrap
 from typing import Any, NamedTuple
 
@@ -26,6 +29,7 @@ from erdctl.model.parameters import Parameters
 from erdctl.model.slots import Values
 
 WIDTH = 100
+LONGEST = 50  # characters of a name, so that no line of the files is longer than WIDTH
 DIGITS = 6  # of a start, and of a motion
 STAGES = {LawSlot.FRICTION: "FRICTION", LawSlot.GAS: "GAS"}  # FLUID otherwise
 # What a log must hold, and over which variable a misfit shows, by the beginning of a coordinate.
@@ -103,12 +107,23 @@ def learned_effect(parameters: Parameters, number: int | None, file: str) -> Lea
 
 
 def check_name(name: str, taken: tuple[str, ...]) -> None:
-    """Raise UsageProblem for what cannot be the name of an effect, or is that of another one."""
+    """Raise UsageProblem for what cannot be the name of an effect, or is that of another one.
+
+    The file is a module that a package has at its top, and imports as every other.
+    """
     plain = name.isidentifier() and name.isascii() and name == name.lower()
     if not plain or name.startswith("_") or keyword.iskeyword(name):
         raise UsageProblem(f"'{name}': a name has small letters, digits and _, as stick_slip")
     if name in taken or name in ("new", "learned"):
         raise UsageProblem(f"'{name}': the catalogue has an effect of that name")
+    if len(name) > LONGEST:
+        raise UsageProblem(f"'{name}': expected at most {LONGEST} characters, found {len(name)}")
+    if name.startswith("test"):
+        raise UsageProblem(f"'{name}': pytest takes what begins with test for a test")
+    if hasattr(builtins, name) or name == "annotations":
+        raise UsageProblem(f"'{name}': Python has that name itself; choose another name")
+    if name in sys.stdlib_module_names or find_spec(name) is not None:
+        raise UsageProblem(f"'{name}': the file would hide a module of that name; choose another")
 
 
 def effect_source(name: str, found: LearnedEffect, values: Values, origin: str) -> str:
@@ -121,19 +136,21 @@ def effect_source(name: str, found: LearnedEffect, values: Values, origin: str) 
                for q in quantities]  # fmt: skip
     learned = ", ".join(f"{q.symbol} = {own[q.symbol]:.4g}" for q in quantities)
     form = "None" if law.curve.form is None else f'"{law.curve.form}"'
-    more = ", zero_first=True" if law.curve.zero_first else ""
+    more = ["zero_first=True"] if law.curve.zero_first else []
     surface = law.curve if isinstance(law.curve, Surface) else None
-    curve = f'Curve("{law.curve.coordinate}", {_numbers(law.curve.knots)}, {form}{more})'
+    across: list[str] = []
+    curve = call("CURVE = Curve(", [f'"{law.curve.coordinate}"', "KNOTS", form, *more], ")")
     if surface is not None:
-        across = f'Curve("{surface.across.coordinate}", {_numbers(surface.across.knots)})'
-        known = f'"{surface.coordinate}", {_numbers(surface.knots)}{more}'
-        curve = f"Surface({known}, across={across})"
+        across = call("ACROSS = (", _numbers(surface.across.knots), ")")
+        second = f'across=Curve("{surface.across.coordinate}", ACROSS)'
+        curve = call("CURVE = Surface(", [f'"{surface.coordinate}"', "KNOTS", *more, second], ")")
     place = PLACES.get(law.slot, ADDED if law.slot.adds else SCALED)
     slot = f"{place.slot}({'' if law.slot.adds else name}{place.more})"
     columns = f"\n    columns={name}," if law.slot.adds else ""
     scale = ", Scale" if any(q.scale is Scale.LOG for q in quantities) else ""
+    title = found.title.removeprefix("a ").capitalize()
     lines = [
-        f'"""{found.title.removeprefix("a ").capitalize()}. To be filled in: what it is.',
+        *wrap(f'"""{title}. To be filled in: what it is.', WIDTH),
         "",
         *(f"    {clause}" for clause in split(_equation(law), ", ")),
         "",
@@ -149,7 +166,7 @@ def effect_source(name: str, found: LearnedEffect, values: Values, origin: str) 
         "from __future__ import annotations",
         "",
         f"from erdctl.core.quantity import Quantity{scale}",
-        "from erdctl.core.recording import Array",
+        *(["from erdctl.core.recording import Array"] if "Array" in place.returns else []),
         "from erdctl.core.signals import Signals",
         "from erdctl.model.effect import Effect, Requirement, Stage, Variable",
         "from erdctl.model.learned.curve import Curve",
@@ -157,7 +174,10 @@ def effect_source(name: str, found: LearnedEffect, values: Values, origin: str) 
         *(["from erdctl.model.learned.surface import Surface"] if surface else []),
         f"from erdctl.model.slots import {', '.join(sorted([place.slot, 'Values']))}",
         "",
-        *call("LAW = Law(", [f"LawSlot.{law.slot.name}", curve], ")"),
+        *call("KNOTS = (", _numbers(law.curve.knots), ")"),
+        *across,
+        *curve,
+        f"LAW = Law(LawSlot.{law.slot.name}, CURVE)",
         "",
         "",
         f"def {name}(s: Signals, p: Values) -> {place.returns}:",
@@ -236,8 +256,8 @@ def call(begin: str, parts: list[str], end: str) -> list[str]:
     return [*out, end]
 
 
-def _numbers(values: tuple[float, ...]) -> str:
-    return f"({', '.join(repr(float(v)) for v in values)})"
+def _numbers(values: tuple[float, ...]) -> list[str]:
+    return [repr(float(v)) for v in values]
 
 
 def _plain(text: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import fields
-from typing import Any
+from typing import Any, Final, Literal
 
 import msgspec
 
@@ -11,12 +11,12 @@ from erdctl.core.errors import InputProblem
 from erdctl.io import documents
 from erdctl.model.geometry import Geometry
 
-SCHEMA = "erdctl.geometry/1"
-# SI units by field; alpha carries volts per metre to the power beta, which no unit library writes.
+SCHEMA: Final = "erdctl.geometry/1"
+# SI units by field.
 UNITS = {
     "A_p": "m^2", "A_s": "m^2", "L_d": "m", "d": "m", "R_d": "m", "mu": "Pa s", "c": "1",
-    "alpha": None, "beta": "1", "U_m": "V", "d_e": "m", "P_0": "Pa", "V_0": "m^3", "gamma": "1",
-    "stroke": "m",
+    "alpha": "Pa (m/V)^beta", "beta": "1", "U_m": "V", "d_e": "m", "P_0": "Pa",
+    "V_0": "m^3", "gamma": "1", "stroke": "m",
 }  # fmt: skip
 
 
@@ -30,7 +30,7 @@ class Measure(msgspec.Struct):
 class GeometryFile(msgspec.Struct, kw_only=True):
     """Dimensions and fluid data of a damper, in SI units unless a unit is given."""
 
-    schema: str
+    schema: Literal["erdctl.geometry/1"]
     A_p: Measure | float
     A_s: Measure | float
     L_d: Measure | float
@@ -58,8 +58,12 @@ def read_geometry(path: str) -> Geometry:
         given = getattr(document, field.name)
         value, unit = (given.value, given.unit) if isinstance(given, Measure) else (given, None)
         si = UNITS[field.name]
-        if unit is not None and si is not None and unit != si:
+        if unit is not None and unit != si:
             from erdctl.io.units import factor_between
+
+            # Volts per metre to the power beta, which no unit library writes, are not converted.
+            if field.name == "alpha":
+                raise InputProblem(f"alpha is given in '{unit}'; expected {si}", file=name)
 
             value *= factor_between(unit, si, f"{name}: {field.name}")
         if value != value or abs(value) == float("inf"):

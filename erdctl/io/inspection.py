@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NotRequired, TypedDict, cast
+from typing import TYPE_CHECKING, Any, Final, Literal, NotRequired, TypedDict, cast
 
 import msgspec
 
@@ -19,7 +19,7 @@ from erdctl.io.units import UNITS
 if TYPE_CHECKING:
     from erdctl.diagnose.forecast import Forecast
 
-SCHEMA = "erdctl.inspection/1"
+SCHEMA: Final = "erdctl.inspection/1"
 
 
 class LogEntry(TypedDict):
@@ -104,7 +104,7 @@ class ForecastEntry(TypedDict):
 class InspectionFile(TypedDict):
     """What a log holds and what it can show."""
 
-    schema: str
+    schema: Literal["erdctl.inspection/1"]
     logs: list[LogEntry]
     channels: list[ChannelEntry]
     other_columns: list[str]

@@ -111,7 +111,7 @@ class TemperatureDocument(TypedDict):
 class PwmManifest(TypedDict):
     """What whoever pushes a PWM sequence must know."""
 
-    schema: str
+    schema: Literal["erdctl.pwm/1"]
     erdctl: str
     carrier: QuantityDocument
     full_scale: QuantityDocument

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, Final, Literal
 
 import msgspec
 
@@ -17,7 +17,7 @@ from erdctl.model.effect import Effect
 from erdctl.model.paper import QUANTITIES
 from erdctl.model.parameters import Estimate, Parameters
 
-SCHEMA = "erdctl.parameters/1"
+SCHEMA: Final = "erdctl.parameters/1"
 
 
 class Value(msgspec.Struct, omit_defaults=True):
@@ -69,7 +69,7 @@ class KnownProvenance(msgspec.Struct):
 class ParameterFile(msgspec.Struct, kw_only=True):
     """Parameters of a damper."""
 
-    schema: str
+    schema: Literal["erdctl.parameters/1"]
     compression: Direction
     release: Direction
     effects: list[ExtraEffect] = []
@@ -183,6 +183,10 @@ def _estimate(given: Value | float, quantity: Quantity, full: str, name: str) ->
     for what, number in (("", value), ("the standard error of ", stderr), ("assumed ", assumed)):
         if number is not None and not math.isfinite(number):
             raise InputProblem(f"{what}{full} is not a finite number", file=name)
+    if stderr is not None and stderr < 0.0:
+        raise InputProblem(
+            f"the standard error of {full} is {stderr:g}; expected 0 or more", file=name
+        )
     value, assumed = (None if v is None else quantity.snapped(v) for v in (value, assumed))
     ends = given.interval
     if ends is not None and not (math.isfinite(ends[0]) and ends[0] <= ends[1] < math.inf):

@@ -7,7 +7,7 @@ manifest of a PWM sequence is in `manifest`.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NotRequired, TypedDict
+from typing import Any, Literal, NotRequired, TypedDict
 
 import msgspec
 
@@ -215,7 +215,7 @@ class DiagnosisFile(TypedDict):
         is, or because a channel that stops at a limit cannot tell whether the model holds beyond
     """
 
-    schema: str
+    schema: Literal["erdctl.diagnosis/1"]
     verdict: str
     cannot_tell: NotRequired[bool]
     noise_rms: float
@@ -269,7 +269,7 @@ class RecordScore(ScoreDocument):
 class ValidationFile(ScoreDocument):
     """Scores of a model on logs; normalise : the denominator of the NRMSE."""
 
-    schema: str
+    schema: Literal["erdctl.validation/1"]
     normalise: str
     nrmse_by_duty: list[DutyScore]
     nrmse_by_direction: list[DirectionScore]

@@ -165,10 +165,14 @@ def _covariance(parameters: Parameters) -> Covariance | None:
         return None
     out = np.eye(len(listed))
     for i, row in enumerate(lower):
-        if not isinstance(row, list) or len(row) != i:
+        if not isinstance(row, list) or len(row) != i or not all(map(_correlation, row)):
             return None
         out[i, :i] = out[:i, i] = row
     return Covariance(tuple(map(str, listed)), out)
+
+
+def _correlation(given: object) -> bool:
+    return isinstance(given, int | float) and -1.0 <= given <= 1.0
 
 
 def _limits(document: DiagnosisIn, common: Row) -> list[Row]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, TypedDict
+from typing import Any, Literal, TypedDict
 
 import msgspec
 
@@ -46,7 +46,7 @@ def proof_of(wish: Wish, seeds: Sequence[int], outcomes: Sequence[Outcome]) -> P
 class ProofFile(TypedDict):
     """The document: what a run gave, and what follows from it."""
 
-    schema: str
+    schema: Literal["erdctl.proof/1"]
     erdctl: str
     seed: int
     cases: int

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, TypedDict
+from typing import Any, Final, Literal, TypedDict
 
 import msgspec
 
@@ -12,7 +12,7 @@ from erdctl.prove.on_log import Host, Trial
 from erdctl.prove.tables import Table
 from erdctl.report.readable import number, with_unit
 
-SCHEMA = "erdctl.proof-on/1"
+SCHEMA: Final = "erdctl.proof-on/1"
 
 
 class AddedParameter(TypedDict):
@@ -83,7 +83,7 @@ class ProofOnFile(TypedDict):
     what another names that answers for the model so corrected
     """
 
-    schema: str
+    schema: Literal["erdctl.proof-on/1"]
     erdctl: str
     logs: list[dict[str, str]]
     thin: int
@@ -154,9 +154,13 @@ def tables(trials: Sequence[Trial]) -> Iterator[Table]:
         rows.append(["nothing", *_counts(sum(bool(t.said) for t in nulls), len(nulls))])
     if rows:
         yield "Named, by what was hidden", ["hidden", "named", "of", ""], rows
-    skipped = {t.effect or "": t.skipped for t in trials if t.skipped}
-    if skipped:
-        yield "Not hidden", ["", "why"], [[n, str(why)] for n, why in skipped.items()]
+    skipped: dict[tuple[str, str], list[str]] = {}
+    for t in trials:
+        if t.skipped:
+            skipped.setdefault((t.effect or "nothing", t.skipped), []).append(f"{t.wanted:g}")
+    rows = [[name, " ".join(at), why] for (name, why), at in skipped.items()]
+    if rows:
+        yield "Not hidden", ["", "x noise", "why"], rows
 
 
 def line(trial: Trial) -> str:

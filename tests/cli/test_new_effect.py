@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -20,7 +21,9 @@ from erdctl.cli.app import build
 from erdctl.core.recording import Recording
 from erdctl.core.signals import Signals
 from erdctl.io.documents import encode
-from erdctl.io.effect_file import effect_source
+from erdctl.io.effect_file import LONGEST, effect_source
+from erdctl.io.effect_test_file import motion
+from erdctl.io.effect_test_file import test_source as effect_test_source
 from erdctl.io.parameters import to_document
 from erdctl.model.composed import Model, off_values
 from erdctl.model.effect import Effect
@@ -28,6 +31,7 @@ from erdctl.model.learned.coordinates import KINDS
 from erdctl.model.learned.curve import Curve
 from erdctl.model.learned.forms import FORMS
 from erdctl.model.learned.law import Law, LawSlot
+from erdctl.model.learned.surface import Surface
 from erdctl.model.parameters import Estimate, Parameters
 
 LOG = campaign(100.0, 4.0)
@@ -83,6 +87,34 @@ def test_the_file_acts_as_the_law(slot: LawSlot, form: str | None) -> None:
         assert np.array_equal(off, Model().force(signals, TRUTH))
 
 
+@pytest.mark.parametrize("slot", LawSlot)
+def test_no_line_is_too_long_and_no_import_unused(slot: LawSlot) -> None:
+    """With the longest name there may be, the most digits and the most words."""
+    name, seconds = "n" * LONGEST, (1 / 3, 2 / 3, 4 / 3)
+    across = Curve("field_travel", seconds)
+    surface = Surface("ringing_field", (-1 / 3, 1 / 7, 2 / 3), zero_first=True, across=across)
+    many = tuple(k / 7 for k in range(1, 9))
+    for law in (Law(slot, surface), Law(slot, Curve("path_since_reversal", many, None, True))):
+        given = parameters(law)
+        text = effect_source(name, law.effect, given.values, "a log")
+        for source in (text, effect_test_source(name, law.effect, given)):
+            assert max(map(len, source.splitlines())) <= 100
+            imported = re.findall(r"^from [\w.]+ import (.+)$", source, re.MULTILINE)
+            for each in ", ".join(imported).split(", "):
+                assert each == "annotations" or len(re.findall(rf"\b{each}\b", source)) > 1
+
+
+@pytest.mark.parametrize("kind", [k for k in KINDS if not KINDS[k].sides])
+def test_its_test_is_on_a_motion_on_which_it_acts(kind: str) -> None:
+    """A time constant does nothing where a step of the motion is many of them."""
+    low, high = (20.0, 60.0) if kind == "temperature" else (0.0, 0.5)
+    law = Law(LawSlot.LAG, Curve(kind, (low, high), "line"))
+    given = parameters(law)
+    shown = motion(law.effect, given.values)
+    force = Model((law.effect,)).force(shown, given.values)
+    assert np.ptp(force - Model().force(shown, TRUTH)) > 1e-6 * np.ptp(force)
+
+
 def test_from_parameters_or_from_a_diagnosis(folder: Path) -> None:
     code, said = command("new", "bore_wear", "--from", "bore.json")
     assert code == 0
@@ -107,6 +139,12 @@ def test_from_parameters_or_from_a_diagnosis(folder: Path) -> None:
         (("new", "bore_wear", "--from", "none.json"), "no such file"),
         (("new", "Bore", "--from", "bore.json"), "small letters"),
         (("new", "class", "--from", "bore.json"), "small letters"),
+        (("new", "dict", "--from", "bore.json"), "Python has that name"),
+        (("new", "annotations", "--from", "bore.json"), "Python has that name"),
+        (("new", "array", "--from", "bore.json"), "would hide a module"),
+        (("new", "numpy", "--from", "bore.json"), "would hide a module"),
+        (("new", "test_bore", "--from", "bore.json"), "for a test"),
+        (("new", 51 * "a", "--from", "bore.json"), "at most 50 characters, found 51"),
         (("new", "backlash", "--from", "bore.json"), "the catalogue has"),
         (("new", "bore_wear", "--from", "bore.json", "-o", "other.py"), "has its name"),
         (("new", "bore_wear", "--from", "bore.json", "--law", "2"), "has 1"),

@@ -113,6 +113,15 @@ def test_documents_become_rows(tmp_path: Path) -> None:
     assert given.documents
 
 
+@pytest.mark.parametrize("wrong", ["", [0.1], None, {}, 1.5, "0.25"])
+def test_a_correlation_that_is_none_is_left_out(wrong: object, tmp_path: Path) -> None:
+    """It ended with an internal error."""
+    told = {"parameters": ["compression.k_nom", "release.k_nom"], "lower": [[], [wrong]]}
+    path = tmp_path / "a.json"
+    path.write_text(json.dumps({**TABLE_2, "fits": {"correlation": told}}))
+    assert not read_inputs([str(path)]).covariances
+
+
 @pytest.mark.parametrize("here", ["UTC", "America/New_York"])
 def test_a_date_with_a_time_zone_is_that_of_a_campaign_wherever_it_is_read(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, here: str

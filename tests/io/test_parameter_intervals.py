@@ -39,3 +39,10 @@ def test_an_interval_travels_with_its_unit() -> None:
     plain = {"value": 13.0, "unit": "s", "stderr": 0.5}
     found = parse_parameters(with_fault({"f": 0.5, "t_0": plain}), "p.json")
     assert found.estimates["oil_leakage.t_0"].interval == pytest.approx((12.02, 13.98))
+
+
+def test_a_standard_error_below_zero_is_refused() -> None:
+    """As in a campaign's table."""
+    given = {"value": 13.0, "unit": "s", "stderr": -0.5}
+    with pytest.raises(InputProblem, match=r"error of oil_leakage.t_0 is -0.5; expected 0 or more"):
+        parse_parameters(with_fault({"f": 0.5, "t_0": given}), "p.json")

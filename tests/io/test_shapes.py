@@ -76,6 +76,13 @@ def test_what_commands_print(name: str, words: list[str]) -> None:
     check(name, json.loads(run(*words)))
 
 
+@pytest.mark.parametrize("name", ALL)
+def test_a_document_of_another_kind_or_version_is_none(name: str) -> None:
+    schema = ALL[name]()
+    whole = schema["$defs"][schema["$ref"].rpartition("/")[2]]
+    assert whole["properties"]["schema"]["enum"] == [f"erdctl.{name}/1"]
+
+
 @pytest.mark.parametrize("file", ["table_2.json", "geometry_inove.json"])
 def test_fixtures(file: str) -> None:
     name = "geometry" if "geometry" in file else "parameters"

@@ -119,9 +119,21 @@ def test_found_from_the_size_from_which_all_larger_are() -> None:
     effects, shares, skipped = tables(trials)
     assert effects[2] == [["a", "yes", "no", "yes", "g 0.4 mm", "4 N"]]
     assert shares[2][-1] == ["nothing", "1", "2", "50 %"]
-    assert skipped[2] == [["b", "is in the log already"]]
+    assert skipped[2] == [["b", "1", "is in the log already"]]
     assert "found no" in line(trials[1])
     assert "nothing hidden" in line(trials[-1])
+
+
+def test_an_effect_that_one_size_cannot_have_is_not_said_to_be_hidden_at_none() -> None:
+    far = "it would be another damper: 9 N rms where the log has 3 N"
+    trials = [
+        trial("a", 1.0, found=True),
+        trial("a", 2.0, found=None, skipped=far),
+        trial("a", 4.0, found=None, skipped=far),
+        trial("a", 8.0, found=None, skipped="cannot be diagnosed: why"),
+    ]
+    *_, skipped = tables(trials)
+    assert skipped[2] == [["a", "2 4", far], ["a", "8", "cannot be diagnosed: why"]]
 
 
 def hiding_in(given: Parameters) -> tuple[on_log.Hiding, Hypothesis]:

@@ -100,6 +100,7 @@ def test_a_log_without_a_thermometer_is_refused() -> None:
 
 
 def test_the_file_of_such_an_effect_has_a_thermometer_in_its_test() -> None:
-    shown = motion(LAW, None)
+    size = {LAW.effect.key(q.symbol): -0.1 for q in LAW.effect.quantities}
+    shown = motion(LAW.effect, {**TRUTH, **size})
     assert shown.temperature is not None
     assert np.ptp(shown.temperature) == 30.0
