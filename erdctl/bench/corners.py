@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from erdctl.core.recording import Array, Index
 
@@ -21,7 +22,7 @@ OF_A_SQUARE = 0.4549  # of its mean: the median of a normal deviation's square
 
 def at_corners(
     x: Array, slope: Array, smooth: Array, width: int, square: float
-) -> tuple[Array, bool]:
+) -> tuple[Array, npt.NDArray[np.bool_]]:
     """Slopes (n,) of x (n,) a sample, in which corners are no bends.
 
     A window across the turn of a triangle rounds it: for half its width the speed lies between
@@ -31,23 +32,23 @@ def at_corners(
 
     slope, smooth : (n,) of the polynomials through windows of `width` samples
     square : variance of the noise in x
-    Returns the slopes, and whether there is a corner.
+    Returns the slopes, and which of them are those of lines (n,).
 
     Check: |k|, whose corner a window makes slopes of k / 8 of, has those of -1 and 1 on its sides.
     >>> k = np.arange(-40.0, 41.0)
     >>> bend = np.clip(k / 8, -1.0, 1.0)
-    >>> found, changed = at_corners(np.abs(k), bend, np.maximum(np.abs(k), 4.0), 17, 1e-6)
-    >>> changed, found[[38, 42]].round(6).tolist()
-    (True, [-1.0, 1.0])
+    >>> found, near = at_corners(np.abs(k), bend, np.maximum(np.abs(k), 4.0), 17, 1e-6)
+    >>> found[[38, 42]].round(6).tolist()
+    [-1.0, 1.0]
     """
     m = width // 2 + 1
+    near = np.zeros(len(x), dtype=np.bool_)
     if m < FEWEST or len(x) < 4 * width:
-        return slope, False
+        return slope, near
     # Noise behind a filter leaves more beside a polynomial than its differences tell.
     left = float(np.median((x - smooth) ** 2)) / OF_A_SQUARE
     square = max(square, left, (FINEST * float(np.ptp(x))) ** 2)
     out = _narrowed(x, slope, smooth, width, square)
-    near = np.zeros(len(x), dtype=np.bool_)
     changes = _changes(slope, m, square)
     for length in LENGTHS:
         reach = length * m
@@ -59,7 +60,7 @@ def at_corners(
             )
             for side, of_line in sides:
                 out[side], near[side] = of_line, True
-    return out, bool(near.any())
+    return out, near
 
 
 def _narrowed(x: Array, slope: Array, smooth: Array, width: int, square: float) -> Array:

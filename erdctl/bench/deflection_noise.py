@@ -15,6 +15,7 @@ OF_SIGMA = 0.6745  # of a normal deviation: the median of its size
 ROUNDING = 1e-6  # of the stroke, below which steps of x are no digits of a recorder
 OF_A_DIGIT = 0.05  # as near as steps of x are to whole numbers of them
 SURE = 4.0  # standard errors of a slope that is none
+LEAVES = 2.5  # standard deviations of the noise, that x is off a rest once it is left
 
 
 def looked_at(x: Array) -> Array:
@@ -100,16 +101,49 @@ def slope_errors(n: int, width: int, degree: int) -> Array:
     return np.concatenate([error[:half], middle, error[half + 1 :]])
 
 
-def at_rest(slope: Array, error: Array) -> npt.NDArray[np.bool_]:
-    """(n,) whether a slope (n,) with standard errors (n,) is that of noise.
+def at_rest(
+    x: Array, slope: Array, error: Array, width: int, noise: float
+) -> npt.NDArray[np.bool_]:
+    """(n,) whether a slope (n,) of x (n,) with standard errors (n,) is that of noise.
 
     Noise gives a rod at rest a direction, of which the yield force is a fault of as much again.
-    Beside a turn a small slope is one still, as it goes on to larger ones of its direction.
-    Check: of a turn and a rest, samples 2, 3, 6 and 7.
-    >>> at_rest(np.array([9.0, 1.0, -1.0, 1.0, -1.0, -9.0, 0.5, -0.5]), np.ones(8)).nonzero()
+    Beside a turn a small slope is one still, as it goes on to larger ones of its direction. What
+    is slow moves on through a window; and a rest goes on for as long as x does not leave it, where
+    a window sees the motion before or after.
+
+    width : samples of a window;  noise : standard deviation in x
+    Check: of a turn and a rest, samples 2, 3, 6 and 7; and of a rest of 10 samples beside a ramp,
+    of which the window has a slope at two of them, all of them.
+    >>> slope = np.array([9.0, 1.0, -1.0, 1.0, -1.0, -9.0, 0.5, -0.5])
+    >>> at_rest(np.zeros(8), slope, np.ones(8), 5, 1.0).nonzero()
     (array([2, 3, 6, 7]),)
+    >>> k = np.arange(15.0)
+    >>> x, slope = np.maximum(k - 9.0, 0.0), np.maximum(k - 7.0, 0.0)
+    >>> int(at_rest(x, slope, np.full(15, 0.01), 5, 0.1).sum())
+    10
     """
     way = np.sign(slope)
     first = np.concatenate([[0], np.flatnonzero(way[1:] != way[:-1]) + 1])
     most = np.maximum.reduceat(np.abs(slope) - SURE * error, first)
-    return np.asarray(np.repeat(most <= 0.0, np.diff(first, append=len(slope))))
+    still = np.repeat(most <= 0.0, np.diff(first, append=len(slope)))
+    half = width // 2
+    edges = np.flatnonzero(np.diff(still, prepend=False, append=False)).reshape(-1, 2)
+    for a, b in edges[edges[:, 1] - edges[:, 0] >= width].tolist():
+        inner = x[a + half : b - half]  # the motion before and after is not seen at once
+        if len(inner) >= width:
+            gone = float(np.mean(inner[-half:]) - np.mean(inner[:half]))
+            if abs(gone) > SURE * noise * (2.0 / half) ** 0.5:
+                still[a:b] = False
+                continue
+        level, reach = np.mean(x[a:b]), LEAVES * noise
+        before = _stays(np.abs(x[max(a - half, 0) : a][::-1] - level) > reach)
+        after = _stays(np.abs(x[b : b + half] - level) > reach)
+        still[a - before : a] = still[b : b + after] = True
+    return still
+
+
+def _stays(left: npt.NDArray[np.bool_]) -> int:
+    """Samples before two on end that have left a rest, as one may by noise."""
+    both = left.copy()
+    both[:-1] &= left[1:]
+    return int(np.argmax(np.append(both, True)))

@@ -19,6 +19,7 @@ from erdctl.bench.deflection_noise import (
 )
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array, Index
+from erdctl.core.stretches import DERIVED
 
 WINDOW = 0.020  # s: passes what a damper test moves at (below 20 Hz), averages sensor noise
 WIDEST = 8.0  # times that, where the noise of x asks for it
@@ -90,7 +91,7 @@ def derive_xdot(
         notes[note] = None
     kinds = list(notes)
     more = f"; and {len(kinds) - 3} other windows" if len(kinds) > 3 else ""
-    return xdot, "derived from x by " + "; ".join(kinds[:3]) + more
+    return xdot, f"{DERIVED} by " + "; ".join(kinds[:3]) + more
 
 
 def bandwidth(width: int, step: float, degree: int = 2) -> float:
@@ -125,23 +126,24 @@ def _record(t: Array, x: Array, step: float, even: bool) -> tuple[Array, str]:
     width, degree = _window(x, width, most) if even else (width, 2)
     looked = looked_at(x)
     square = variance(looked) if even else variance_at(looked_at(t), looked)
-    error = square**0.5 * slope_errors(x.size, width, degree)
+    noise = square**0.5
+    error = noise * slope_errors(x.size, width, degree)
     span = f"{width} samples = {1e3 * (width - 1) * step:.3g} ms"
     fallen = f"{bandwidth(width, step, degree):.3g} Hz"
     if not even:
         note = f"local quadratic fits at the uneven times ({span}; -3 dB near {fallen})"
         slope = _at_actual_times(t, x, width)
-        return np.where(at_rest(slope * step, error), 0.0, slope), note
+        return np.where(at_rest(x, slope * step, error, width, noise), 0.0, slope), note
     from scipy.signal import savgol_filter
 
     # The mean step: the median of times rounded to a few digits is off by the rounding.
     mean = float(t[-1] - t[0]) / (t.size - 1)
     slope = savgol_filter(x, width, degree, deriv=1, mode="interp")
     smooth = savgol_filter(x, width, degree, mode="interp")
-    slope, cornered = at_corners(x, slope, smooth, width, square)
-    slope = np.where(at_rest(slope, error), 0.0, slope)
+    slope, lines = at_corners(x, slope, smooth, width, square)
+    slope[at_rest(x, slope, error, width, noise) & ~lines] = 0.0
     note = f"a Savitzky-Golay filter ({DEGREES[degree]}, {span}; -3 dB at {fallen})"
-    return slope / mean, note + ", next to corners the line of either side" * cornered
+    return slope / mean, note + ", next to corners the line of either side" * bool(lines.any())
 
 
 def _rounded(t: Array, steps: Array) -> bool:

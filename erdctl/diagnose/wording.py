@@ -11,6 +11,7 @@ import numpy as np
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import Bench
 from erdctl.core.blocks import SETTLE
+from erdctl.core.stretches import DERIVED
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.conditions import one_condition, one_motion, slow_far_out
 from erdctl.diagnose.detectable import Detectable
@@ -128,8 +129,18 @@ def _left(found: Diagnosis) -> str:
     if resembles is not None:
         words += f"; it is most like {resembles.form} (correlation {resembles.correlation:+.2f})"
     words += sets_in_once_text(found) or _of_records(found)
-    words += _hum(left) + _withdrawn(found)
+    words += _hum(left) + _withdrawn(found) + _derived(found)
     return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
+
+
+def _derived(found: Diagnosis) -> str:
+    """That a velocity that is none of a sensor may be what is missing."""
+    if not found.problem.recording.xdot_note.startswith(DERIVED):
+        return ""
+    return (
+        "; xdot was derived from x, which rounds what turns faster than its window, and a part of"
+        " this may be of that: a log with xdot would tell"
+    )
 
 
 def _none_of(found: Diagnosis) -> str:

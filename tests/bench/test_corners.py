@@ -80,6 +80,31 @@ def test_noise_gives_a_rod_at_rest_no_direction(noise: float, clock: str) -> Non
     assert np.mean(xdot[rest] == 0.0) > 0.99
 
 
+@pytest.mark.parametrize("noise", [1e-6, 1e-5])
+def test_a_rest_goes_on_to_the_ramp_beside_it(noise: float) -> None:
+    """Windows see a ramp that begins softly half their width before, of a direction of its own."""
+    random = np.random.default_rng(9)
+    sharp, _ = dwells(random)
+    x = np.convolve(np.pad(sharp, 8, mode="edge"), np.full(17, 1.0 / 17.0), "valid")
+    true = np.gradient(x, T)
+    xdot, _ = derive_xdot(T, x + noise * random.standard_normal(N), STARTS)
+    rest = np.abs(true) < 1e-9
+    assert np.mean(rest) > 0.4
+    assert np.mean(xdot[rest][20:-20] != 0.0) < 0.05
+
+
+@pytest.mark.parametrize("speed", [1e-4, 1e-3])
+def test_what_creeps_keeps_its_direction(speed: float) -> None:
+    """As of a test of the friction alone, whose speed a window does not see above the noise."""
+    t = np.arange(20_000) * 1e-3
+    x = speed * (5.0 - np.abs(t % 10.0 - 5.0))
+    noisy = x + 0.02 * speed * np.random.default_rng(2).standard_normal(t.size)
+    xdot, _ = derive_xdot(t, noisy, np.array([0, t.size]))
+    true = np.where(t % 10.0 < 5.0, 1.0, -1.0)
+    assert np.mean(np.sign(xdot) == true) > 0.9
+    assert np.mean(xdot == 0.0) < 0.05
+
+
 @pytest.mark.parametrize("noise", [1e-6, 3e-6])
 def test_a_direction_of_a_derived_triangle_is_right_or_uncertain(noise: float) -> None:
     """Up to one turn in 13 was a sample from where it is, and none of these was doubted."""

@@ -28,3 +28,20 @@ def test_a_small_rest_that_motion_predicts_is_not_called_noise(ripple: float) ->
     said = remaining_text(found)
     assert ("is noise as far as these data tell" in said) == (ripple == 0.0)
     assert ("that motion and duty still predict" in said) == (ripple > 0.0)
+
+
+def test_that_xdot_was_derived_is_said_of_what_is_not_explained() -> None:
+    """What its window rounds was "explained by none" of triangles with corners of 2 ms."""
+    r = campaign()
+    assert r.force is not None
+    force = r.force + 3.0 * np.sign(np.sin(2.0 * np.pi * r.x / 0.004))
+    found = diagnose(
+        noisy(replace(r, force=force), seed=4), [get("coulomb_friction")], limits=False,
+        learning=False,
+    )  # fmt: skip
+    assert found.verdict is Verdict.UNEXPLAINED
+    said = "a log with xdot would tell"
+    assert said not in remaining_text(found)
+    log = replace(found.problem.recording, xdot_note="derived from x by a filter")
+    of_derived = replace(found, problem=replace(found.problem, recording=log))
+    assert said in remaining_text(of_derived)
