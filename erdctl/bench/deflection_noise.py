@@ -11,11 +11,13 @@ from erdctl.core.recording import Array
 
 LOOK, PARTS = 80_000, 8  # samples of a record that are looked at for this, and in how many parts
 NOISE_ORDER = 6  # of the differences that tell the noise of x
+HIGH_ORDER = 10  # of those that do where a motion has few samples a cycle
 OF_SIGMA = 0.6745  # of a normal deviation: the median of its size
 ROUNDING = 1e-6  # of the stroke, below which steps of x are no digits of a recorder
 OF_A_DIGIT = 0.05  # as near as steps of x are to whole numbers of them
 SURE = 4.0  # standard errors of a slope that is none
 LEAVES = 2.5  # standard deviations of the noise, that x is off a rest once it is left
+FEWEST = 5  # samples of half a window, that sees a motion so much too early
 
 
 def looked_at(x: Array) -> Array:
@@ -27,7 +29,7 @@ def looked_at(x: Array) -> Array:
     return np.stack([x[a : a + length] for a in first.tolist()])
 
 
-def variance(x: Array) -> float:
+def variance(x: Array, order: int = NOISE_ORDER) -> float:
     """Variance of white noise in x, by its sixth differences, which no motion of a bench has.
 
     By their median: a corner of a triangle has some. At least that of a last digit q, q^2 / 12.
@@ -37,17 +39,17 @@ def variance(x: Array) -> float:
     >>> round(variance(noise + np.arange(4000.0) ** 2) ** 0.5, 1)
     3.0
     """
-    differences = np.abs(np.diff(x, NOISE_ORDER))
+    differences = np.abs(np.diff(x, order))
     if not differences.size:
         return 0.0
-    gain = math.comb(2 * NOISE_ORDER, NOISE_ORDER)  # sum of the squares of their weights
+    gain = math.comb(2 * order, order)  # sum of the squares of their weights
     return max(float(np.median(differences) / OF_SIGMA) ** 2 / gain, digit(x) ** 2 / 12.0)
 
 
-def variance_at(t: Array, x: Array) -> float:
+def variance_at(t: Array, x: Array, order: int = NOISE_ORDER) -> float:
     """The same by divided differences, of x at uneven times t.
 
-        sum_k x_k / prod over j of (t_k - t_j),   j and k of seven samples on end, j not k
+        sum_k x_k / prod over j of (t_k - t_j),   j and k of order + 1 samples on end, j not k
 
     Check: noise of 3.0, with steps of 0.7 to 1.3 beside a motion of the square of t.
     >>> random = np.random.default_rng(0)
@@ -55,10 +57,10 @@ def variance_at(t: Array, x: Array) -> float:
     >>> round(variance_at(t, t**2 + 3.0 * random.standard_normal(4000)) ** 0.5)
     3
     """
-    count = t.shape[-1] - NOISE_ORDER
+    count = t.shape[-1] - order
     if count <= 0:
         return 0.0
-    of = range(NOISE_ORDER + 1)
+    of = range(order + 1)
     ats = [t[..., k : k + count] / float(np.median(np.diff(t))) for k in of]
     weights = [1.0 / math.prod(ats[k] - ats[j] for j in of if j != k) for k in of]
     difference = sum(weights[k] * x[..., k : k + count] for k in of)
@@ -112,15 +114,15 @@ def at_rest(
     a window sees the motion before or after.
 
     width : samples of a window;  noise : standard deviation in x
-    Check: of a turn and a rest, samples 2, 3, 6 and 7; and of a rest of 10 samples beside a ramp,
-    of which the window has a slope at two of them, all of them.
+    Check: of a turn and a rest, samples 2, 3, 6 and 7; and of a rest of 20 samples beside a ramp,
+    of which the window has a slope at three of them, all of them.
     >>> slope = np.array([9.0, 1.0, -1.0, 1.0, -1.0, -9.0, 0.5, -0.5])
     >>> at_rest(np.zeros(8), slope, np.ones(8), 5, 1.0).nonzero()
     (array([2, 3, 6, 7]),)
-    >>> k = np.arange(15.0)
-    >>> x, slope = np.maximum(k - 9.0, 0.0), np.maximum(k - 7.0, 0.0)
-    >>> int(at_rest(x, slope, np.full(15, 0.01), 5, 0.1).sum())
-    10
+    >>> k = np.arange(30.0)
+    >>> x, slope = np.maximum(k - 19.0, 0.0), np.maximum(k - 16.0, 0.0)
+    >>> int(at_rest(x, slope, np.full(30, 0.01), 11, 0.1).sum())
+    20
     """
     way = np.sign(slope)
     first = np.concatenate([[0], np.flatnonzero(way[1:] != way[:-1]) + 1])
@@ -135,15 +137,18 @@ def at_rest(
             if abs(gone) > SURE * noise * (2.0 / half) ** 0.5:
                 still[a:b] = False
                 continue
-        level, reach = np.mean(x[a:b]), LEAVES * noise
-        before = _stays(np.abs(x[max(a - half, 0) : a][::-1] - level) > reach)
-        after = _stays(np.abs(x[b : b + half] - level) > reach)
+        if half < FEWEST:
+            continue
+        level = np.mean(x[a:b])
+        before = _stays(np.abs(x[max(a - half, 0) : a][::-1] - level), noise)
+        after = _stays(np.abs(x[b : b + half] - level), noise)
         still[a - before : a] = still[b : b + after] = True
     return still
 
 
-def _stays(left: npt.NDArray[np.bool_]) -> int:
-    """Samples before two on end that have left a rest, as one may by noise."""
-    both = left.copy()
-    both[:-1] &= left[1:]
-    return int(np.argmax(np.append(both, True)))
+def _stays(away: Array, noise: float) -> int:
+    """Samples before x has left a rest: far by one sample, or by two on end, as noise hardly is."""
+    left = away > LEAVES * noise
+    left[:-1] &= left[1:]
+    left |= away > 2.0 * LEAVES * noise
+    return int(np.argmax(np.append(left, True)))

@@ -10,6 +10,8 @@ import numpy as np
 
 from erdctl.bench.corners import at_corners
 from erdctl.bench.deflection_noise import (
+    HIGH_ORDER,
+    NOISE_ORDER,
     at_rest,
     digit,
     looked_at,
@@ -125,7 +127,12 @@ def _record(t: Array, x: Array, step: float, even: bool) -> tuple[Array, str]:
         return np.gradient(x, t), "differences of neighbours (fewer than 5 samples in a record)"
     width, degree = _window(x, width, most) if even else (width, 2)
     looked = looked_at(x)
-    square = variance(looked) if even else variance_at(looked_at(t), looked)
+    # What of a motion of few samples a cycle is in differences falls with their order.
+    orders = (NOISE_ORDER, HIGH_ORDER)
+    square = min(
+        variance(looked, order) if even else variance_at(looked_at(t), looked, order)
+        for order in orders
+    )
     noise = square**0.5
     error = noise * slope_errors(x.size, width, degree)
     span = f"{width} samples = {1e3 * (width - 1) * step:.3g} ms"

@@ -60,12 +60,14 @@ def command(
       erdctl validate damper.json other.csv --plot loops.png --plot time:force.png
     """
     from erdctl.bench.rig import look
+    from erdctl.bench.unknown_direction import unknown_direction
     from erdctl.cli.long import UNMODELLED, validate_long
     from erdctl.cli.pictures import draw, wanted, wants
     from erdctl.cli.reading import labelled, read_logs
     from erdctl.cli.rig import fail, show
     from erdctl.core.errors import CheckFailed, InputProblem, UsageProblem
     from erdctl.core.labels import labels_of
+    from erdctl.core.signals import Signals
     from erdctl.report.text import progress, say
     from erdctl.score.nrmse import Normalise, validate
 
@@ -86,7 +88,7 @@ def command(
         if params == "-" and "-" in logs:
             raise UsageProblem("PARAMS and LOG cannot both be stdin")
         parameters = read_parameters(params)
-    long = None
+    long = unknown = None
     if report is None and not asked:  # which take the whole log
         long = validate_long(parameters, logs, Normalise(normalise), options)
     if long is not None:
@@ -110,12 +112,15 @@ def command(
         found = validate(log.recording, modelled, Normalise(normalise))
         assert log.recording.force is not None
         peak = max(float(log.recording.force.max()), -float(log.recording.force.min()))
+        unknown = unknown_direction(Signals.of(log.recording), log.recording.force - modelled)
     show(rig)
+    if unknown is not None:
+        say(unknown.text(found.overall.nrmse))
     if as_json:
         from erdctl.io import documents
         from erdctl.io.validation import to_json
 
-        documents.write(to_json(found, labels, rig.to_json()), "-")
+        documents.write(to_json(found, labels, rig.to_json(), unknown), "-")
     else:
         _show(found, peak)
     if report is not None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import Bench
+from erdctl.bench.unknown_direction import shares
 from erdctl.core.blocks import SETTLE
 from erdctl.core.stretches import DERIVED
 from erdctl.diagnose import thresholds
@@ -153,15 +154,18 @@ def _none_of(found: Diagnosis) -> str:
 
 def _noise(found: Diagnosis) -> str:
     """That what is left is noise, or nearly so beside all that was missing."""
-    left, rms = found.lack_of_fit, f"{found.carried.overall.rms:.3g} N rms"
+    left, rms = found.lack_of_fit, found.carried.overall.rms
+    unsure = shares(found.problem.unsure, (found.learned or found).selection.best.residual ** 2)
+    of_unsure = "" if unsure is None else unsure.beside(rms)
+    told = f"{rms * (1.0 if unsure is None else unsure.others):.3g} N rms"
     noise, misfit = left.noise_rms, left.misfit_rms
     if not left.significant or misfit <= thresholds.MISFIT_OVER_NOISE * noise:
-        return f"what remains, {rms}, is noise as far as these data tell"
+        return f"what remains, {told}, is noise as far as these data tell{of_unsure}"
     share = misfit**2 / max(found.selection.base.score - noise**2, 1e-300)
     return (
-        f"what remains, {rms}, is a noise of {noise:.3g} N and {misfit:.3g} N that motion and duty"
+        f"what remains, {told}, is a noise of {noise:.3g} N and {misfit:.3g} N that motion and duty"
         f" still predict, {100 * share:.2g} % of the square of what was missing: too little beside"
-        " that for a name"
+        f" that for a name{of_unsure}"
     )
 
 
@@ -183,7 +187,7 @@ def _begins(found: Diagnosis) -> str:
     best = found.selection.best
     s, weight = best.problem.block.signals, best.problem.block.weight
     begun = np.repeat(s.t[s.starts[:-1]], np.diff(s.starts))
-    first = (weight == 0.0) & (s.t - begun <= SETTLE)
+    first = (weight == 0.0) & (s.t - begun <= SETTLE) & ~best.problem.unsure
     if not first.any():
         return ""
     there, behind = (

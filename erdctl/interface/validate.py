@@ -8,8 +8,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from erdctl.bench.rig import Rig, look
+from erdctl.bench.unknown_direction import UnknownDirection, unknown_direction
 from erdctl.core.errors import InputProblem
 from erdctl.core.recording import Array
+from erdctl.core.signals import Signals
 from erdctl.interface.arguments import ParametersLike, given_parameters
 from erdctl.interface.display import draw, frame_of, html, option, text
 from erdctl.interface.log import BenchLog, LogLike, Place, log_of
@@ -44,16 +46,25 @@ class Validated:
     rig: Rig
 
     @property
+    def unknown(self) -> UnknownDirection | None:
+        """What lies where the rod rests or turns, if most of the squared error does."""
+        r = self.log.recording
+        assert r.force is not None
+        return unknown_direction(Signals.of(r), r.force - self.modelled)
+
+    @property
     def nrmse(self) -> float:
         """NRMSE over all samples [1]."""
         return self.scores.overall.nrmse
 
     def to_dict(self) -> dict[str, Any]:
         """The document of `erdctl validate --json`, "schema": "erdctl.validation/1"."""
-        found: dict[str, Any] = documents.plain(
-            to_json(self.scores, self.log.recording.labels, self.rig.to_json())
-        )
+        found: dict[str, Any] = documents.plain(self._document())
         return found
+
+    def _document(self) -> dict[str, Any]:
+        labels, rig = self.log.recording.labels, self.rig.to_json()
+        return to_json(self.scores, labels, rig, self.unknown)
 
     def table(self) -> pd.DataFrame:
         """One row a group of samples: by (all, duty, direction, record), group, samples, rms [N]
@@ -90,9 +101,7 @@ class Validated:
 
     def write(self, path: Place) -> None:
         """Write the document as JSON, as `erdctl validate --json` prints it."""
-        documents.write(
-            to_json(self.scores, self.log.recording.labels, self.rig.to_json()), os.fspath(path)
-        )
+        documents.write(self._document(), os.fspath(path))
 
     def __repr__(self) -> str:
         rows = [f"{100 * d:3g} %  {s.nrmse:.4f}" for d, s in self.scores.by_duty.items()]

@@ -266,14 +266,27 @@ class RecordScore(ScoreDocument):
     record: str
 
 
+class DirectionUnknown(TypedDict):
+    """Shares of samples and squared error where xdot is noise; the NRMSE of all others."""
+
+    samples: float
+    squared_error: float
+    nrmse_of_others: float
+
+
 class ValidationFile(ScoreDocument):
-    """Scores of a model on logs; normalise : the denominator of the NRMSE."""
+    """Scores of a model on logs.
+
+    normalise : the denominator of the NRMSE
+    direction_unknown : where the rod rests or turns, if most of the squared error lies there
+    """
 
     schema: Literal["erdctl.validation/1"]
     normalise: str
     nrmse_by_duty: list[DutyScore]
     nrmse_by_direction: list[DirectionScore]
     nrmse_by_record: list[RecordScore]
+    direction_unknown: NotRequired[DirectionUnknown]
     rig: NotRequired[list[RigFaultDocument]]
     provenance: NotRequired[LabelsDocument]
 
