@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Generator
 from functools import cache
+from typing import Any
 
 import hypothesis
 import pytest
@@ -29,31 +30,38 @@ typer.testing._get_command = cache(typer.testing._get_command)  # type: ignore[a
 # Tracing costs a test half as much again, up to as much; these reach next to nothing that others do
 # not (see choose_untraced.py). Single tests of that kind have the mark `untraced`.
 UNTRACED = frozenset((ROOT / "tests" / "untraced.txt").read_text().split())
-TRACED: set[str] = set()  # tests of which one set of parameters ran in this process
+TRACED: set[tuple[str, str]] = set()  # tests of which one set of parameters ran in this process
 
 
 @pytest.hookimpl(wrapper=True)
-def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
+def pytest_runtest_protocol(
+    item: pytest.Item, nextitem: pytest.Item | None
+) -> Generator[None, object, object]:
     """From the set-up on, where fixtures diagnose; pytest-cov's `no_cover` is of the call alone.
 
     Of a test with several sets of parameters the first is traced: tracing costs two thirds more.
     """
     plugin = item.config.pluginmanager.get_plugin("_cov")
     control = plugin.cov_controller if plugin is not None else None
-    test = item.nodeid.partition("[")[0]
-    again = test in TRACED
-    TRACED.add(test)
-    if control is None or not (
-        again
-        or item.nodeid.partition("::")[0].removeprefix("tests/") in UNTRACED
-        or item.get_closest_marker("untraced")
-    ):
-        return (yield)
-    control.pause()
+    file, _, test = item.nodeid.partition("[")[0].partition("::")
+    wanted = (
+        (file, test) not in TRACED
+        and file.removeprefix("tests/") not in UNTRACED
+        and not item.get_closest_marker("untraced")
+    )
+    TRACED.add((file, test))
+    _trace(control, wanted)
     try:
         return (yield)
     finally:
-        control.resume()
+        if nextitem is None:  # it ends as it began
+            _trace(control, True)
+
+
+def _trace(control: Any, wanted: bool) -> None:
+    """Only where it changes: to begin anew takes 50 ms, which most tests do not."""
+    if control is not None and control.started != wanted:
+        (control.resume if wanted else control.pause)()
 
 
 def pytest_configure(config: pytest.Config) -> None:

@@ -88,6 +88,7 @@ def make_log(path: Path, samples: int, hidden: Hidden = seal_friction) -> Path:
     return path
 
 
+@pytest.mark.long
 def test_whole_catalogue(tmp_path: Path) -> None:
     """One test for all figures: they are ratios of the same few runs."""
     out = str(tmp_path / "out.json")

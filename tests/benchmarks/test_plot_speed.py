@@ -48,8 +48,8 @@ def report() -> Iterator[None]:
     "options",
     [
         (),
-        ("--kind", "motion"),
-        ("--kind", "average"),
+        pytest.param(("--kind", "motion"), marks=pytest.mark.long),
+        pytest.param(("--kind", "average"), marks=pytest.mark.long),
         # These simulate ten million rows as well.
         ("--kind", "time", "--params", PARAMS),
         ("--params", PARAMS),

@@ -102,6 +102,7 @@ def three_workers(tmp_path: Path) -> Iterator[DaskWorkers]:
     found.end()
 
 
+@pytest.mark.long
 def test_a_cluster_that_loses_a_worker(
     tmp_path: Path, three_workers: DaskWorkers, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -51,7 +51,9 @@ def with_effect(found: Diagnosis, name: str, times: float) -> Recording:
     return replace(r, force=r.force + added)
 
 
-@pytest.mark.parametrize("name", FEW)
+@pytest.mark.parametrize(
+    "name", [*FEW[:2], *(pytest.param(name, marks=pytest.mark.long) for name in FEW[2:])]
+)
 def test_that_size_is_named_and_a_tenth_is_not(healthy: Diagnosis, name: str) -> None:
     named = diagnose(with_effect(healthy, name, 1.0), [get(name)], most=1, **SHORT)
     assert [f.effect.name for f in named.findings] == [name]

@@ -42,6 +42,7 @@ def test_the_pair_is_named(tmp_path: Path) -> None:
     assert found.verdict is Verdict.EXPLAINED
 
 
+@pytest.mark.long
 def test_one_effect_has_the_place_of_two_that_say_no_more(tmp_path: Path) -> None:
     """A soft mount was `explained` as a late force and a stretch before yield: on the samples of
     the search these two are the better ones by chance, and worse on all."""

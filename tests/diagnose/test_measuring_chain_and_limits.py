@@ -69,8 +69,14 @@ def test_noise_of_the_velocity_is_no_physics() -> None:
     assert set(named(found)) <= {"velocity_noise"}
 
 
-@pytest.mark.parametrize("low", [False, True])
-@pytest.mark.parametrize("dashpot", [False, True])
+@pytest.mark.parametrize(
+    ("low", "dashpot"),
+    [
+        (False, False),
+        (True, True),
+        *(pytest.param(*of, marks=pytest.mark.long) for of in ((False, True), (True, False))),
+    ],
+)
 def test_a_damped_stop_at_one_end(low: bool, dashpot: bool) -> None:
     clean = log()
     assert clean.force is not None

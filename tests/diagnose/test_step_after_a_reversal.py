@@ -51,6 +51,7 @@ def of_motion(motion: str) -> Recording:
     return log.select([i for i, name in enumerate(log.names) if name.startswith(motion)])
 
 
+@pytest.mark.long
 def test_it_is_found_on_one_motion_and_holds_on_the_other() -> None:
     """An expert's models leave 0.041 of range there, and `yield_hysteresis`, which stood in for it
     under the one motion that was fitted, 0.060."""

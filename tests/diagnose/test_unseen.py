@@ -93,6 +93,7 @@ def test_a_record_whose_duties_no_other_has_is_not_kept_aside() -> None:
     assert 12 in kept_aside(concatenate([log, held, more]), [FRICTION])
 
 
+@pytest.mark.long
 def test_a_yield_stress_that_levels_off_between_the_levels_of_others_is_named(
     tmp_path: Path,
 ) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pyarrow.parquet as pq
+import pytest
 from seeded import KNOWN
 
 from erdctl.diagnose.diagnosis import diagnose
@@ -13,6 +14,7 @@ from erdctl.io.logs import read_logs
 from erdctl.plant import draw, log
 
 
+@pytest.mark.long
 def test_what_does_not_hold_takes_no_other_with_it(tmp_path: Path) -> None:
     """A threshold of the field between two levels of the log, in a record kept aside a level in its
     steepest part. A dead time of five times the noise lost its name with it."""

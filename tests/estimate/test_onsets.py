@@ -113,7 +113,11 @@ def test_a_fit_finds_it_from_anywhere(effect: Effect, t_0: float, t_r: float) ->
 
 @pytest.mark.parametrize(
     ("rho", "used", "loud"),
-    [(0.0, 1.0, 1.0), (0.95, 1.0, 1.0), (0.0, 0.25, 1.0), (0.0, 1.0, 8.0)],
+    [
+        (0.0, 1.0, 1.0),
+        (0.95, 1.0, 1.0),
+        *(pytest.param(*of, marks=pytest.mark.long) for of in ((0.0, 0.25, 1.0), (0.0, 1.0, 8.0))),
+    ],
 )
 def test_intervals_hold_the_truth(rho: float, used: float, loud: float) -> None:
     """Of steps and ramps of all kinds; with 95 % more than six of 48 fail once in 100 times.

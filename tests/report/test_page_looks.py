@@ -184,7 +184,14 @@ def test_a_printed_table_has_its_head_on_every_page(browser: Any, tmp_path: Path
         assert all(word in head for word in ("record", "samples", "RMSE [N]", "NRMSE")), head
 
 
-@pytest.mark.parametrize("name", ["worn", "rubbing", "campaign", "mimic", "proof"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "worn",
+        "proof",
+        *(pytest.param(n, marks=pytest.mark.long) for n in ("rubbing", "campaign", "mimic")),
+    ],
+)
 def test_no_table_is_parted_from_its_head(
     browser: Any, made: Made, name: str, tmp_path: Path
 ) -> None:

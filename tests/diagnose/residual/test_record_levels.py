@@ -96,7 +96,8 @@ def test_it_is_said_unless_it_is_carried() -> None:
     assert carried.verdict is Verdict.ADEQUATE
 
 
-@pytest.mark.parametrize("seed", [1490107, pytest.param(1490381, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("seed", [1490107, 1490381])
 def test_a_law_of_the_past_stands_where_few_records_tell_it(seed: int) -> None:
     """The largest stroke so far softens the yield force, by up to 20 and 43 %, and few records come
     before it: `adequate` at three times the noise, and damping along the stroke in the other."""
