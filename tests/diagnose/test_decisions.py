@@ -134,6 +134,7 @@ def test_of_one_motion_it_is_said_that_nothing_tests_another() -> None:
     assert said not in remaining_text(nothing)
 
 
+@pytest.mark.long
 def test_one_motion_does_not_tell_damping_by_place_beside_another_law() -> None:
     levels = (0.0, 0.15, 0.3, 0.45)
     r = concatenate([sine(0.8, 0.015, d, f"r{i}") for i, d in enumerate(levels)])

@@ -32,6 +32,7 @@ def smeared() -> Recording:
     return replace(r, force=force)
 
 
+@pytest.mark.long
 def test_the_samples_of_turns_alone_name_nothing(smeared: Recording) -> None:
     found = diagnose(smeared, [get(n) for n in NAMES], limits=False, learning=False)
     assert found.findings == ()
