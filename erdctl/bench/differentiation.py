@@ -20,8 +20,7 @@ from erdctl.bench.deflection_noise import (
     variance_at,
 )
 from erdctl.core.errors import InputProblem
-from erdctl.core.recording import Array, Index
-from erdctl.core.stretches import DERIVED
+from erdctl.core.recording import DERIVED, Array, Index
 
 WINDOW = 0.020  # s: passes what a damper test moves at (below 20 Hz), averages sensor noise
 WIDEST = 8.0  # times that, where the noise of x asks for it

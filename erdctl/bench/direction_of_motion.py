@@ -37,7 +37,7 @@ def uncertain(signals: Signals) -> npt.NDArray[np.bool_]:
     A differentiated, noisy deflection has the wrong sign at some samples next to reversals, and a
     sign law turns each into an error of twice the yield force. These samples say nothing about the
     physics; the noise of xdot is what it holds above the frequencies of its motion. Where a
-    triangle turns, no speed is small, and a filter may put the turn a sample from where it is.
+    triangle turns, no speed is small, and what is derived may have the turn a sample off.
     """
     out = np.zeros(len(signals), dtype=np.bool_)
     for a, b in zip(signals.starts[:-1].tolist(), signals.starts[1:].tolist(), strict=True):
@@ -45,7 +45,8 @@ def uncertain(signals: Signals) -> npt.NDArray[np.bool_]:
         if b - a < LEAST_SPECTRUM:
             continue
         out[a:b] = np.abs(xdot) < DIRECTION_SIGMAS * velocity_noise(xdot)
-        out[a:b] |= _beside_corners(signals.x[a:b], xdot, signals.step[a:b])
+        if signals.derived:
+            out[a:b] |= _beside_corners(signals.x[a:b], xdot, signals.step[a:b])
     return out
 
 

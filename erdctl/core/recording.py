@@ -17,6 +17,7 @@ Index = npt.NDArray[np.intp]
 COMPRESSION, RELEASE = 0, 1
 DIRECTIONS = ("compression", "release")
 CHANNELS = ("t", "x", "xdot", "duty", "force", "temperature")
+DERIVED = "derived from x"  # how the note of such an xdot begins
 
 
 @dataclass(frozen=True)

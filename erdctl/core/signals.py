@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from erdctl.core.acceleration import acceleration
-from erdctl.core.recording import Array, Index, Recording
+from erdctl.core.recording import DERIVED, Array, Index, Recording
 
 # Steps that differ by less than this part of themselves are one sampling rate with rounded times.
 JITTER = 1e-6
@@ -53,6 +53,7 @@ class Signals:
     logged_step : step of the log between whose samples these were made up [s], 0 where none was
     sharp : whether a sample is engaged or not, and never in part
     first : signals of the same motion under another control, which have what is derived from it
+    derived : whether xdot is that of x, and of no sensor
     """
 
     t: Array
@@ -68,6 +69,7 @@ class Signals:
     logged_step: float = 0.0
     sharp: bool = False
     first: Signals | None = None
+    derived: bool = False
 
     @classmethod
     def of(cls, recording: Recording) -> Signals:
@@ -75,7 +77,7 @@ class Signals:
         r = recording
         return cls(
             t=r.t, x=r.x, xdot=r.xdot, duty=r.duty, step=r.step, starts=r.starts,
-            temperature=r.temperature,
+            temperature=r.temperature, derived=r.xdot_note.startswith(DERIVED),
         )  # fmt: skip
 
     def __len__(self) -> int:

@@ -19,7 +19,6 @@ from erdctl.core.recording import CHANNELS, Array, Index, Recording, concatenate
 
 LONG = 1 << 20  # samples of a stretch, where records allow it
 MEASURED = "measured"  # an xdot that was derived takes all of a record
-DERIVED = "derived from x"  # how its note begins
 
 
 class Extent(NamedTuple):

@@ -12,7 +12,6 @@ from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import Bench
 from erdctl.bench.unknown_direction import shares
 from erdctl.core.blocks import SETTLE
-from erdctl.core.stretches import DERIVED
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.conditions import one_condition, one_motion, slow_far_out
 from erdctl.diagnose.detectable import Detectable
@@ -136,7 +135,7 @@ def _left(found: Diagnosis) -> str:
 
 def _derived(found: Diagnosis) -> str:
     """That a velocity that is none of a sensor may be what is missing."""
-    if not found.problem.recording.xdot_note.startswith(DERIVED):
+    if not found.problem.block.signals.derived:
         return ""
     return (
         "; xdot was derived from x, which rounds what turns faster than its window, and a part of"

@@ -114,7 +114,7 @@ def test_a_direction_of_a_derived_triangle_is_right_or_uncertain(noise: float) -
         x, true = triangle(random)
         noisy = x + noise * random.standard_normal(N)
         xdot, _ = derive_xdot(T, noisy, STARTS)
-        signals = Signals(T, noisy, xdot, np.zeros(N), np.full(N, 1e-3), STARTS)
+        signals = Signals(T, noisy, xdot, np.zeros(N), np.full(N, 1e-3), STARTS, derived=True)
         unsure = uncertain(signals)
         inner = slice(20, -20)  # a turn in the last half of a window is not seen
         other = (np.sign(xdot) != np.sign(true))[inner]

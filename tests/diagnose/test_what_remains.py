@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from rig import campaign, noisy
 
+from erdctl.core.signals import Signals
 from erdctl.diagnose.diagnosis import Verdict, diagnose
 from erdctl.diagnose.wording import remaining_text
 from erdctl.effects import get
@@ -43,5 +44,6 @@ def test_that_xdot_was_derived_is_said_of_what_is_not_explained() -> None:
     said = "a log with xdot would tell"
     assert said not in remaining_text(found)
     log = replace(found.problem.recording, xdot_note="derived from x by a filter")
-    of_derived = replace(found, problem=replace(found.problem, recording=log))
+    block = found.problem.block._replace(signals=Signals.of(log))
+    of_derived = replace(found, problem=replace(found.problem, recording=log, block=block))
     assert said in remaining_text(of_derived)
