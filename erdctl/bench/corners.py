@@ -5,19 +5,17 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from erdctl.bench.deflection_noise import FEWEST, OF_SIGMA, SURE
 from erdctl.core.recording import Array, Index
 
 LENGTHS = (4, 2, 1)  # of the lines beside a corner, in half windows; the longest that are straight
-FEWEST = 5  # samples of a line
 BETTER = 25.0  # variances of the noise, by which two lines leave less than a quartic polynomial
 STRAIGHT = 2.5  # variances a sample, which they leave themselves at most
 AT_THE_CORNER = 2.0  # standard deviations of what noise leaves beside the corner itself
-SURE = 4.0  # standard errors of a slope that is none
 STEADY = 1.6  # times the change of a slope over a length, over twice as much: 2 if it is steady
 BENT = 4.0  # variances a sample, that a window leaves beside its polynomial where it is too wide
 NARROWEST = 5  # samples
 FINEST = 1e-6  # of the stroke: what is taken for noise of a deflection without any
-OF_A_SQUARE = 0.4549  # of its mean: the median of a normal deviation's square
 
 
 def at_corners(
@@ -46,7 +44,7 @@ def at_corners(
     if m < FEWEST or len(x) < 4 * width:
         return slope, near
     # Noise behind a filter leaves more beside a polynomial than its differences tell.
-    left = float(np.median((x - smooth) ** 2)) / OF_A_SQUARE
+    left = (float(np.median(np.abs(x - smooth))) / OF_SIGMA) ** 2
     square = max(square, left, (FINEST * float(np.ptp(x))) ** 2)
     out = _narrowed(x, slope, smooth, width, square)
     changes = _changes(slope, m, square)

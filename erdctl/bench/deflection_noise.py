@@ -17,7 +17,7 @@ ROUNDING = 1e-6  # of the stroke, below which steps of x are no digits of a reco
 OF_A_DIGIT = 0.05  # as near as steps of x are to whole numbers of them
 SURE = 4.0  # standard errors of a slope that is none
 LEAVES = 2.5  # standard deviations of the noise, that x is off a rest once it is left
-FEWEST = 5  # samples of half a window, that sees a motion so much too early
+FEWEST = 5  # samples of half a window, that sees a motion so much too early; and of a line
 
 
 def looked_at(x: Array) -> Array:

@@ -154,7 +154,8 @@ def _none_of(found: Diagnosis) -> str:
 def _noise(found: Diagnosis) -> str:
     """That what is left is noise, or nearly so beside all that was missing."""
     left, rms = found.lack_of_fit, found.carried.overall.rms
-    unsure = shares(found.problem.unsure, (found.learned or found).selection.best.residual ** 2)
+    best = (found.learned or found).selection.best
+    unsure = shares(best.problem.unsure, best.residual**2)
     of_unsure = "" if unsure is None else unsure.beside(rms)
     told = f"{rms * (1.0 if unsure is None else unsure.others):.3g} N rms"
     noise, misfit = left.noise_rms, left.misfit_rms
