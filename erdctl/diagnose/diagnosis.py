@@ -8,8 +8,6 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import partial
 
-import numpy as np
-
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import untestable
 from erdctl.bench.rig import Rig, look
@@ -22,17 +20,19 @@ from erdctl.diagnose.conditions import cannot_tell, cannot_tell_several, most_to
 from erdctl.diagnose.detectable import Detectable, detectable
 from erdctl.diagnose.executor import Executor, executor
 from erdctl.diagnose.fault_of_given import FaultOfGiven, fault_of_given
-from erdctl.diagnose.findings import Finding, earned, findings, part_taken
+from erdctl.diagnose.findings import Finding, earned, findings, matters, part_taken
 from erdctl.diagnose.fit_errors import fit_errors, may_be_absent
 from erdctl.diagnose.forward_step import key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.learning.stage import Learned, learned
 from erdctl.diagnose.problem import Problem, check_enough, prepare, with_given
 from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying
+from erdctl.diagnose.residual.lack_of_fit import LackOfFit
 from erdctl.diagnose.residual.localisation import Region, record_region
 from erdctl.diagnose.residual.places import places
-from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_of
+from erdctl.diagnose.residual.predictability import lack_of_fit_of
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
+from erdctl.diagnose.residual.unlogged import Unlogged, regions, unlogged, without
 from erdctl.diagnose.search import Selection, named_again, on_all, refit, search
 from erdctl.diagnose.sets_in_once import SetsInOnce, sets_in_once
 from erdctl.diagnose.slight_lag import (
@@ -81,8 +81,9 @@ class Diagnosis:
     tried : how many effects were
     learned : what the data say of a rest that no effect explains; `fit`, `corrected` and all that
         is said of the best model are then of the one with these laws
-    once : a fault that sets in once; what it does to the data, no law is learned from
+    once : a fault that sets in once, from which no law is learned
     as_fault : of the damper that has the given parameters, if one does nearly what a new fit does
+    apart : strokes that motion and duty do not tell from the others, of which all else is
     """
 
     verdict: Verdict
@@ -112,6 +113,7 @@ class Diagnosis:
     tried: int
     once: SetsInOnce | None = None
     as_fault: FaultOfGiven | None = None
+    apart: tuple[Unlogged, ...] = ()
 
 
 def diagnose(
@@ -129,6 +131,7 @@ def diagnose(
     jobs: int = 1,
     cluster: Cluster | None = None,
     progress: Progress = lambda stage, what: None,
+    apart: tuple[Unlogged, ...] = (),
 ) -> Diagnosis:
     """Diagnose a recording with a measured force against a catalogue of effects.
 
@@ -140,9 +143,15 @@ def diagnose(
         that, but for those that stand in for a law
     once : look for a fault that sets in once in all of the log
     jobs, cluster : processes here, or a cluster, that try hypotheses; the results are the same
+    apart : strokes to leave out, as a first diagnosis has found them
     """
+    again = partial(
+        diagnose, recording, candidates, most=most, seed=seed, given=given, free=free,
+        accepted=accepted, limits=limits, learning=learning, once=once, jobs=jobs,
+        cluster=cluster, progress=progress,
+    )  # fmt: skip
     rig = look(recording).accept(accepted)
-    recording = rig.usable()
+    recording = without(rig.usable(), apart)
     problem = prepare(recording, free)
     check_enough(problem)
     survey = Survey.of(recording)
@@ -191,7 +200,7 @@ def diagnose(
         fault: SetsInOnce | None = None
         if once and not free:
             fault = sets_in_once(selection.best, testable, lack_of_fit.misfit_rms)
-        if selection.named and _matters(problem, selection, lack_of_fit):
+        if selection.named and matters(problem, selection, lack_of_fit):
             part = part_taken(selection, lack_of_fit, fault)
             if not earned(part):
                 withdrawn, found, taken = selection.named, (), part
@@ -200,9 +209,10 @@ def diagnose(
                 unseen = on_unseen(unfitted, base, base)
                 lack_of_fit = lack_of_fit_of(selection.best, seed)
                 fit, record_effects = fit_errors(problem, selection.best, progress, jobs)
-        left = _matters(problem, selection, lack_of_fit)
+        if not (apart or rig.blocking) and (told := unlogged(selection.best, stays=not fault)):
+            return again(apart=told)
+        left, more = matters(problem, selection, lack_of_fit), None
         untold = cannot_tell(recording, selection.named)
-        more: Learned | None = None
         if learning and left and not (rig.blocking or untold or fault):
             start = searched.base, _on_thin(thin, searched.best, selection.best)
             more = learned(
@@ -214,7 +224,7 @@ def diagnose(
         untold = "a channel that stops at a limit"
     named = selection.best
     noise = lack_of_fit.noise_rms
-    if left or rig.blocking or untold:
+    if left or rig.blocking or untold or apart:
         verdict = Verdict.UNEXPLAINED
     else:
         verdict = Verdict.EXPLAINED if selection.named else Verdict.ADEQUATE
@@ -226,14 +236,15 @@ def diagnose(
         alone = record_region(named.problem, square)
         mismatch = places(named.problem, square, acted, sure=not left)
         mismatch += [alone] if alone else []
+    mismatch = [*regions(apart, named, lack_of_fit.misfit_rms), *mismatch]
     base, best = selection.base, named
     similar = resemblance(named.problem, lack_of_fit.predicted) if left else None
     if more is not None:
         best, fit, record_effects = more.selection.best, more.fit, more.record_effects
         unseen, lack_of_fit, found = more.unseen, more.lack_of_fit, more.findings
         noise = lack_of_fit.noise_rms  # misfit that the law takes is none
-        again = {f.effect.name for f in found}  # what a law leaves of the misfit, they take
-        withdrawn = tuple(e for e in withdrawn if e.name not in again)
+        taking = {f.effect.name for f in found}  # what a law leaves of the misfit, they take
+        withdrawn = tuple(e for e in withdrawn if e.name not in taking)
         taken = taken if withdrawn else None
     if aside and withdrawn and found:
         unseen = (replace(unseen[0], decided=True), *unseen[1:])
@@ -274,6 +285,7 @@ def diagnose(
         tried=len(testable),
         once=None if untold else fault,
         as_fault=as_fault,
+        apart=apart,
     )
 
 
@@ -285,17 +297,6 @@ def _idle(effect: Effect, fit: Fit, workers: Executor) -> bool:
     """
     own = {effect.key(q.symbol): fit.values[effect.key(q.symbol)] for q in effect.quantities}
     return may_be_absent(effect, fit) or not workers.possible(own)
-
-
-def _matters(problem: Problem, selection: Selection, lack_of_fit: LackOfFit) -> bool:
-    """Whether a rest is more than noise, rounding, and the last per cent of what was explained."""
-    if not lack_of_fit.significant:
-        return False
-    misfit, noise = lack_of_fit.misfit_rms, lack_of_fit.noise_rms
-    missed = max(selection.base.score - noise**2, 0.0)
-    rounding = thresholds.ROUNDING * float(np.ptp(problem.block.force))
-    least = max(thresholds.MISFIT_OVER_NOISE * noise, rounding)
-    return misfit > least and (misfit > noise or misfit**2 > thresholds.MISFIT_PART * missed)
 
 
 def _undetected(

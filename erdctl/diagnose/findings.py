@@ -12,9 +12,10 @@ from erdctl.diagnose.comparison import Comparison, compare
 from erdctl.diagnose.discriminating_drive import DiscriminatingDrive, discriminating_drive
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem
+from erdctl.diagnose.residual.lack_of_fit import LackOfFit
 from erdctl.diagnose.residual.localisation import Region
 from erdctl.diagnose.residual.places import acting
-from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_of
+from erdctl.diagnose.residual.predictability import lack_of_fit_of
 from erdctl.diagnose.resolved import away_from_turns
 from erdctl.diagnose.search import Selection
 from erdctl.diagnose.sets_in_once import SetsInOnce
@@ -128,6 +129,17 @@ def _of_records(hypothesis: Hypothesis, records: Sequence[int]) -> Hypothesis:
     """The same, fitted to some of the records."""
     problem, start = hypothesis.problem.of(sorted(records)), hypothesis.values
     return fit_hypothesis(problem, hypothesis.effects, [start], thresholds.STEPS_AGAIN)
+
+
+def matters(problem: Problem, selection: Selection, lack_of_fit: LackOfFit) -> bool:
+    """Whether a rest is more than noise, rounding, and the last per cent of what was explained."""
+    if not lack_of_fit.significant:
+        return False
+    misfit, noise = lack_of_fit.misfit_rms, lack_of_fit.noise_rms
+    missed = max(selection.base.score - noise**2, 0.0)
+    rounding = thresholds.ROUNDING * float(np.ptp(problem.block.force))
+    least = max(thresholds.MISFIT_OVER_NOISE * noise, rounding)
+    return misfit > least and (misfit > noise or misfit**2 > thresholds.MISFIT_PART * missed)
 
 
 def earned(part: float) -> bool:

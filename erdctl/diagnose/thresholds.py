@@ -697,6 +697,39 @@ RESEMBLANCE, RESEMBLANCE_FADING = 0.5, 0.05
 DRIVE_SECONDS, DRIVE_RATE = 4.0, 500.0
 DRIVE_FREQUENCIES, DRIVE_STROKES, DRIVE_SETTLES = (0.2, 0.5, 1.0, 2.0, 5.0, 10.0), (1.0, 0.2), 0.25
 
+# --- strokes whose force motion and control do not tell -------------------------------------------
+
+# Parts of the way of a stroke, each with its own part of the force.
+# Decides: whether a force that is more at first and less at last is seen.
+# Origin: none.
+UNLOGGED_PARTS = 3
+
+# Strokes in a row, and as many others; all strokes of a group that are not alike; samples of a part
+# of one; part of the usual way that a stroke goes.
+# Decides: what is compared.
+# Origin: two of each tell a scatter; of what is not alike, the motion must be seen to overlap.
+UNLOGGED_FEWEST, UNLOGGED_UNLIKE, UNLOGGED_SAMPLES, UNLOGGED_WAY = 2, 10, 4, 0.5
+
+# Parts of the record's range by which the motions of like strokes differ at most.
+# Decides: which strokes are alike.
+# Origin: what a bench holds; a duty may differ by ONE_DUTY.
+UNLOGGED_ALIKE = 0.05
+
+# Part of the force that strokes have of their own; chance of that in any strokes of the log; gap
+# between them and the others over the largest among either.
+# Decides: whether something acts that is not logged.
+# Origin: none named in 380 nulls of 19 kinds (seeds 1770000 on), nor in 80 logs of noise with a
+# memory of 0.5 to 10 s, while a zero is told from a force that turns over with the motion.
+UNLOGGED_PART, UNLOGGED_CHANCE, UNLOGGED_GAP = 0.05, 1e-4, 2.0
+
+# Part of it that strokes the other way have of the same sign in newtons, from which it is a zero.
+# Origin: half way between a force of one direction alone, 0, and a zero, 1, or a little less.
+UNLOGGED_ZERO = 0.4
+
+# Of them that the words tell; all are in the document.
+# Origin: what a reader takes in.
+UNLOGGED_SAID = 4
+
 # --- what could have been missed ------------------------------------------------------------------
 
 # Shapes of an effect of which the middle one is reported, and sizes that are tried along each.

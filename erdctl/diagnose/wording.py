@@ -19,9 +19,10 @@ from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.fault_wording import sets_in_once_text
 from erdctl.diagnose.findings import Finding
 from erdctl.diagnose.learning.words import law_words, worth_text
+from erdctl.diagnose.residual.lack_of_fit import LackOfFit
 from erdctl.diagnose.residual.places import MISFIT, WITHOUT_IT
-from erdctl.diagnose.residual.predictability import LackOfFit
 from erdctl.diagnose.residual.record_levels import taken_by_levels
+from erdctl.diagnose.unlogged_wording import unlogged_text
 from erdctl.diagnose.unseen import Left, Unseen
 
 # Of what the shares of lines and jumps are, which are looked for behind the regressions.
@@ -63,7 +64,8 @@ def unseen_text(u: Unseen) -> str:
 
 def remaining_text(found: Diagnosis) -> str:
     """What is left, in words, and what of the motion nothing has tested."""
-    return _left(found) + _untested_motion(found)
+    names = found.problem.recording.names
+    return _left(found) + unlogged_text(found.apart, names) + _untested_motion(found)
 
 
 def _left(found: Diagnosis) -> str:
@@ -82,7 +84,8 @@ def _left(found: Diagnosis) -> str:
             f" them apart, record --drive {bench.sweep}, --drive {bench.levels} and --drive"
             f" {bench.steps}{_hum(left)}"
         )
-    if cut or found.verdict is not Verdict.UNEXPLAINED:
+    noise_alone = found.apart and not left.significant and found.learned is None
+    if cut or noise_alone or found.verdict is not Verdict.UNEXPLAINED:
         rest = _noise(found) + _hum(left) + _of_records(found) + _begins(found)
         rest += _withdrawn(found)
         if cut:
@@ -130,7 +133,7 @@ def _left(found: Diagnosis) -> str:
         words += f"; it is most like {resembles.form} (correlation {resembles.correlation:+.2f})"
     words += sets_in_once_text(found) or _of_records(found)
     words += _hum(left) + _withdrawn(found) + _derived(found)
-    return f"{words}; {found.mismatch[0].text}" if found.mismatch else words
+    return words if found.apart or not found.mismatch else f"{words}; {found.mismatch[0].text}"
 
 
 def _derived(found: Diagnosis) -> str:

@@ -18,6 +18,7 @@ from erdctl.diagnose.wording import finding_text, record_values, remaining_text,
 from erdctl.io.faults import as_fault, sets_in_once
 from erdctl.io.parameters import to_document
 from erdctl.io.undetected import limits, undetected
+from erdctl.io.unlogged import unlogged
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
 from erdctl.score.nrmse import Validation
@@ -68,6 +69,7 @@ def to_json(found: Diagnosis, file: Mapping[str, str] | None = None) -> dict[str
             "rms": found.carried.overall.rms,
             "over_noise": found.carried.overall.rms / found.noise_rms if found.noise_rms else 1.0,
             "misfit_rms": found.lack_of_fit.misfit_rms,
+            **unlogged(found),
             "text": remaining_text(found),
         },
         **_records(found),

@@ -19,6 +19,7 @@ from erdctl.io.parameters import ParameterFile
 from erdctl.io.project import shape as project
 from erdctl.io.rig import RigFaultDocument
 from erdctl.io.undetected import Limit, UndetectedDocument
+from erdctl.io.unlogged import UnloggedStrokes
 
 
 class Measured(TypedDict):
@@ -174,6 +175,7 @@ class Remaining(TypedDict):
     rms: float
     over_noise: float
     misfit_rms: float
+    unlogged: NotRequired[list[UnloggedStrokes]]
     text: str
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -33,6 +34,10 @@ WHITE = 1.2  # see `white_noise`
 BURST_PART = 0.2  # of a record, at most
 BURST_CLIPPED = 0.05  # of a record at a limit, from which it is not looked at
 BURST_WINDOWS = 3  # on end; a knock of the damper itself dies away before
+FEWEST = 8  # windows of a record, and each way
+ONE_WAY = 0.9  # of a window, from which it belongs to strokes of that direction
+MOSTLY_CHATTER = 90.0  # per cent of the windows of that direction
+NOISIER = 2.0  # times the noise of the other way, usually, from which a damper chatters one way
 BURSTS_RECURRING = 2  # at one place of the motion, from which they are its own
 PER_STROKE = 0.4  # bursts for each reversal, from which they belong to the motion
 
@@ -120,22 +125,64 @@ def _spikes(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault]) -
     return out
 
 
-def bursts(found: Sequence[Piece], clipped: Sequence[RigFault] = ()) -> list[RigFault]:
-    """Stretches in which the force is several times noisier than its record, now and then."""
-    known = marked(found[0].recording, clipped)
-    out = []
-    for p in found:
-        count = len(p) // WINDOW
-        # At a limit there is no noise that others could be held against.
-        if count < 8 or known[p.first : p.end].mean() > BURST_CLIPPED:
-            continue
+class _Noise(NamedTuple):
+    """Windows (k,) of a piece: medians of the third and second differences of its force [N], and
+    the part of each in which the rod goes up [1].
+    """
+
+    of: Piece
+    third: Array
+    second: Array
+    up: Array
+
+    @classmethod
+    def along(cls, p: Piece) -> _Noise:
+        """Those of a piece."""
+        cut = (len(p) // WINDOW - 1) * WINDOW
         d2 = np.diff(p.force, 2)
-        d3 = np.abs(np.diff(d2))
-        cut = (count - 1) * WINDOW
-        third = medians(d3[:cut].reshape(-1, WINDOW))
-        second = medians(np.abs(d2[:cut]).reshape(-1, WINDOW))
+        third, second = (
+            medians(np.abs(d[:cut]).reshape(-1, WINDOW)) for d in (np.diff(d2), d2)
+        )  # fmt: skip
+        return cls(p, third, second, (p.xdot[:cut] > 0.0).reshape(-1, WINDOW).mean(axis=1))
+
+
+def _chatter(found: Sequence[_Noise]) -> tuple[bool, float]:
+    """Whether a damper chatters as it slides up, or down, and how loud mostly, over the noise of
+    its record; 1 where neither way is noisier, as what a rig picks up knows nothing of that.
+    """
+    own = [(w.up, w.third / median(w.third)) for w in found if median(w.third) > 0.0]
+    if not own:
+        return True, 1.0
+    up, third = (np.concatenate(values) for values in zip(*own, strict=True))
+    rising, falling = third[up > ONE_WAY], third[up < 1.0 - ONE_WAY]
+    if min(len(rising), len(falling)) < FEWEST:
+        return True, 1.0
+    usual = median(rising), median(falling)
+    if max(usual) <= NOISIER * min(usual):
+        return True, 1.0
+    is_up = usual[0] > usual[1]
+    return is_up, float(percentiles(rising if is_up else falling, MOSTLY_CHATTER)[0])
+
+
+def bursts(found: Sequence[Piece], clipped: Sequence[RigFault] = ()) -> list[RigFault]:
+    """Stretches in which the force is several times noisier than its record, now and then.
+
+    Not those that a damper makes at one place; where it chatters as it slides one way, they are
+    louder than that.
+    """
+    known = marked(found[0].recording, clipped)
+    # At a limit there is no noise that others could be held against.
+    windows = [
+        _Noise.along(p) for p in found
+        if len(p) // WINDOW >= FEWEST and known[p.first : p.end].mean() <= BURST_CLIPPED
+    ]  # fmt: skip
+    is_up, chatter = _chatter(windows)
+    out = []
+    for p, third, second, up in windows:
         usual = median(third)
-        loud = (third > LOUDER * max(usual, 1e-300)) & (third > WHITE * second) & (usual > 0)
+        sliding = (up if is_up else 1.0 - up) > 1.0 - ONE_WAY
+        least = LOUDER * max(usual, 1e-300) * np.where(sliding, max(chatter, 1.0), 1.0)
+        loud = (third > least) & (third > WHITE * second) & (usual > 0)
         if not loud.any() or loud.mean() > BURST_PART:
             continue
         edge = np.diff(loud.astype(np.int8), prepend=0, append=0)

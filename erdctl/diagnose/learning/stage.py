@@ -19,7 +19,8 @@ from erdctl.diagnose.learning.promising import learned_in
 from erdctl.diagnose.learning.unseen_corners import goes_beyond_what_was_seen
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.record_effects import RecordEffects
-from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_of
+from erdctl.diagnose.residual.lack_of_fit import LackOfFit
+from erdctl.diagnose.residual.predictability import lack_of_fit_of
 from erdctl.diagnose.search import Selection, on_all, refit
 from erdctl.diagnose.unseen import Unseen, on_unseen
 from erdctl.estimate.covariance import Fit

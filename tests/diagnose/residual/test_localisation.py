@@ -16,9 +16,10 @@ from erdctl.core.signals import Signals
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.findings import Finding
 from erdctl.diagnose.problem import Problem, prepare
+from erdctl.diagnose.residual.lack_of_fit import LackOfFit
 from erdctl.diagnose.residual.localisation import Region, describe, locate
 from erdctl.diagnose.residual.places import acting, places
-from erdctl.diagnose.residual.predictability import LackOfFit, lack_of_fit_test
+from erdctl.diagnose.residual.predictability import lack_of_fit_test
 from erdctl.diagnose.wording import finding_text
 from erdctl.effects import get
 from erdctl.model.effect import Variable

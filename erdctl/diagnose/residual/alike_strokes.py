@@ -1,0 +1,247 @@
+"""Strokes that are alike in their motion and their duty, and which of them differ in their force.
+
+They are held against each other a third of their way after the other, and the ones in a row whose
+force differs most from that of all others are found. What a stroke has of its force it has of its
+past and not of where it ends, so that they are alike as far as the shortest of them goes.
+
+In a random motion no strokes are alike. There all are one group, and those in a row are apart only
+where their motion and their duty lie among those of the others, so that no law of these tells them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise, product
+
+import numpy as np
+import numpy.typing as npt
+from scipy.stats import t as student
+
+from erdctl.bench.strokes import Strokes, strokes
+from erdctl.core.recording import Array, Index, Recording
+from erdctl.diagnose import thresholds
+from erdctl.diagnose.hypothesis import Hypothesis
+
+
+@dataclass(frozen=True, eq=False)
+class AlikeStrokes:
+    """Strokes of one record and direction that are alike, or of both that are not.
+
+    thirds : (k, 4) samples at which the thirds of their way begin, and its end
+    part : (k, 3) their force beyond the model's, over it;  beyond : (k,) mean of that [N]
+    settling : whether the first of them is the first one of the record
+    features : (k, m) what they differ in; none if they are alike
+    """
+
+    record: int
+    compression: bool | None
+    thirds: Index
+    part: Array
+    beyond: Array
+    settling: bool
+    features: Array
+
+    @property
+    def alike(self) -> bool:
+        """Whether their motion is one."""
+        return self.compression is not None
+
+    def split(self) -> Split:
+        """Those in a row whose force is most unlike that of the others.
+
+        A change within a stroke is in a part of it: one such stroke at either end is passed over
+        where the others are apart only so.
+        """
+        i, j = self._farther(*self._ends())
+        k, at = len(self.part), np.arange(len(self.part))
+        inside = (at >= i) & (at < j)
+        begins = (-1, i - 1, i) if i > 0 else (-1,)
+        ends = (-1, j - 1, j) if j < k else (-1,)
+        for b, e in sorted(product(begins, ends), key=lambda pair: sum(p >= 0 for p in pair)):
+            sure = (at != b) & (at != e)
+            one = Split(self, inside & sure, ~inside & sure)
+            if one.enough() and one.apart():
+                return one
+        return Split(self, inside, ~inside)
+
+    def _ends(self) -> tuple[int, int]:
+        """Ends of those in a row whose own mean leaves the least."""
+        k, fewest = len(self.part), thresholds.UNLOGGED_FEWEST
+        part = self.part - self.part.mean(axis=0)
+        sums = np.vstack([np.zeros(thresholds.UNLOGGED_PARTS), np.cumsum(part, axis=0)])
+        taken, ends = 0.0, (k - fewest, k)
+        for i in range(int(self.settling), k):
+            j = np.arange(i + fewest, min(k, k - fewest + i) + 1)
+            # Their sum is that of the others with the other sign, since the mean of all is 0.
+            own = np.sum((sums[j] - sums[i]) ** 2, axis=1) * (1.0 / (j - i) + 1.0 / (k - j + i))
+            if len(j) and own.max() > taken:
+                taken, ends = float(own.max()), (i, int(j[own.argmax()]))
+        return ends
+
+    def _farther(self, i: int, j: int) -> tuple[int, int]:
+        """Those in a row or, where they end with the record or begin it, the others, whichever is
+        farther from the model, which is that of all strokes.
+        """
+        k = len(self.part)
+        if i == 0:
+            other = j, k
+        elif j == k and not self.settling:
+            other = 0, i
+        else:
+            return i, j
+        return max((i, j), other, key=lambda e: float(np.mean(self.part[slice(*e)] ** 2)))
+
+
+@dataclass(frozen=True, eq=False)
+class Split:
+    """Strokes (k,) that have a force of their own, and others; the rest is in part of either."""
+
+    of: AlikeStrokes
+    own: npt.NDArray[np.bool_]
+    others: npt.NDArray[np.bool_]
+
+    def enough(self) -> bool:
+        """Whether either are enough."""
+        fewest = thresholds.UNLOGGED_FEWEST
+        return bool(min(np.count_nonzero(self.own), np.count_nonzero(self.others)) >= fewest)
+
+    def apart(self) -> bool:
+        """Whether all of the ones are beyond all others in some third, by more than any two
+        neighbours among them differ, and no law of their motion can be why.
+        """
+        return self._of_like_motion() and any(self._gap(part) for part in self.of.part.T)
+
+    def _gap(self, part: Array) -> bool:
+        a, b = part[self.own], part[self.others]
+        gap = max(float(a.min() - b.max()), float(b.min() - a.max()))
+        steps = np.sort(np.diff(np.sort(np.concatenate([a, b]))))[::-1]
+        return bool(gap >= steps[0]) and bool(gap > thresholds.UNLOGGED_GAP * steps[1])
+
+    def _of_like_motion(self) -> bool:
+        """Whether the middle one of either lies among the others in all that they differ in."""
+        own, others = (self.of.features[which] for which in (self.own, self.others))
+        return all(
+            bool(((a.min(axis=0) <= m) & (m <= a.max(axis=0))).all())
+            for a, m in ((own, np.median(others, axis=0)), (others, np.median(own, axis=0)))
+        )
+
+    @cached_property
+    def shift(self) -> Array:
+        """(3,) force of the ones beyond that of the others, over it."""
+        part = self.of.part
+        return np.asarray(part[self.own].mean(axis=0) - part[self.others].mean(axis=0))
+
+    @property
+    def degrees(self) -> int:
+        """Of freedom that two means leave."""
+        return int(np.count_nonzero(self.own | self.others)) - 2
+
+    @cached_property
+    def square(self) -> float:
+        """Sum of the squares that two means leave, mean of the thirds."""
+        rest = (self.of.part[which] for which in (self.own, self.others))
+        return sum(float(np.sum((r - r.mean(axis=0)) ** 2, axis=0).mean()) for r in rest)
+
+    def chance(self, scatter: float, degrees: int) -> float:
+        """Of a shift as large in one third."""
+        counts = np.count_nonzero(self.own), np.count_nonzero(self.others)
+        error = scatter * np.sqrt(1.0 / counts[0] + 1.0 / counts[1])
+        t = float(np.abs(self.shift).max() / max(error, 1e-300))
+        return 2.0 * float(student.sf(t, degrees))
+
+
+def groups(best: Hypothesis, force: Array) -> Iterator[AlikeStrokes]:
+    """The strokes of each record that are alike, and those that are like no others, if enough."""
+    recording = best.problem.recording
+    found = strokes(recording)
+    if not len(found):
+        return
+    features = _features(recording, found)
+    way = found.highest(recording.x) - found.lowest(recording.x)
+    all_of = np.column_stack([features, way])
+    for record in range(len(recording.names)):
+        begun = int(np.searchsorted(found.record, record))
+        for own, compression in _sorted(found, record, features):
+            alike = compression is not None
+            own = own[way[own] > thresholds.UNLOGGED_WAY * np.median(way[own])]
+            ways = np.full(len(own), way[own].min()) if alike else way[own]
+            ends = [_thirds(recording, found, k, w) for k, w in zip(own, ways, strict=True)]
+            part = np.array([_part(best, force, at) for at in ends])
+            kept = np.isfinite(part).all(axis=1)
+            if np.count_nonzero(kept) < _fewest(alike=alike):
+                continue
+            own, thirds = own[kept], np.array(ends)[kept]
+            yield AlikeStrokes(
+                record=record,
+                compression=compression,
+                thirds=thirds,
+                part=part[kept],
+                beyond=np.array([best.residual[a[0] : a[-1]].mean() for a in thirds]),
+                settling=bool(own[0] == begun),
+                features=np.empty((len(own), 0)) if alike else all_of[own],
+            )
+
+
+def _sorted(
+    found: Strokes, record: int, features: Array
+) -> Iterator[tuple[Index, bool | None]]:  # fmt: skip
+    """Strokes of a record that are alike, group by group, with their direction, and at last those
+    of either direction that are like too few.
+    """
+    rest = [np.empty(0, dtype=np.intp)]
+    for compression in (True, False):
+        left = np.flatnonzero((found.record == record) & (found.compression == compression))
+        while len(left):
+            apart = np.abs(features[left] - features[left[len(left) // 2]]).max(axis=1)
+            own = left[apart < thresholds.UNLOGGED_ALIKE]
+            left = np.setdiff1d(left, own)
+            if len(own) >= _fewest(alike=True):
+                yield own, compression
+            else:
+                rest.append(own)
+    unlike = np.sort(np.concatenate(rest))
+    if len(unlike) >= _fewest(alike=False):
+        yield unlike, None
+
+
+def _fewest(*, alike: bool) -> int:
+    """Strokes of a group."""
+    return 2 * thresholds.UNLOGGED_FEWEST + 1 if alike else thresholds.UNLOGGED_UNLIKE
+
+
+def _features(recording: Recording, found: Strokes) -> Array:
+    """(k, m) what makes strokes alike, in parts of their record's range: where they begin, their
+    speed, their duty and that of the stroke before.
+    """
+    x, speed, duty = recording.x, np.abs(recording.xdot), recording.duty
+    first = recording.starts[:-1]
+    span = np.maximum.reduceat(x, first) - np.minimum.reduceat(x, first)
+    fastest = np.maximum.reduceat(speed, first)
+    span, fastest = (np.maximum(v, 1e-300)[found.record] for v in (span, fastest))
+    begin = np.where(found.compression, found.lowest(x), -found.highest(x))
+    levels = np.column_stack([found.highest(duty), found.lowest(duty)])
+    levels *= thresholds.UNLOGGED_ALIKE / thresholds.ONE_DUTY
+    motion = begin / span, found.highest(speed) / fastest
+    return np.column_stack([*motion, levels, np.roll(levels, 1, axis=0)])
+
+
+def _thirds(recording: Recording, found: Strokes, k: int, way: float) -> list[int]:
+    """Samples at which the thirds of a way [m] begin in a stroke, and at which it ends."""
+    a, b = int(found.first[k]), int(found.end[k])
+    x = recording.x[a:b]
+    gone = np.maximum.accumulate(np.abs(x - x[0]))
+    at = np.searchsorted(gone, np.linspace(0.0, way, thresholds.UNLOGGED_PARTS + 1)[1:])
+    return [a, *np.minimum(a + at, b).tolist()]
+
+
+def _part(best: Hypothesis, force: Array, thirds: list[int]) -> list[float]:
+    """(3,) force of a stroke beyond the model's, over it, by thirds of its way; nan if not told."""
+    out = []
+    for a, b in pairwise(thirds):
+        w, m = best.problem.block.weight[a:b], force[a:b]
+        power = float(np.dot(w, m * m))
+        told = np.count_nonzero(w) >= thresholds.UNLOGGED_SAMPLES and power > 0.0
+        out.append(float(np.dot(w, best.residual[a:b] * m)) / power if told else np.nan)
+    return out
