@@ -41,9 +41,9 @@ def with_a_fault_once(run: Callable[..., Diagnosis], recording: Recording) -> Di
     if once is None or once.confirmed is None:
         # Where more is left there are laws to learn.
         left = found.verdict is Verdict.UNEXPLAINED
-        return run(recording, once=False) if left else replace(found, once=None)
+        return run(recording, once=False, apart=found.apart) if left else replace(found, once=None)
     if _only_without_its_records(found, again):
-        found = run(recording, once=False, learning=False)
+        found = run(recording, once=False, learning=False, apart=found.apart)
     places = (_place(found.problem.recording, once, once.confirmed.share), *found.mismatch)
     return replace(found, verdict=Verdict.UNEXPLAINED, once=once, mismatch=places)
 

@@ -710,10 +710,11 @@ UNLOGGED_PARTS = 3
 # Origin: two of each tell a scatter; of what is not alike, the motion must be seen to overlap.
 UNLOGGED_FEWEST, UNLOGGED_UNLIKE, UNLOGGED_SAMPLES, UNLOGGED_WAY = 2, 10, 4, 0.5
 
-# Parts of the record's range by which the motions of like strokes differ at most.
+# Parts of the record's range by which the speeds of like strokes differ at most, and where they
+# begin; a duty may differ by ONE_DUTY.
 # Decides: which strokes are alike.
-# Origin: what a bench holds; a duty may differ by ONE_DUTY.
-UNLOGGED_ALIKE = 0.05
+# Origin: what a bench holds.
+UNLOGGED_ALIKE, UNLOGGED_BEGIN = 0.05, 0.02
 
 # Part of the force that strokes have of their own; chance of that in any strokes of the log; gap
 # between them and the others over the largest among either.

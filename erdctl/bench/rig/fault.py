@@ -137,6 +137,8 @@ class Rig:
             raise ValueError("a log that was read in stretches is not there to be used")
         r = sound(self.recording, self.faults)
         out = marked(r, self.faults)
+        if r.excluded is not None:
+            out |= r.excluded
         if out.any():
             r = replace(r, excluded=out)
         if self.blocking:

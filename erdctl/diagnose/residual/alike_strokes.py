@@ -223,6 +223,7 @@ def _features(recording: Recording, found: Strokes) -> Array:
     begin = np.where(found.compression, found.lowest(x), -found.highest(x))
     levels = np.column_stack([found.highest(duty), found.lowest(duty)])
     levels *= thresholds.UNLOGGED_ALIKE / thresholds.ONE_DUTY
+    begin *= thresholds.UNLOGGED_ALIKE / thresholds.UNLOGGED_BEGIN
     motion = begin / span, found.highest(speed) / fastest
     return np.column_stack([*motion, levels, np.roll(levels, 1, axis=0)])
 
