@@ -5,6 +5,9 @@ The logs are of an own generator: sines at constant duties, as the paper's proto
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import partial
+
 import numpy as np
 import pytest
 from places import SHARED
@@ -14,6 +17,7 @@ from erdctl.bench.rig import look
 from erdctl.core.recording import Array, Recording, concatenate
 from erdctl.diagnose.diagnosis import Verdict, diagnose
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
+from erdctl.diagnose.one_after_another import with_a_fault_once
 from erdctl.diagnose.problem import prepare
 from erdctl.diagnose.residual.unlogged import unlogged, without
 from erdctl.diagnose.wording import remaining_text
@@ -114,6 +118,60 @@ def test_what_they_have_is_left_out_and_said() -> None:
     excluded = without(made, found.apart).excluded
     assert excluded is not None
     assert excluded.sum() == sum(len(u.rows) for u in found.apart)
+
+
+def ride(seed: int, between: tuple[float, float] | None, part: float) -> Recording:
+    """Random motions under duties that step at random, in one of which yield force is missing."""
+    random = np.random.default_rng(seed)
+    t = np.arange(round(30.0 * RATE)) / RATE
+    out = []
+    for i in range(4):
+        f, w = random.uniform(0.4, 3.0, 12), random.uniform(0.0, 2.0 * np.pi, 12)
+        a = 0.01 / np.sqrt(12.0) / f
+        phase = 2.0 * np.pi * np.outer(t, f) + w
+        x, v = np.sin(phase) @ a, np.cos(phase) @ (2.0 * np.pi * f * a)
+        duty = np.repeat(random.choice([0.05, 0.1, 0.2, 0.3], 60), len(t) // 60)
+        sag = part * ((t >= between[0]) & (t < between[1])) if between and i == 1 else 0.0
+        force = 60.0 * duty**0.4 * (1.0 - sag) * np.sign(v) + 90.0 * v + 150.0 * x
+        force += random.normal(0.0, 0.5, len(t))
+        ends = np.array([0, len(t)], dtype=np.intp)
+        out.append(Recording(t, x, v, duty, ends, (f"ride {i}",), force=force))
+    return concatenate(out)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_it_is_found_in_a_random_motion(seed: int) -> None:
+    """There no strokes are alike; those that lack a part lie among the others in their motion."""
+    assert unlogged(fitted(ride(seed, None, 0.0))) == ()
+    (u,) = unlogged(fitted(ride(seed, (8.0, 16.0), 0.25)))
+    assert (u.record, u.compression) == (1, None)
+    assert u.begin == pytest.approx(8.0, abs=1.0)
+    assert u.end == pytest.approx(16.0, abs=1.0)
+    assert -0.25 < u.part.mean() < -0.12
+    assert u.returns
+
+
+def test_neither_is_a_law_of_the_speed_in_a_random_motion_that_grows() -> None:
+    """The force of fast strokes differs from the model's: these come at the end, and alone."""
+    made = ride(5, None, 0.0)
+    assert made.force is not None
+    grown = np.where(made.t > 15.0, 3.0, 1.0)
+    force = made.force + (grown - 1.0) * (150.0 * made.x + 90.0 * made.xdot)
+    x, v = grown * made.x, grown * made.xdot
+    jump = np.abs(np.diff(grown, prepend=1.0)) > 0.0
+    held = replace(made, x=x, xdot=v, force=force + 150.0 * v * np.abs(v), excluded=jump)
+    assert unlogged(fitted(held)) == ()
+
+
+def test_a_fault_that_comes_and_goes_is_none_that_stays() -> None:
+    """Which some effect of the catalogue would be, from its onset on."""
+    made = log(6, between=(4.25, 8.25), part=0.4)
+    run = partial(diagnose, candidates=(get("electrical_fault"), get("oil_leakage")), limits=False)
+    found = with_a_fault_once(run, made)
+    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.findings == ()
+    assert found.once is None
+    assert {u.compression for u in found.apart} == {True, False}
 
 
 @pytest.mark.real_data
