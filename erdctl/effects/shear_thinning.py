@@ -41,7 +41,7 @@ EFFECT = Effect(
     slot=ViscousSlot(shear_thinning),
     title="viscous force C |xdot|^n sign(xdot), n < 1",
     equation="c_vis xdot -> c_vis v_0 |xdot / v_0|^n sign(xdot), v_0 = 0.1 m/s",
-    said="viscous force as the speed to the power {n}",
+    said="viscous force with a flow index of {n}",
     alters=(("viscous", "c_vis v_0 |xdot / v_0|^n sign(xdot)"),),
     source="Wang and Gordaninejad, J. Intell. Mater. Syst. Struct. 10 (1999) 601-608",
     validity="one or two decades of speed",

@@ -32,7 +32,7 @@ class AlikeStrokes:
     thirds : (k, 4) samples at which the thirds of their way begin, and its end
     part : (k, 3) their force beyond the model's, over it;  beyond : (k,) mean of that [N]
     settling : whether the first of them is the first one of the record
-    features : (k, m) what they differ in; none if they are alike
+    motion, duty : (k, m) what they differ in, if they are not alike, see `groups`
     """
 
     record: int
@@ -41,7 +41,8 @@ class AlikeStrokes:
     part: Array
     beyond: Array
     settling: bool
-    features: Array
+    motion: Array
+    duty: Array
 
     @property
     def alike(self) -> bool:
@@ -119,13 +120,26 @@ class Split:
         steps = np.sort(np.diff(np.sort(np.concatenate([a, b]))))[::-1]
         return bool(gap >= steps[0]) and bool(gap > thresholds.UNLOGGED_GAP * steps[1])
 
+    @property
+    def returns(self) -> bool:
+        """Whether there are others before those with a force of their own and behind."""
+        at = np.flatnonzero(self.own)
+        return bool(self.others[: at[0]].any() and self.others[at[-1] :].any())
+
     def _of_like_motion(self) -> bool:
-        """Whether the middle one of either lies among the others in all that they differ in."""
-        own, others = (self.of.features[which] for which in (self.own, self.others))
-        return all(
-            bool(((a.min(axis=0) <= m) & (m <= a.max(axis=0))).all())
-            for a, m in ((own, np.median(others, axis=0)), (others, np.median(own, axis=0)))
-        )
+        """Whether no law of the motion or of the duty holds the ones apart from the others.
+
+        The middle one of either lies among the others in all that their motion differs in; of one
+        that grows or quickens, and is no other before and behind, it need not be so of the others:
+        a law of it would have to come and go at once. And most have the duty of some other.
+        """
+        if self.of.alike:
+            return True
+        own, others = (self.of.motion[which] for which in (self.own, self.others))
+        among = _among(own, others) and (self.returns or _among(others, own))
+        duty = self.of.duty[self.own][:, None], self.of.duty[self.others]
+        nearest = np.abs(duty[0] - duty[1]).max(axis=2).min(axis=1)
+        return among and bool(np.median(nearest) < thresholds.ONE_DUTY)
 
     @cached_property
     def shift(self) -> Array:
@@ -153,14 +167,19 @@ class Split:
 
 
 def groups(best: Hypothesis, force: Array) -> Iterator[AlikeStrokes]:
-    """The strokes of each record that are alike, and those that are like no others, if enough."""
+    """The strokes of each record that are alike in where they begin, their speed, their duty and
+    that of the stroke before, each in parts of the record's range; and all others, if enough.
+    """
     recording = best.problem.recording
     found = strokes(recording)
     if not len(found):
         return
-    features = _features(recording, found)
+    duty = np.column_stack([found.highest(recording.duty), found.lowest(recording.duty)])
     way = found.highest(recording.x) - found.lowest(recording.x)
-    all_of = np.column_stack([features, way])
+    motion = _motion(recording, found)
+    parts = thresholds.UNLOGGED_BEGIN, thresholds.UNLOGGED_ALIKE
+    levels = np.hstack([duty, np.roll(duty, 1, axis=0)]) / thresholds.ONE_DUTY
+    features = np.hstack([motion / parts, levels])
     for record in range(len(recording.names)):
         begun = int(np.searchsorted(found.record, record))
         for own, compression in _sorted(found, record, features):
@@ -180,8 +199,15 @@ def groups(best: Hypothesis, force: Array) -> Iterator[AlikeStrokes]:
                 part=part[kept],
                 beyond=np.array([best.residual[a[0] : a[-1]].mean() for a in thirds]),
                 settling=bool(own[0] == begun),
-                features=np.empty((len(own), 0)) if alike else all_of[own],
+                motion=np.column_stack([motion[own], way[own]]),
+                duty=duty[own],
             )
+
+
+def _among(ones: Array, others: Array) -> bool:
+    """Whether the middle one of (k, m) lies among (l, m) in all."""
+    middle = np.median(ones, axis=0)
+    return bool(((others.min(axis=0) <= middle) & (middle <= others.max(axis=0))).all())
 
 
 def _sorted(
@@ -195,7 +221,7 @@ def _sorted(
         left = np.flatnonzero((found.record == record) & (found.compression == compression))
         while len(left):
             apart = np.abs(features[left] - features[left[len(left) // 2]]).max(axis=1)
-            own = left[apart < thresholds.UNLOGGED_ALIKE]
+            own = left[apart < 1.0]
             left = np.setdiff1d(left, own)
             if len(own) >= _fewest(alike=True):
                 yield own, compression
@@ -211,21 +237,15 @@ def _fewest(*, alike: bool) -> int:
     return 2 * thresholds.UNLOGGED_FEWEST + 1 if alike else thresholds.UNLOGGED_UNLIKE
 
 
-def _features(recording: Recording, found: Strokes) -> Array:
-    """(k, m) what makes strokes alike, in parts of their record's range: where they begin, their
-    speed, their duty and that of the stroke before.
-    """
-    x, speed, duty = recording.x, np.abs(recording.xdot), recording.duty
+def _motion(recording: Recording, found: Strokes) -> Array:
+    """(k, 2) where strokes begin and their speed, in parts of their record's range."""
+    x, speed = recording.x, np.abs(recording.xdot)
     first = recording.starts[:-1]
     span = np.maximum.reduceat(x, first) - np.minimum.reduceat(x, first)
     fastest = np.maximum.reduceat(speed, first)
     span, fastest = (np.maximum(v, 1e-300)[found.record] for v in (span, fastest))
     begin = np.where(found.compression, found.lowest(x), -found.highest(x))
-    levels = np.column_stack([found.highest(duty), found.lowest(duty)])
-    levels *= thresholds.UNLOGGED_ALIKE / thresholds.ONE_DUTY
-    begin *= thresholds.UNLOGGED_ALIKE / thresholds.UNLOGGED_BEGIN
-    motion = begin / span, found.highest(speed) / fastest
-    return np.column_stack([*motion, levels, np.roll(levels, 1, axis=0)])
+    return np.column_stack([begin / span, found.highest(speed) / fastest])
 
 
 def _thirds(recording: Recording, found: Strokes, k: int, way: float) -> list[int]:

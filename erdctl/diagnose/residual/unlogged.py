@@ -147,7 +147,7 @@ def _of(best: Hypothesis, s: Split, scatter: float, force: Array) -> Unlogged:
         end=float(t[edges[-1, -1] - 1]),
         count=len(at),
         others=int(np.count_nonzero(s.others)),
-        returns=bool(s.others[: at[0]].any() and s.others[at[-1] :].any()),
+        returns=s.returns,
         part=s.shift,
         scatter=scatter,
         rows=np.concatenate(rows),
