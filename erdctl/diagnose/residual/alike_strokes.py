@@ -185,6 +185,8 @@ def groups(best: Hypothesis, force: Array) -> Iterator[AlikeStrokes]:
         for own, compression in _sorted(found, record, features):
             alike = compression is not None
             own = own[way[own] > thresholds.UNLOGGED_WAY * np.median(way[own])]
+            if len(own) < _fewest(alike=alike):  # strokes of one sample go no way
+                continue
             ways = np.full(len(own), way[own].min()) if alike else way[own]
             ends = [_thirds(recording, found, k, w) for k, w in zip(own, ways, strict=True)]
             part = np.array([_part(best, force, at) for at in ends])

@@ -151,6 +151,16 @@ def test_it_is_found_in_a_random_motion(seed: int) -> None:
     assert u.returns
 
 
+def test_strokes_of_a_sample_are_passed_over() -> None:
+    """Of a velocity that flickers about rest in a log without motion enough."""
+    made = log(7)
+    v = made.xdot.copy()
+    still = made.t > 6.0
+    v[still] = np.where(np.arange(len(v)) % 2, 0.1, -0.1)[still]
+    x = np.where(still, 0.0, made.x)
+    assert unlogged(fitted(replace(made, x=x, xdot=v))) == ()
+
+
 def test_neither_is_a_law_of_the_speed_in_a_random_motion_that_grows() -> None:
     """The force of fast strokes differs from the model's: these come at the end, and alone."""
     made = ride(5, None, 0.0)
