@@ -72,7 +72,8 @@ def _apart(own: Sequence[Split], splits: Sequence[Split]) -> Iterator[tuple[Spli
     tried = thresholds.UNLOGGED_PARTS * sum(len(s.own) ** 2 / 2.0 for s in own)
     for s in own:
         scatter = float(np.sqrt(max(s.square / s.degrees, usual)))
-        large = float(np.abs(s.shift).max()) >= thresholds.UNLOGGED_PART
+        least = max(thresholds.UNLOGGED_PART, thresholds.UNLOGGED_SIGMAS * scatter)
+        large = float(np.abs(s.shift).max()) >= least
         seldom = tried * s.chance(scatter, degrees) < thresholds.UNLOGGED_CHANCE
         if large and seldom and s.apart() and not _is_a_zero(s, splits):
             yield s, scatter
