@@ -728,6 +728,11 @@ UNLOGGED_PART, UNLOGGED_CHANCE, UNLOGGED_GAP = 0.05, 1e-4, 2.0
 # Origin: of 500 nulls of 19 kinds the largest two that were apart had 5.0 and 5.9.
 UNLOGGED_SIGMAS = 7.0
 
+# Times that the ones are farther from the others without a stroke at an end, so that it is one in
+# which the change begins or ends.
+# Origin: a stroke that is half changed makes it twice and more, one that is not a tenth.
+UNLOGGED_EDGE = 1.5
+
 # Part of it that strokes the other way have of the same sign in newtons, from which it is a zero.
 # Origin: half way between a force of one direction alone, 0, and a zero, 1, or a little less.
 UNLOGGED_ZERO = 0.4

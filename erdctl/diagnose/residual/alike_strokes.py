@@ -53,19 +53,17 @@ class AlikeStrokes:
         """Those in a row whose force is most unlike that of the others.
 
         A change within a stroke is in a part of it: one such stroke at either end is passed over
-        where the others are apart only so.
+        where the others are far more apart so.
         """
         i, j = self._farther(*self._ends())
         k, at = len(self.part), np.arange(len(self.part))
         inside = (at >= i) & (at < j)
         begins = (-1, i - 1, i) if i > 0 else (-1,)
         ends = (-1, j - 1, j) if j < k else (-1,)
-        for b, e in sorted(product(begins, ends), key=lambda pair: sum(p >= 0 for p in pair)):
-            sure = (at != b) & (at != e)
-            one = Split(self, inside & sure, ~inside & sure)
-            if one.enough() and one.apart():
-                return one
-        return Split(self, inside, ~inside)
+        sure = [(at != b) & (at != e) for b, e in product(begins, ends)]
+        some = [Split(self, inside & these, ~inside & these) for these in sure]
+        apart = [split for split in some if split.enough() and split.apart()]
+        return max(apart, key=Split.worth, default=some[0])
 
     def _ends(self) -> tuple[int, int]:
         """Ends of those in a row whose own mean leaves the least."""
@@ -158,12 +156,21 @@ class Split:
         rest = (self.of.part[which] for which in (self.own, self.others))
         return sum(float(np.sum((r - r.mean(axis=0)) ** 2, axis=0).mean()) for r in rest)
 
+    def farness(self, scatter: float = 0.0) -> float:
+        """Shift in one third over its error, by its own scatter or a larger one."""
+        counts = np.count_nonzero(self.own), np.count_nonzero(self.others)
+        scatter = max(scatter, float(np.sqrt(self.square / max(self.degrees, 1))))
+        error = scatter * np.sqrt(1.0 / counts[0] + 1.0 / counts[1])
+        return float(np.abs(self.shift).max() / max(error, 1e-300))
+
+    def worth(self) -> float:
+        """How far apart they are, less for each stroke that is passed over."""
+        passed = np.count_nonzero(~(self.own | self.others))
+        return self.farness() / thresholds.UNLOGGED_EDGE**passed
+
     def chance(self, scatter: float, degrees: int) -> float:
         """Of a shift as large in one third."""
-        counts = np.count_nonzero(self.own), np.count_nonzero(self.others)
-        error = scatter * np.sqrt(1.0 / counts[0] + 1.0 / counts[1])
-        t = float(np.abs(self.shift).max() / max(error, 1e-300))
-        return 2.0 * float(student.sf(t, degrees))
+        return 2.0 * float(student.sf(self.farness(scatter), degrees))
 
 
 def groups(best: Hypothesis, force: Array) -> Iterator[AlikeStrokes]:
