@@ -25,9 +25,9 @@ def unlogged_text(told: Sequence[Unlogged], names: Sequence[str]) -> str:
     more = len(order) - len(shown)
     said += f"; and {more} such beside" if more else ""
     return (
-        "; the same motion under the same duty has another force at other times, so that something"
-        f" acts which is not logged (a setting, the supply, a temperature): {said}; these strokes"
-        " are left out of fits and scores, and all that is said here is of the others"
+        "; strokes that motion and duty do not tell from others have another force for a while, so"
+        f" that something acts which is not logged (a setting, the supply, a temperature): {said};"
+        " these strokes are left out of fits and scores, and all that is said here is of the others"
     )
 
 

@@ -62,7 +62,7 @@ class AlikeStrokes:
         ends = (-1, j - 1, j) if j < k else (-1,)
         sure = [(at != b) & (at != e) for b, e in product(begins, ends)]
         some = [Split(self, inside & these, ~inside & these) for these in sure]
-        apart = [split for split in some if split.enough() and split.apart()]
+        apart = [split for split in some if split.enough() and split.apart.any()]
         return max(apart, key=Split.worth, default=some[0])
 
     def _ends(self) -> tuple[int, int]:
@@ -106,17 +106,17 @@ class Split:
         fewest = thresholds.UNLOGGED_FEWEST
         return bool(min(np.count_nonzero(self.own), np.count_nonzero(self.others)) >= fewest)
 
-    def apart(self) -> bool:
-        """Whether all of the ones are beyond all others in some third, by more than any two
-        neighbours among them differ, and no law of their motion can be why.
+    @cached_property
+    def apart(self) -> npt.NDArray[np.bool_]:
+        """(3,) in which thirds all of the ones are beyond all others, by more than any two
+        neighbours among them differ; in none where a law of their motion can be why.
         """
-        return self._of_like_motion() and any(self._gap(part) for part in self.of.part.T)
-
-    def _gap(self, part: Array) -> bool:
-        a, b = part[self.own], part[self.others]
-        gap = max(float(a.min() - b.max()), float(b.min() - a.max()))
-        steps = np.sort(np.diff(np.sort(np.concatenate([a, b]))))[::-1]
-        return bool(gap >= steps[0]) and bool(gap > thresholds.UNLOGGED_GAP * steps[1])
+        if not self._of_like_motion():
+            return np.zeros(thresholds.UNLOGGED_PARTS, np.bool_)
+        a, b = self.of.part[self.own], self.of.part[self.others]
+        gap = np.maximum(a.min(axis=0) - b.max(axis=0), b.min(axis=0) - a.max(axis=0))
+        steps = np.sort(np.diff(np.sort(np.vstack([a, b]), axis=0), axis=0), axis=0)
+        return np.asarray((gap >= steps[-1]) & (gap > thresholds.UNLOGGED_GAP * steps[-2]))
 
     @property
     def returns(self) -> bool:
@@ -129,7 +129,8 @@ class Split:
 
         The middle one of either lies among the others in all that their motion differs in; of one
         that grows or quickens, and is no other before and behind, it need not be so of the others:
-        a law of it would have to come and go at once. And most have the duty of some other.
+        a law of it would have to come and go at once. And most have the duty of some other, or some
+        others have duties between theirs.
         """
         if self.of.alike:
             return True
@@ -137,7 +138,10 @@ class Split:
         among = _among(own, others) and (self.returns or _among(others, own))
         duty = self.of.duty[self.own][:, None], self.of.duty[self.others]
         nearest = np.abs(duty[0] - duty[1]).max(axis=2).min(axis=1)
-        return among and bool(np.median(nearest) < thresholds.ONE_DUTY)
+        level, other = (self.of.duty[which].mean(axis=1) for which in (self.own, self.others))
+        between = int(np.count_nonzero((other > level.min()) & (other < level.max())))
+        met = bool(np.median(nearest) < thresholds.ONE_DUTY)
+        return among and (met or between >= thresholds.UNLOGGED_FEWEST)
 
     @cached_property
     def shift(self) -> Array:
@@ -151,26 +155,33 @@ class Split:
         return int(np.count_nonzero(self.own | self.others)) - 2
 
     @cached_property
-    def square(self) -> float:
-        """Sum of the squares that two means leave, mean of the thirds."""
+    def scatter(self) -> Array:
+        """(3,) standard deviation of the ones and of the others about their means."""
         rest = (self.of.part[which] for which in (self.own, self.others))
-        return sum(float(np.sum((r - r.mean(axis=0)) ** 2, axis=0).mean()) for r in rest)
+        square = sum(np.sum((r - r.mean(axis=0)) ** 2, axis=0) for r in rest)
+        return np.asarray(np.sqrt(square / max(self.degrees, 1)))
 
-    def farness(self, scatter: float = 0.0) -> float:
-        """Shift in one third over its error, by its own scatter or a larger one."""
+    def farness(self, usual: Array | float = 0.0) -> float:
+        """Largest shift over its error in a third in which they are apart, by their own scatter or
+        a usual one that is larger.
+        """
         counts = np.count_nonzero(self.own), np.count_nonzero(self.others)
-        scatter = max(scatter, float(np.sqrt(self.square / max(self.degrees, 1))))
-        error = scatter * np.sqrt(1.0 / counts[0] + 1.0 / counts[1])
-        return float(np.abs(self.shift).max() / max(error, 1e-300))
+        error = np.maximum(self.scatter, usual) * np.sqrt(1.0 / counts[0] + 1.0 / counts[1])
+        return float(np.max(np.abs(self.shift) / np.maximum(error, 1e-300), initial=0.0,
+                            where=self.apart))  # fmt: skip
 
     def worth(self) -> float:
         """How far apart they are, less for each stroke that is passed over."""
         passed = np.count_nonzero(~(self.own | self.others))
         return self.farness() / thresholds.UNLOGGED_EDGE**passed
 
-    def chance(self, scatter: float, degrees: int) -> float:
-        """Of a shift as large in one third."""
-        return 2.0 * float(student.sf(self.farness(scatter), degrees))
+    def seldom(self, usual: Array, degrees: int, tried: float) -> bool:
+        """Whether they are apart by what matters, and more than chance would ever make them."""
+        chance = 2.0 * float(student.sf(self.farness(usual), degrees))
+        scatter = np.maximum(self.scatter, usual)
+        least = np.maximum(thresholds.UNLOGGED_PART, thresholds.UNLOGGED_SIGMAS * scatter)
+        large = self.apart & (np.abs(self.shift) >= least)
+        return bool(large.any()) and tried * chance < thresholds.UNLOGGED_CHANCE
 
 
 def groups(best: Hypothesis, force: Array) -> Iterator[AlikeStrokes]:

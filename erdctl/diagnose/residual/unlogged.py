@@ -60,23 +60,19 @@ def unlogged(best: Hypothesis, *, stays: bool = True) -> tuple[Unlogged, ...]:
     out = []
     for alike in (True, False):
         own = [s for s in splits if s.of.alike == alike]
-        out += [_of(best, s, scatter, force) for s, scatter in _apart(own, splits)]
+        out += [_of(best, s, force) for s in _seldom(own) if not _is_a_zero(s, splits)]
     out.sort(key=lambda u: int(u.rows[0]))
     return tuple(u for u in out if stays or u.returns)
 
 
-def _apart(own: Sequence[Split], splits: Sequence[Split]) -> Iterator[tuple[Split, float]]:
-    """Those of some splits that chance, the motion or a zero do not make, each with its scatter."""
+def _seldom(own: Sequence[Split]) -> Iterator[Split]:
+    """Those of some splits that chance does not make; what the others scatter by is the least."""
+    if not own:
+        return
+    usual = np.median([s.scatter for s in own], axis=0)
     degrees = sum(s.degrees for s in own)
-    usual = sum(s.square for s in own) / max(degrees, 1)
     tried = thresholds.UNLOGGED_PARTS * sum(len(s.own) ** 2 / 2.0 for s in own)
-    for s in own:
-        scatter = float(np.sqrt(max(s.square / s.degrees, usual)))
-        least = max(thresholds.UNLOGGED_PART, thresholds.UNLOGGED_SIGMAS * scatter)
-        large = float(np.abs(s.shift).max()) >= least
-        seldom = tried * s.chance(scatter, degrees) < thresholds.UNLOGGED_CHANCE
-        if large and seldom and s.apart() and not _is_a_zero(s, splits):
-            yield s, scatter
+    yield from (s for s in own if s.seldom(usual, degrees, tried))
 
 
 def _is_a_zero(s: Split, splits: Sequence[Split]) -> bool:
@@ -85,10 +81,12 @@ def _is_a_zero(s: Split, splits: Sequence[Split]) -> bool:
     A zero that wanders does that, and noise with a long memory. What acts in the damper turns over
     with the motion, or acts one way.
     """
+    if s.of.compression is None:  # both ways, which a zero makes unlike
+        return False
     first, end = (int(s.of.thirds[s.own].ravel()[at]) for at in (0, -1))
     own = s.of.beyond[s.own].mean() - s.of.beyond[s.others].mean()
     for other in splits:
-        if other.of.record != s.of.record or other.of.compression == s.of.compression:
+        if other.of.record != s.of.record or other.of.compression is not (not s.of.compression):
             continue
         inside = (other.of.thirds[:, -1] > first) & (other.of.thirds[:, 0] < end)
         if inside.any() and not inside.all():
@@ -127,7 +125,7 @@ def regions(told: Sequence[Unlogged], best: Hypothesis, misfit: float) -> list[R
     return sorted(found, key=lambda r: -r.share)[: thresholds.REGIONS]
 
 
-def _of(best: Hypothesis, s: Split, scatter: float, force: Array) -> Unlogged:
+def _of(best: Hypothesis, s: Split, force: Array) -> Unlogged:
     t, at = best.problem.recording.t, np.flatnonzero(s.own)
     # With those that are changed in part.
     in_part = np.flatnonzero(~(s.own | s.others))
@@ -150,7 +148,7 @@ def _of(best: Hypothesis, s: Split, scatter: float, force: Array) -> Unlogged:
         others=int(np.count_nonzero(s.others)),
         returns=s.returns,
         part=s.shift,
-        scatter=scatter,
+        scatter=float(s.scatter.max()),
         rows=np.concatenate(rows),
         change=np.concatenate([p * force[r] for p, r in zip(beyond.ravel(), rows, strict=True)]),
     )
