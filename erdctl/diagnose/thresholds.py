@@ -719,14 +719,15 @@ UNLOGGED_ALIKE, UNLOGGED_BEGIN = 0.05, 0.02
 # Part of the force that strokes have of their own; chance of that in any strokes of the log; gap
 # between them and the others over the largest among either.
 # Decides: whether something acts that is not logged.
-# Origin: none named in 380 nulls of 19 kinds (seeds 1770000 on), nor in 80 logs of noise with a
-# memory of 0.5 to 10 s, while a zero is told from a force that turns over with the motion.
+# Origin: none named in 80 logs of noise with a memory of 0.5 to 10 s, while a zero is told from a
+# force that turns over with the motion; see UNLOGGED_SIGMAS.
 UNLOGGED_PART, UNLOGGED_CHANCE, UNLOGGED_GAP = 0.05, 1e-4, 2.0
 
-# Times the scatter of either that it is at least.
+# Times the scatter of either that it is at least: in two parts of the way, and in one alone.
 # Decides: the same; the chance is that of normal errors, and those of strokes have longer tails.
-# Origin: of 500 nulls of 19 kinds the largest two that were apart had 5.0 and 5.9.
-UNLOGGED_SIGMAS = 7.0
+# Origin: of 880 nulls of 19 kinds the largest that were apart in two parts had 5.0 and 5.9, and of
+# one part alone 9.3, of a burst of noise.
+UNLOGGED_SIGMAS, UNLOGGED_ALONE = 7.0, 14.0
 
 # Times that the ones are farther from the others without a stroke at an end, so that it is one in
 # which the change begins or ends.

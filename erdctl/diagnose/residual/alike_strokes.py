@@ -102,8 +102,8 @@ class Split:
     others: npt.NDArray[np.bool_]
 
     def enough(self) -> bool:
-        """Whether either are enough."""
-        fewest = thresholds.UNLOGGED_FEWEST
+        """Whether either are enough: one more of those that are not alike."""
+        fewest = thresholds.UNLOGGED_FEWEST + (not self.of.alike)
         return bool(min(np.count_nonzero(self.own), np.count_nonzero(self.others)) >= fewest)
 
     @cached_property
@@ -178,10 +178,10 @@ class Split:
     def seldom(self, usual: Array, degrees: int, tried: float) -> bool:
         """Whether they are apart by what matters, and more than chance would ever make them."""
         chance = 2.0 * float(student.sf(self.farness(usual), degrees))
-        scatter = np.maximum(self.scatter, usual)
-        least = np.maximum(thresholds.UNLOGGED_PART, thresholds.UNLOGGED_SIGMAS * scatter)
-        large = self.apart & (np.abs(self.shift) >= least)
-        return bool(large.any()) and tried * chance < thresholds.UNLOGGED_CHANCE
+        large = self.apart & (np.abs(self.shift) >= thresholds.UNLOGGED_PART)
+        over = np.sort(np.where(large, np.abs(self.shift), 0.0) / np.maximum(self.scatter, usual))
+        clear = over[-2] >= thresholds.UNLOGGED_SIGMAS or over[-1] >= thresholds.UNLOGGED_ALONE
+        return self.enough() and bool(clear) and tried * chance < thresholds.UNLOGGED_CHANCE
 
 
 def groups(best: Hypothesis, force: Array) -> Iterator[AlikeStrokes]:
