@@ -179,7 +179,8 @@ class Split:
         """Whether they are apart by what matters, and more than chance would ever make them."""
         chance = 2.0 * float(student.sf(self.farness(usual), degrees))
         large = self.apart & (np.abs(self.shift) >= thresholds.UNLOGGED_PART)
-        over = np.sort(np.where(large, np.abs(self.shift), 0.0) / np.maximum(self.scatter, usual))
+        scatter = np.maximum(np.maximum(self.scatter, usual), 1e-300)
+        over = np.sort(np.where(large, np.abs(self.shift), 0.0) / scatter)
         clear = over[-2] >= thresholds.UNLOGGED_SIGMAS or over[-1] >= thresholds.UNLOGGED_ALONE
         return self.enough() and bool(clear) and tried * chance < thresholds.UNLOGGED_CHANCE
 

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -149,6 +151,25 @@ def test_it_is_found_in_a_random_motion(seed: int) -> None:
     assert u.end == pytest.approx(16.0, abs=1.0)
     assert -0.25 < u.part.mean() < -0.12
     assert u.returns
+
+
+@pytest.mark.filterwarnings("error")
+def test_strokes_without_any_noise_are_apart() -> None:
+    """Of a record that is the same again and again, to the last digit, but for some strokes."""
+    t = np.arange(2400) / 200.0
+    v = np.where(np.arange(2400) // 50 % 2, -0.1, 0.1)
+    x = 0.02 * (np.abs(np.arange(2400) % 100 / 100.0 - 0.5) - 0.25)
+    made = Recording(
+        t, x, v, np.full(2400, 0.2), np.array([0, 2400]), ("r",), force=30.0 * np.sign(v)
+    )
+    lacking = 6.0 * ((t > 4.0) & (t < 8.0)) * np.sign(v)
+    best = SimpleNamespace(
+        problem=prepare(made), values={}, residual=-lacking,
+        model=SimpleNamespace(force=lambda s, values: made.force),
+    )  # fmt: skip
+    found = unlogged(cast("Hypothesis", best))
+    assert {u.count for u in found} == {8}
+    assert all(u.part == pytest.approx(-0.2, abs=0.01) for u in found)
 
 
 def test_strokes_of_a_sample_are_passed_over() -> None:
