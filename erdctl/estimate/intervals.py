@@ -56,6 +56,7 @@ def with_intervals(
     intervals: dict[str, tuple[float, float]] = {}
     carried: list[tuple[Refitted, Sequence[float]]] = []
     names = waiting = [*asked, *bounded]
+    anew = False
     while waiting:
         at, number = values, 0
         profiles = ahead(partial(own.profile, values=at), waiting, threads)
@@ -77,6 +78,11 @@ def with_intervals(
                 if values is not at:  # what comes now begins from there
                     break
         waiting = names[number:]
+        if not waiting and not anew:
+            # A later one may have moved them, to where their own profiles have not been.
+            waiting = [n for n, (a, b) in intervals.items() if not a <= values[n] <= b]
+            anew, names = True, [*names, *waiting]
+    intervals = {n: (min(a, values[n]), max(b, values[n])) for n, (a, b) in intervals.items()}
     flat = tuple(g for g in found.flat if g[0] not in intervals)
     found = replace(found, values=values, intervals=intervals, flat=flat)
     return _carried_along(found, carried, plain, asked, threads)
