@@ -138,7 +138,11 @@ def _of(best: Hypothesis, s: Split, force: Array) -> Unlogged:
     begins = turns[np.searchsorted(turns, thirds[:, 0], "right") - 1]
     ends = turns[np.searchsorted(turns, thirds[:, -1] - 1, "right")]
     edges = np.column_stack([begins, thirds[:, 1:-1], ends])
-    rows = [np.arange(a, b) for one in edges for a, b in pairwise(one.tolist())]
+    pieces = [np.arange(a, b) for one in edges for a, b in pairwise(one.tolist())]
+    rows, part = np.concatenate(pieces), np.repeat(beyond.ravel(), [len(p) for p in pieces])
+    if s.of.compression is None:  # with the short strokes between them
+        whole = np.arange(rows[0], rows[-1] + 1)
+        rows, part = whole, np.interp(whole, rows, part)
     return Unlogged(
         record=s.of.record,
         compression=s.of.compression,
@@ -149,6 +153,6 @@ def _of(best: Hypothesis, s: Split, force: Array) -> Unlogged:
         returns=s.returns,
         part=s.shift,
         scatter=float(s.scatter.max()),
-        rows=np.concatenate(rows),
-        change=np.concatenate([p * force[r] for p, r in zip(beyond.ravel(), rows, strict=True)]),
+        rows=rows,
+        change=part * force[rows],
     )

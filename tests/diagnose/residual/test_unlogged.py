@@ -151,6 +151,7 @@ def test_it_is_found_in_a_random_motion(seed: int) -> None:
     assert u.end == pytest.approx(16.0, abs=1.0)
     assert -0.25 < u.part.mean() < -0.12
     assert u.returns
+    assert u.rows.tolist() == list(range(u.rows[0], u.rows[-1] + 1))  # and what is short in it
 
 
 @pytest.mark.filterwarnings("error")
