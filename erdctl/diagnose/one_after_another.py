@@ -23,6 +23,7 @@ from erdctl.diagnose.findings import earned, part_taken
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.records_with_a_fault import is_no_scatter, telling
 from erdctl.diagnose.residual.localisation import Region, said
+from erdctl.diagnose.residual.unlogged import unlogged
 from erdctl.diagnose.sets_in_once import Confirmed, SetsInOnce
 from erdctl.estimate.onsets import profile_within
 from erdctl.model.effect import Variable
@@ -39,9 +40,13 @@ def with_a_fault_once(run: Callable[..., Diagnosis], recording: Recording) -> Di
     again = run(ordered, limits=False, learning=False, once=False)
     once = _named(found, found.once, again, ordered) or _beside(found, found.once, ordered)
     if once is None or once.confirmed is None:
-        # Where more is left there are laws to learn.
+        # Where more is left there are laws to learn; and what a fault would have been may be what
+        # is not logged.
         left = found.verdict is Verdict.UNEXPLAINED
-        return run(recording, once=False, apart=found.apart) if left else replace(found, once=None)
+        apart = found.apart or (() if found.rig.blocking else unlogged(found.selection.best))
+        if left or apart:
+            return run(recording, once=False, apart=apart)
+        return replace(found, once=None)
     if _only_without_its_records(found, again):
         found = run(recording, once=False, learning=False, apart=found.apart)
     places = (_place(found.problem.recording, once, once.confirmed.share), *found.mismatch)

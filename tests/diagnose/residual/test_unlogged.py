@@ -206,6 +206,16 @@ def test_a_fault_that_comes_and_goes_is_none_that_stays() -> None:
     assert {u.compression for u in found.apart} == {True, False}
 
 
+def test_nor_does_one_from_the_beginning_of_a_record() -> None:
+    """That may be one of its beginning on, to a search for faults, which then is none."""
+    made = log(8, between=(0.0, 4.25), part=0.4)
+    run = partial(diagnose, candidates=(get("electrical_fault"), get("oil_leakage")), limits=False)
+    found = with_a_fault_once(run, made)
+    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.once is None
+    assert {made.names[u.record] for u in found.apart} == {"1Hz-20"}
+
+
 @pytest.mark.real_data
 def test_a_setting_that_nobody_recorded() -> None:
     """Of a friction damper an actuator turned the setting for three strokes of each record, one
