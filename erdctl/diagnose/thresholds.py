@@ -723,11 +723,11 @@ UNLOGGED_ALIKE, UNLOGGED_BEGIN = 0.05, 0.02
 # force that turns over with the motion; see UNLOGGED_SIGMAS.
 UNLOGGED_PART, UNLOGGED_CHANCE, UNLOGGED_GAP = 0.05, 1e-4, 2.0
 
-# Times the scatter of either that it is at least: in two parts of the way, and in one alone.
+# Times its error that it is at least: in two parts of the way, and in one alone.
 # Decides: the same; the chance is that of normal errors, and those of strokes have longer tails.
-# Origin: of 880 nulls of 19 kinds the largest that were apart in two parts had 5.0 and 5.9, and of
-# one part alone 9.3, of a burst of noise.
-UNLOGGED_SIGMAS, UNLOGGED_ALONE = 7.0, 14.0
+# Origin: of 880 nulls of 19 kinds the largest that were apart in two parts had 6.7 and 8.0, and of
+# one part alone 12.9, of a burst of noise.
+UNLOGGED_SIGMAS, UNLOGGED_ALONE = 9.5, 15.0
 
 # Times that the ones are farther from the others without a stroke at an end, so that it is one in
 # which the change begins or ends.

@@ -161,27 +161,25 @@ class Split:
         square = sum(np.sum((r - r.mean(axis=0)) ** 2, axis=0) for r in rest)
         return np.asarray(np.sqrt(square / max(self.degrees, 1)))
 
-    def farness(self, usual: Array | float = 0.0) -> float:
-        """Largest shift over its error in a third in which they are apart, by their own scatter or
-        a usual one that is larger.
+    def over(self, usual: Array | float = 0.0) -> Array:
+        """(3,) shift over its error, by their own scatter or a usual one that is larger; 0 where
+        they are not apart by what matters.
         """
         counts = np.count_nonzero(self.own), np.count_nonzero(self.others)
         error = np.maximum(self.scatter, usual) * np.sqrt(1.0 / counts[0] + 1.0 / counts[1])
-        return float(np.max(np.abs(self.shift) / np.maximum(error, 1e-300), initial=0.0,
-                            where=self.apart))  # fmt: skip
+        large = self.apart & (np.abs(self.shift) >= thresholds.UNLOGGED_PART)
+        return np.asarray(np.where(large, np.abs(self.shift), 0.0) / np.maximum(error, 1e-300))
 
     def worth(self) -> float:
         """How far apart they are, less for each stroke that is passed over."""
         passed = np.count_nonzero(~(self.own | self.others))
-        return self.farness() / thresholds.UNLOGGED_EDGE**passed
+        return float(self.over().max()) / thresholds.UNLOGGED_EDGE**passed
 
     def seldom(self, usual: Array, degrees: int, tried: float) -> bool:
-        """Whether they are apart by what matters, and more than chance would ever make them."""
-        chance = 2.0 * float(student.sf(self.farness(usual), degrees))
-        large = self.apart & (np.abs(self.shift) >= thresholds.UNLOGGED_PART)
-        scatter = np.maximum(np.maximum(self.scatter, usual), 1e-300)
-        over = np.sort(np.where(large, np.abs(self.shift), 0.0) / scatter)
+        """Whether they are apart by more than chance would ever make them."""
+        over = np.sort(self.over(usual))
         clear = over[-2] >= thresholds.UNLOGGED_SIGMAS or over[-1] >= thresholds.UNLOGGED_ALONE
+        chance = 2.0 * float(student.sf(over[-1], degrees))
         return self.enough() and bool(clear) and tried * chance < thresholds.UNLOGGED_CHANCE
 
 
