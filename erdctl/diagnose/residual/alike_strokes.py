@@ -177,9 +177,11 @@ class Split:
 
     def seldom(self, usual: Array, degrees: int, tried: float) -> bool:
         """Whether they are apart by more than chance would ever make them."""
-        over = np.sort(self.over(usual))
-        clear = over[-2] >= thresholds.UNLOGGED_SIGMAS or over[-1] >= thresholds.UNLOGGED_ALONE
-        chance = 2.0 * float(student.sf(over[-1], degrees))
+        over = self.over(usual)
+        much = np.abs(self.shift) >= thresholds.UNLOGGED_PART_ALONE
+        alone = bool((over[much] >= thresholds.UNLOGGED_ALONE).any())
+        clear = alone or np.sort(over)[-2] >= thresholds.UNLOGGED_SIGMAS
+        chance = 2.0 * float(student.sf(over.max(), degrees))
         return self.enough() and bool(clear) and tried * chance < thresholds.UNLOGGED_CHANCE
 
 
