@@ -17,7 +17,7 @@ from erdctl.diagnose.conditions import one_condition, one_motion, slow_far_out
 from erdctl.diagnose.detectable import Detectable
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.fault_wording import sets_in_once_text
-from erdctl.diagnose.findings import Finding
+from erdctl.diagnose.findings import Finding, matters
 from erdctl.diagnose.learning.words import law_words, worth_text
 from erdctl.diagnose.residual.lack_of_fit import LackOfFit
 from erdctl.diagnose.residual.places import MISFIT, WITHOUT_IT
@@ -84,8 +84,9 @@ def _left(found: Diagnosis) -> str:
             f" them apart, record --drive {bench.sweep}, --drive {bench.levels} and --drive"
             f" {bench.steps}{_hum(left)}"
         )
-    noise_alone = found.apart and not left.significant and found.learned is None
-    if cut or noise_alone or found.verdict is not Verdict.UNEXPLAINED:
+    alone = found.apart and found.learned is None  # what is not logged, and noise
+    alone = alone and not matters(found.problem, found.selection, left)
+    if cut or alone or found.verdict is not Verdict.UNEXPLAINED:
         rest = _noise(found) + _hum(left) + _of_records(found) + _begins(found)
         rest += _withdrawn(found)
         if cut:

@@ -91,7 +91,7 @@ def _is_a_zero(s: Split, splits: Sequence[Split]) -> bool:
         inside = (other.of.thirds[:, -1] > first) & (other.of.thirds[:, 0] < end)
         if inside.any() and not inside.all():
             there = other.of.beyond[inside].mean() - other.of.beyond[~inside].mean()
-            if there / own > thresholds.UNLOGGED_ZERO:
+            if there * own > thresholds.UNLOGGED_ZERO * own**2:
                 return True
     return False
 
