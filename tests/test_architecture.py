@@ -126,12 +126,13 @@ def effects_named_in(path: Path) -> set[str]:
     if path.parent.name == "rig":
         allowed = {"velocity_noise"}
     elif path.stem != "faults":
-        # An effect says which others force data can hardly tell from it, and which are part of it.
+        # An effect says which others force data can hardly tell from it, and which are part of it,
+        # and which have the name before it.
         effect = get(path.stem) if path.stem in names() else None
         allowed = set()
         if effect:
             allowed = {*effect.equivalents, *effect.companions, *effect.includes}
-            allowed |= {*effect.richer_than}
+            allowed |= {*effect.richer_than, *effect.gives_way_to}
     return (strings & known) - allowed
 
 

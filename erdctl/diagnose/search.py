@@ -17,7 +17,7 @@ from erdctl.diagnose.backward_step import (
     second_pass,
     without_each,
 )
-from erdctl.diagnose.carry_over import carries_over_as_well, to_other_motions, to_other_records
+from erdctl.diagnose.carry_over import to_other_motions, to_other_records
 from erdctl.diagnose.companion_effects import joint_tasks
 from erdctl.diagnose.comparison import compare_alike, critical_of, ranked
 from erdctl.diagnose.executor import Executor, Task
@@ -41,6 +41,7 @@ from erdctl.diagnose.richer_forms import (
     in_the_place_of_plain,
     plain_where_as_good,
 )
+from erdctl.diagnose.whose_name import has_the_name
 from erdctl.estimate.starts import fresh_start
 from erdctl.model.effect import Effect
 from erdctl.model.parameters import Parameters
@@ -173,16 +174,17 @@ def _named(
     alike: dict[str, tuple[tuple[str, Hypothesis], ...]] = {}
     for effect in x.added(best):
         found = look_alikes(x, best, effect, candidates, singles, untested)
-        name = effect.name
+        name, by_name = effect.name, {c.name: c for c in (*candidates, *untested)}
         richer = {c.name for c in candidates if c.richer_than and related(c, effect)}
         rest = x.explored[key_of(best.effects) - {name}]
         # It must be worth a name itself, or the next elimination leaves neither of the two.
         preferred = [
             f for f in found
             if not sure
-            and f[0] not in key_of(untested) and is_preferred(problem, f[1], best)
+            and f[0] not in key_of(untested)
+            and has_the_name(x, (by_name[f[0]], f[1]), (effect, best))
             and compare_alike(problem, rest, f[1]).significant
-            and carries_over_as_well(x, f[1], best) and not is_only_form(x, best, f[1])
+            and not is_only_form(x, best, f[1])
             and (f[0] not in richer or earns_it(x, best, f[1]))
         ]  # fmt: skip
         if preferred:

@@ -97,6 +97,7 @@ class Effect:
     includes : effects of which it has the whole in parameters of its own
     richer_than : effects of which it is a form with a parameter more: it is never beside them, but
         tried in their place, and by itself only where it promises clearly more
+    gives_way_to : effects that have the name where a log does not tell it from them
     sets_in : groups of which it takes a part from a time on, by the law of `erdctl.model.onset`,
         whose time a fit finds by a search of all (`estimate.onsets`); no others
     order : effects of one slot act in this order
@@ -126,6 +127,7 @@ class Effect:
     equivalents: tuple[str, ...] = ()
     includes: tuple[str, ...] = ()
     richer_than: tuple[str, ...] = ()
+    gives_way_to: tuple[str, ...] = ()
     said: str = ""
     alters: tuple[tuple[str, str], ...] = ()
     sets_in: tuple[str, ...] = ()

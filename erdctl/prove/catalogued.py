@@ -38,10 +38,15 @@ def right_names(
     return tuple(n for n in names if n != hidden)
 
 
-def structure(hidden: str) -> Effect:
-    """The catalogue's effect for a hidden one: of its name, or the first that is equivalent."""
-    own = [e for e in catalogue() if e.name == hidden]
-    return (own or [e for e in catalogue() if hidden in e.equivalents])[0]
+def structures(hidden: str) -> tuple[Effect, ...]:
+    """The catalogue's effects for a hidden one: of its name, and those that are equivalent.
+
+    Of two that no force tells apart one may have bounds that what is hidden has not: a preload
+    pushes outwards, whatever the zero of a channel does.
+    """
+    found = [e for e in catalogue() if e.name == hidden]
+    said = {n for e in found for n in e.equivalents}
+    return (*found, *(e for e in catalogue() if e.name in said or hidden in e.equivalents))
 
 
 def no_model_has(names: Collection[str], beside: Model, s: Signals, values: Values) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +24,7 @@ from erdctl.io.parameters import parse_parameters
 from erdctl.model.composed import Model
 from erdctl.prove.best import acts, best_fit, damper_values
 from erdctl.prove.case import LEFT_OUT, Sealed, opened
-from erdctl.prove.catalogued import right_names, structure
+from erdctl.prove.catalogued import right_names, structures
 from erdctl.prove.score import (
     Errors,
     Found,
@@ -231,10 +232,14 @@ def _errors(sealed: Sealed, found: Diagnosis, key: Mapping[str, Any]) -> Errors:
     base, corrected = found.selection.base, parameters(found)
     best = None
     if key["effects"] and all(e["catalogued"] for e in key["effects"]):
-        truth = [structure(e["name"]) for e in key["effects"]]
-        if acts(truth, signals):
-            reached = best_fit(found.problem, truth, damper_values(key), corrected.values)
-            best = rms(reached.model, reached.values)
+        of_each = product(*(structures(e["name"]) for e in key["effects"]))
+        reached = [
+            best_fit(found.problem, truth, damper_values(key), corrected.values)
+            for truth in of_each if acts(truth, signals)
+        ]  # fmt: skip
+        if reached:
+            least = min(reached, key=lambda r: r.cost)
+            best = rms(least.model, least.values)
     return Errors(
         paper=rms(base.model, base.values),
         corrected=rms(corrected.model, corrected.values),
