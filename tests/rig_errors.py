@@ -198,6 +198,10 @@ def _slow(r: Recording, random: Random) -> Recording:
     return _with(r, t=1e3 * r.t, xdot=r.xdot / 1e3)
 
 
+def _inverted(r: Recording, random: Random) -> Recording:
+    return _with(r, duty=r.duty.max() - r.duty)
+
+
 def _error(spoil: Spoil, codes: str, place: str) -> RigError:
     return RigError(spoil, frozenset(codes.split()), place)
 
@@ -233,5 +237,6 @@ ERRORS = {
     ),
     "noise of the velocity channel": _error(_velocity_noise, "velocity_noise", "log"),
     "delay of the velocity channel": _error(_velocity_lag, "velocity_lag", "log"),
+    "duty inverted": _error(_inverted, "duty_inverted", "log"),
     "zero of the velocity channel": _error(_velocity_zero, "velocity_offset", "log"),
 }  # fmt: skip

@@ -7,5 +7,12 @@ from __future__ import annotations
 
 from erdctl.effects import names
 
-LATER = {"damped_backlash"}
-KNOWN = tuple(name for name in names() if name not in LATER)
+LATER = ("damped_backlash", "deflection_offset", "duty_skew")  # in the order in which they came
+
+
+def known_before(name: str) -> tuple[str, ...]:
+    """The effects that there were before one of those came."""
+    return tuple(n for n in names() if n not in LATER[LATER.index(name) :])
+
+
+KNOWN = known_before("damped_backlash")

@@ -11,13 +11,14 @@ import pyarrow.parquet as pq
 import pytest
 import trajectories
 from rig import campaign, noisy, recording
+from seeded import known_before
 
 from erdctl.core.recording import Array, Recording, concatenate
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict, diagnose
 from erdctl.diagnose.kinds_of_excitation import kinds_of_motion, levels_of_duty
 from erdctl.diagnose.unseen import Left, kept_aside
 from erdctl.diagnose.wording import remaining_text
-from erdctl.effects import get, names
+from erdctl.effects import get
 from erdctl.io.diagnosis import to_json
 from erdctl.io.logs import read_logs
 from erdctl.plant import draw
@@ -99,7 +100,7 @@ def test_a_yield_stress_that_levels_off_between_the_levels_of_others_is_named(
 ) -> None:
     """The two records that tell where were kept aside, and what the others left open spoke
     against the right name there."""
-    case = draw(1572073, known=names())
+    case = draw(1572073, known=known_before("deflection_offset"))
     assert [t.name for t in case.truth] == ["field_saturation"]
     pq.write_table(log_of(case), tmp_path / "log.parquet")
     log = read_logs([str(tmp_path / "log.parquet")], need_force=True, report=print).recording

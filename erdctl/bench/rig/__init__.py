@@ -13,6 +13,7 @@ from erdctl.bench.rig import (
     clipping,
     control,
     frozen,
+    inverted,
     losses,
     scale,
     sign,
@@ -82,6 +83,8 @@ def _look(recording: Recording, looked: Looked) -> list[RigFault]:
     if recording.force is None:
         return faults
     faults += sign.check(found)
+    if not any(f.code == "force_sign" for f in faults):
+        faults += inverted.check(found)
     clipped = clipping.check(found, "force")
     faults += clipped + frozen.check(found, "force", clipped)
     faults += spikes.check(found, "force", clipped) + spikes.bursts(found, clipped)

@@ -10,11 +10,11 @@ import pyarrow.parquet as pq
 import pytest
 from places import SHARED
 from rig import real
+from seeded import known_before
 
 from erdctl import plant
 from erdctl.bench.rig import look
 from erdctl.core.recording import Recording
-from erdctl.effects import catalogue
 from erdctl.io.logs import read_logs
 
 LEFT_OUT = {"clipped_channel"}  # a fault of the rig, which the plant also draws
@@ -57,21 +57,21 @@ def test_a_record_without_field_is_not_accused(seed: int) -> None:
 def test_a_weak_record_is_not_held_against_what_a_model_misses_of_the_strong() -> None:
     """Without a field it had half of the force that a model of the others says, which misses as
     much of them: a gain of 0.45 in record 20 of 22 (`input_delay`)."""
-    known = frozenset(e.name for e in catalogue())
+    known = known_before("deflection_offset")
     case = plant.draw(1_660_047, kind="single", level=5.0, known=known)
     assert look(recorded(case)).lines() == []
 
 
 def test_a_friction_that_builds_up_over_its_travel_is_not_late() -> None:
     """Beside records with a field, two without one were said to be 60 and 72 ms late."""
-    case = plant.draw(440_087, known=frozenset(e.name for e in catalogue()))
+    case = plant.draw(440_087, known=known_before("deflection_offset"))
     assert [e["name"] for e in plant.key(case)["effects"]] == ["presliding_friction"]
     assert look(recorded(case)).lines() == []
 
 
 def test_what_a_gas_adds_at_both_ends_is_no_zero() -> None:
     """Of the record with the longest stroke it was 36 N in the mean."""
-    case = plant.draw(440_099, known=frozenset(e.name for e in catalogue()))
+    case = plant.draw(440_099, known=known_before("deflection_offset"))
     assert [e["name"] for e in plant.key(case)["effects"]] == ["gas_polytropic"]
     assert look(recorded(case)).lines() == []
 
@@ -80,7 +80,7 @@ def test_what_a_gas_adds_at_both_ends_is_no_zero() -> None:
 def test_a_gas_that_warms_is_no_zero(seed: int) -> None:
     """Of the record that warmed most it was 5 and 29 N in the mean, and -1 and -6 N in its first
     quarter: the record was left out, and the load cell to be set to zero."""
-    case = plant.draw(seed, known=frozenset(e.name for e in catalogue()))
+    case = plant.draw(seed, known=known_before("deflection_offset"))
     assert [e["name"] for e in plant.key(case)["effects"]] == ["gas_thermal_drift"]
     assert look(recorded(case)).lines() == []
 
