@@ -1,4 +1,5 @@
-"""Sound logs with a clock that jitters, a velocity with a zero, or a loop: what the rig is said of.
+"""Sound logs with a clock that jitters, a velocity with a zero, a loop, or a duty turned round: what
+is said of the rig.
 
 PYTHONPATH=.:tests:fixtures python tests/bench/rig/measure_clock_and_velocity.py
 """
@@ -75,7 +76,19 @@ def loops(seeds: range) -> Counter[str]:
     return count
 
 
+def inverted(seeds: range) -> Counter[str]:
+    """Logs said to have an inverted duty, as they are and with 1 - duty in its place."""
+    count: Counter[str] = Counter()
+    for seed in seeds:
+        r = recorded(plant.draw(seed, known=KNOWN))
+        count["logs"] += 1
+        count["accused"] += bool(said(r, "duty_inverted"))
+        count["found"] += bool(said(replace(r, duty=1.0 - r.duty), "duty_inverted"))
+    return count
+
+
 if __name__ == "__main__":
     print("clocks", dict(clocks(range(1_670_000, 1_670_060))))
     print("zeros", dict(zeros(range(1_677_000, 1_677_080))))
+    print("inverted", dict(inverted(range(1_799_000, 1_799_150))))
     print("loops", dict(loops(range(1_681_000, 1_681_030))))
