@@ -1,4 +1,4 @@
-"""Sound logs with a clock that jitters, a velocity with a zero, a loop, or a duty turned round: what
+"""Sound logs with a clock that jitters, a velocity with a zero, a loop, or an inverted duty: what
 is said of the rig.
 
 PYTHONPATH=.:tests:fixtures python tests/bench/rig/measure_clock_and_velocity.py
