@@ -40,7 +40,7 @@ def command(
     reason: T_d without duty steps, sigma and beta with one duty level. `inspect` shows it before.
 
     Faults of the rig are looked for first (see `inspect`): what they spoil is left out of the fit
-    and said, and a log that is spoiled as a whole, by a wrong sign or unit, is refused.
+    and said, and a log that is spoiled as a whole, by a wrong sign or unit, say, is refused.
 
     A log in Parquet or Arrow of more than 8 million samples is read to its end, and fitted to a
     sample of them: whole records, or windows of long ones, evenly drawn, the same in every run. It

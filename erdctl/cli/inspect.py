@@ -61,10 +61,10 @@ def command(
     and every effect of the catalogue that the log cannot identify: what was found, what is needed,
     and a drive that would show it. identify and diagnose decide by the same rules.
 
-    Faults of the rig come before that, each with its place and a remedy: a wrong sign or unit,
-    clipped or frozen channels, spikes, bursts of noise, lost samples, records unlike the others in
-    gain, zero, lag or noise, and a velocity channel that does not follow x. A long Parquet or Arrow
-    file is read in stretches, and may be larger than memory.
+    Faults of the rig come before that, each with its place and a remedy: a wrong sign or unit, an
+    inverted duty, clipped or frozen channels, spikes, bursts of noise, lost samples, records unlike
+    the others in gain, zero, lag or noise, and a velocity channel that does not follow x. A long
+    Parquet or Arrow file is read in stretches, and may be larger than memory.
 
     --forecast says of every effect from which size this motion and control would show it, for the
     paper's model and the noise of the force: also of a drive that is only planned, which has no

@@ -50,6 +50,16 @@ def test_identify_refuses_what_is_wrong_as_a_whole(tmp_path: Path) -> None:
     assert "rig" not in json.loads(out.read_text())["provenance"]
 
 
+def test_identify_refuses_a_duty_that_is_inverted(tmp_path: Path) -> None:
+    """A fault of the damper was said to set in, and to leave nothing of its field."""
+    log, out = spoiled("duty inverted", tmp_path), tmp_path / "p.json"
+    result = run("identify", log, "-o", out)
+    assert result.exit_code == 3
+    assert "active-low PWM" in result.stderr
+    assert not out.exists()
+    assert run("identify", log, "-o", out, "--accept", "duty_inverted").exit_code == 0
+
+
 def test_identify_says_what_it_left_out(tmp_path: Path) -> None:
     log, out = spoiled("one record with a gain", tmp_path), tmp_path / "p.json"
     result = run("identify", log, "-o", out, "--strict")
@@ -68,7 +78,7 @@ def test_accept_knows_its_codes(tmp_path: Path) -> None:
     assert "force_sign" in result.stderr
 
 
-@pytest.mark.parametrize("name", ["force reversed", "one record late"])
+@pytest.mark.parametrize("name", ["force reversed", "one record late", "duty inverted"])
 def test_diagnose_names_no_physics_for_it(name: str, tmp_path: Path) -> None:
     log, out = spoiled(name, tmp_path, 8_000), tmp_path / "d.json"
     words = ["--effects", ",".join(TEMPTING), "--strict", "--report", tmp_path / "d.html"]
