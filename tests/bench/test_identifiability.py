@@ -24,7 +24,8 @@ from erdctl.model.effect import Requirement, Stage
 
 RATE = 100.0
 CATALOGUE = catalogue()
-FIELD = {e.name for e in CATALOGUE if e.stage is Stage.FIELD or Requirement.LEVELS in e.requires}
+NEED = {Requirement.LEVELS, Requirement.STEPS}
+FIELD = {e.name for e in CATALOGUE if e.stage is Stage.FIELD or NEED & {*e.requires}}
 
 
 def clock(seconds: float) -> Array:

@@ -6,17 +6,16 @@ import io
 
 import numpy as np
 import pyarrow.parquet as pq
-from seeded import known_before
 
 from erdctl import plant
 from erdctl.diagnose.diagnosis import Verdict, diagnose
-from erdctl.effects import get
+from erdctl.effects import get, names
 from erdctl.io.logs import read_logs
 
 
 def test_a_charge_that_flow_carries_away_is_no_heat() -> None:
     """Of this yield force heat with a time constant of 0.11 s explained all but the noise."""
-    case = plant.draw(1_280_014, kind="unknown", known=known_before("deflection_offset"))
+    case = plant.draw(1_280_014, kind="unknown", known=names())
     assert [e["name"] for e in plant.key(case)["effects"]] == ["flow_discharge"]
     sink = io.BytesIO()
     pq.write_table(plant.log(case), sink)
