@@ -21,29 +21,17 @@ Source: T. I. Laakso et al., Splitting the unit delay, IEEE Signal Processing Ma
 
 from __future__ import annotations
 
-from itertools import pairwise
-
-import numpy as np
-
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.delayed_field import delayed_field
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import FieldSlot, Values
 
 
 def duty_skew(field: Array, s: Signals, p: Values, way: str) -> Array:
     """(n,) normalised steady yield force [1], its mean over each step; alike both ways."""
-    if p["tau"] == 0.0:
-        return field
-    out = field.copy()
-    for a, b in pairwise(s.starts.tolist()):
-        t, step = s.t[a:b] - s.t[a], s.step[a : b - 1]
-        area = np.concatenate([[0.0], np.cumsum(field[a : b - 1] * step)])
-        ahead = t + p["tau"]
-        passed = np.interp(ahead, t, area) + np.maximum(ahead - t[-1], 0.0) * field[b - 1]
-        out[a : b - 1] = np.diff(passed) / np.diff(ahead)
-    return out
+    return field if p["tau"] == 0.0 else delayed_field(field, s, -p["tau"])
 
 
 EFFECT = Effect(

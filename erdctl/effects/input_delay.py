@@ -19,31 +19,18 @@ dampers, Smart Mater. Struct. 15 (2006) 351-358 (delay before the response sets 
 
 from __future__ import annotations
 
-from itertools import pairwise
-
-import numpy as np
-
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.model.c_law import CLaw
+from erdctl.model.delayed_field import delayed_field
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import FieldSlot, Values
 
 
 def input_delay(field: Array, s: Signals, p: Values, way: str) -> Array:
     """(n,) normalised steady yield force [1], its mean over each step; alike both ways."""
-    if p["tau"] == 0.0:
-        return field
-    out = np.empty_like(field)
-    for a, b in pairwise(s.starts.tolist()):
-        t, step = s.t[a:b] - s.t[a], s.step[a : b - 1]
-        area = np.concatenate([[0.0], np.cumsum(field[a : b - 1] * step)])
-        late = t - p["tau"]
-        passed = np.interp(late, t, area) + np.minimum(late, 0.0) * field[a]
-        out[a : b - 1] = np.diff(passed) / np.diff(late)
-        out[b - 1] = np.interp(late[-1], t, field[a:b])
-    return out
+    return field if p["tau"] == 0.0 else delayed_field(field, s, p["tau"])
 
 
 EFFECT = Effect(
