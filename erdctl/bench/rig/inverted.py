@@ -11,12 +11,12 @@ from erdctl.bench.rig.pieces import Piece, spread
 from erdctl.core.recording import Array
 
 SAMPLES = 20_000  # that are looked at
-LEAST = 80  # of a record, away from reversals and duty steps, ten a column
+LEAST = 80  # of a record, away from reversals and duty steps, eight a column
 CHANGES = 0.03  # of the duty within a record, below which it is held
 MOST = 0.7  # of the records in which the duty changes, that must say so
 FEWEST = 3  # such records, and records of levels
-# Of the range of the force, that the yield force falls by in all: where it does so within records,
-# and where it only differs between them, as their gains do.
+# Of the range of the force, that the yield force falls by in all: where it does so within several
+# records, and where it only differs between them, as their gains do, or there are one or two.
 WITHIN, BETWEEN = 0.03, 0.15
 REMEDY = (
     "log the part of the time in which the voltage is on (1 - duty of an active-low PWM);"
@@ -27,11 +27,12 @@ REMEDY = (
 def check(found: Sequence[Piece]) -> list[RigFault]:
     """A yield force that falls with the duty, in compression and in release.
 
-        F = k_i x + c_i xdot + (S_i + D_i duty) sign(xdot),   i by direction
+        F = k_i x + c_i xdot + (S_i + W_i t + D_i duty) sign(xdot),   i by direction
 
-    Both D below 0 over all records, by a part of the force over the range of the duty, and both in
-    most of the records in which the duty changes; where too few do, over records of levels with any
-    of them left out: one that had lost its force is no inverted channel.
+    W is what wears off or warms while a control rises. Both D are below 0 over all records, by a
+    part of the force over the range of the duty, and in most of the records in which the duty
+    changes; where too few do, over records of levels with any of them left out: one that had lost
+    its force is no inverted channel.
     """
     rows = _rows(found)
     if len(rows) == 0:
@@ -41,8 +42,9 @@ def check(found: Sequence[Piece]) -> list[RigFault]:
     if np.ptp(duty) < CHANGES:
         return []
     changing = [r for r in rows.values() if np.ptp(r[0]) > CHANGES]
-    within = len(changing) >= FEWEST or len(changing) == len(rows)
-    falls = -(WITHIN if within else BETWEEN) * spread(force) / float(np.ptp(duty))
+    several = len(changing) >= FEWEST
+    within = several or len(changing) == len(rows)
+    falls = -(WITHIN if several else BETWEEN) * spread(force) / float(np.ptp(duty))
     slopes = _slopes(list(rows.values()))
     if not (slopes < falls).all():
         return []
@@ -68,19 +70,17 @@ def check(found: Sequence[Piece]) -> list[RigFault]:
 
 
 def _rows(found: Sequence[Piece]) -> dict[int, tuple[Array, Array, Array]]:
-    """Of each record with enough samples the duty (n,), columns (8, n) and the force (n,)."""
+    """Of each record with enough samples the duty (n,), columns (10, n) and the force (n,)."""
     every = 1 + sum(len(p) for p in found) // SAMPLES
     parts: dict[int, list[tuple[Array, Array, Array]]] = {}
     for p in found:
         use = ~p.near
         use[np.arange(len(p)) % every != 0] = False
         x, v, duty = p.x[use], p.xdot[use], p.of("duty")[use]
-        up = v > 0.0
-        sign = np.where(up, 1.0, -1.0)
-        columns = np.vstack([
-            sign * up, sign * ~up, x * up, x * ~up, v * up, v * ~up,
-            duty * sign * up, duty * sign * ~up,
-        ])  # fmt: skip
+        up, t = v > 0.0, p.t[use] - p.t[0]
+        either = np.array([up, ~up], dtype=np.float64)
+        sign = either * np.where(up, 1.0, -1.0)
+        columns = np.vstack([either * x, either * v, sign, sign * t, sign * duty])
         parts.setdefault(p.record, []).append((duty, columns, p.force[use]))
     joined = {
         r: (
