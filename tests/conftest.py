@@ -1,4 +1,4 @@
-"""The fixtures' independent solution, and one linear algebra thread for each test process."""
+"""The fixtures' independent solution, and one thread for each test process."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ from real_data import MARK, RealData
 
 sys.path.insert(0, str(FIXTURES))  # the oracle is a script's module, not part of the package
 # The processes are the parallelism.
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+for threads in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"):
+    os.environ.setdefault(threads, "1")
 quick_approx.install()
 # How long an example takes is the machine's affair; and whether a change is accepted is that of the
 # change, not of what was drawn this time. New draws: pytest --hypothesis-profile=random

@@ -202,6 +202,13 @@ def _inverted(r: Recording, random: Random) -> Recording:
     return _with(r, duty=r.duty.max() - r.duty)
 
 
+def _mislabelled(r: Recording, random: Random) -> Recording:
+    """With the least duty that is held in another record."""
+    duty, part = r.duty.copy(), _part(r)
+    duty[part] = min(duty[other].max() for other in r.slices if np.ptp(duty[other]) == 0.0)
+    return _with(r, duty=duty)
+
+
 def _error(spoil: Spoil, codes: str, place: str) -> RigError:
     return RigError(spoil, frozenset(codes.split()), place)
 
@@ -238,5 +245,8 @@ ERRORS = {
     "noise of the velocity channel": _error(_velocity_noise, "velocity_noise", "log"),
     "delay of the velocity channel": _error(_velocity_lag, "velocity_lag", "log"),
     "duty inverted": _error(_inverted, "duty_inverted", "log"),
+    "one record with the duty of another": _error(
+        _mislabelled, "record_duty record_gain", "record"
+    ),
     "zero of the velocity channel": _error(_velocity_zero, "velocity_offset", "log"),
 }  # fmt: skip

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from erdctl.diagnose.diagnosis import Diagnosis
 from erdctl.diagnose.sets_in_once import SetsInOnce
 
-RIG = " or a gain of the rig"
+RIG, LABEL = " or a gain of the rig", " or a duty other than logged"
 
 
 def as_fault_text(found: Diagnosis) -> str:
@@ -40,10 +40,19 @@ def sets_in_once_text(found: Diagnosis) -> str:
         "is noise as far as these data tell" if once.confirmed.explained else "is more than noise"
     )
     if once.whole:
-        said = (
-            f"{fault} all along {once.named(names)} leaves f = {once.f:.3g} there of what the"
-            " others have; what else changes from one record to another, as the damper's warmth"
-            f"{RIG * once.may_be_a_gain}, may look like it"
+        may_be = f"{RIG * once.may_be_a_gain}{LABEL * once.may_be_a_duty}"
+        there = once.named(names)
+        if once.odd == once.records:
+            said = (
+                f"{fault} all along {there} leaves f = {once.f:.3g} there of what the others have"
+            )
+        else:
+            forces = " and ".join(once.effect.sets_in)
+            said = f"in {there} the {forces} force is {1.0 / max(once.f, 1e-3):.3g} times that of"
+            said += f" all others, as if these had {fault} all along (f = {once.f:.3g})"
+        said += (
+            "; what else changes from one record to another, as the damper's"
+            f" warmth{may_be}, may look like it"
         )
     else:
         said = f"{fault} that sets in once, at {once.when} of record {names[once.record]!r}, leaves"

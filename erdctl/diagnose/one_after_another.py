@@ -65,14 +65,16 @@ def _only_without_its_records(found: Diagnosis, again: Diagnosis) -> bool:
 
 def _place(recording: Recording, once: SetsInOnce, share: float) -> Region:
     """Where to look first: in the records that have the fault, from the onset on."""
-    lengths = np.diff(recording.starts)[list(once.records)]
+    lengths = np.diff(recording.starts)[list(once.odd)]
     own = recording.t[recording.slices[once.record]]
     before = 0 if once.whole else int(np.searchsorted(own, float(np.mean(once.at))))
     time = float(lengths.sum() - before) / len(recording)
     where = f"after the onset of a fault at {once.when} of record {recording.names[once.record]!r}"
     if once.whole:
         where = f"in {once.named(recording.names)}, as of a fault all along"
-    low, high = min(once.records) + 1.0, max(once.records) + 1.0
+    if once.odd != once.records:
+        where = f"in {once.named(recording.names)}, as if all others had a fault"
+    low, high = min(once.odd) + 1.0, max(once.odd) + 1.0
     return Region(Variable.RECORD, low, high, share, time, said(share, time, where))
 
 

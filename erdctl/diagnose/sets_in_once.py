@@ -78,10 +78,26 @@ class SetsInOnce:
         return len(records) > 1 and records == tuple(range(records[0], last + 1))
 
     @property
+    def odd(self) -> tuple[int, ...]:
+        """Records to look at: those that have it, or the few that have not, whatever the reason."""
+        without = self.order[: self.first]
+        few = self.whole and not self.stays and len(without) < len(self.records)
+        return without if few else self.records
+
+    @property
     def may_be_a_gain(self) -> bool:
         """Whether it, or what the data do not tell from it, takes a part of all forces alike."""
-        alike = (self.effect.name, *(self.confirmed.alike if self.confirmed else ()))
-        return any(e.name in alike and set(GROUPS) <= {*e.sets_in} for e in self.kinds)
+        return any(set(GROUPS) <= {*e.sets_in} for e in self._alike)
+
+    @property
+    def may_be_a_duty(self) -> bool:
+        """The same of the yield force alone, as another duty than is logged does."""
+        return any(e.sets_in == ("yield",) for e in self._alike)
+
+    @property
+    def _alike(self) -> list[Effect]:
+        names = (self.effect.name, *(self.confirmed.alike if self.confirmed else ()))
+        return [e for e in self.kinds if e.name in names]
 
     def of_those(self, telling: Iterable[int], begins: Array) -> SetsInOnce:
         """The same of the records that tell of it alone; where it stays, from the first that does.
@@ -100,9 +116,9 @@ class SetsInOnce:
         return replace(self, order=order, first=len(order) - len(having), whole=whole, at=at)
 
     def named(self, names: Sequence[str]) -> str:
-        """The records that have it, in words."""
-        own = ", ".join(repr(names[r]) for r in self.records)
-        return f"record{'s' * (len(self.records) > 1)} {own}"
+        """The records to look at, in words."""
+        own = ", ".join(repr(names[r]) for r in self.odd)
+        return f"record{'s' * (len(self.odd) > 1)} {own}"
 
     @property
     def when(self) -> str:

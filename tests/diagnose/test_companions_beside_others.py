@@ -64,7 +64,9 @@ def test_they_are_found_together_and_hold_on_another_motion() -> None:
     fitted, other = (
         log.select([i for i, held in enumerate(fast) if held is out]) for out in (False, True)
     )
-    candidates = [get(n) for n in CANDIDATES]
+    candidates = [
+        get(n) for n in CANDIDATES[:5]
+    ]  # with all of them the same, in four times as long
     found = diagnose(thinned(fitted, 6_000), candidates, limits=False, learning=False)
     assert {f.effect.name for f in found.findings} >= TOGETHER
     assert error(other, of_model(found.selection.base, other)) > 0.07

@@ -25,7 +25,7 @@ from erdctl.score.nrmse import Normalise, nrmse
 
 pytestmark = pytest.mark.real_data
 
-MOST = 20_000  # samples of a log for a diagnosis; the prediction is of all samples
+MOST, FEW = 20_000, 6_000  # samples of a log for a diagnosis; the prediction is of all samples
 EFFECTS = 3  # at most; the five of the command predict better still, and take twice as long
 
 
@@ -52,9 +52,9 @@ def split(name: str, text: str) -> tuple[Recording, Recording]:
 
 
 @cache
-def diagnosis(name: str, text: str) -> Diagnosis:
-    """What is found on the records without a text in their names."""
-    log = thinned(split(name, text)[0], MOST)
+def diagnosis(name: str, text: str, most: int = MOST) -> Diagnosis:
+    """What is found on so many samples of the records without a text in their names."""
+    log = thinned(split(name, text)[0], most)
     return diagnose(log, catalogue(), most=EFFECTS, limits=False, learning=False)
 
 
@@ -109,7 +109,8 @@ def test_friction_damper_with_backlash(inches: str, reached: float) -> None:
     They begin at rest, in the middle of the play.
     """
     text = f"tension{inches}amplitude"
-    found, held = diagnosis("friction_sine.parquet", text), split("friction_sine.parquet", text)[1]
+    found = diagnosis("friction_sine.parquet", text, FEW)
+    held = split("friction_sine.parquet", text)[1]
     assert {"backlash", "mount_compliance"} <= named(found)
     assert 0.0035 < found.selection.best.values["backlash.g"] < 0.005
     paper, corrected = held_out(found, held)
@@ -120,10 +121,8 @@ def test_friction_damper_with_backlash(inches: str, reached: float) -> None:
 def test_ahead_of_an_expert_and_of_black_boxes() -> None:
     """On the stroke that was left out; `tests/prove/measure_real_dampers.py` has other splits."""
     text = "tension1.5amplitude"
-    found, (fitted, held) = (
-        diagnosis("friction_sine.parquet", text),
-        split("friction_sine.parquet", text),
-    )
+    found = diagnosis("friction_sine.parquet", text, FEW)
+    fitted, held = split("friction_sine.parquet", text)
     _, corrected = held_out(found, held)
     name, by_hand = expert(fitted, held)
     others = {name: by_hand, **black_boxes(fitted, held, found.selection.base)}

@@ -1,4 +1,4 @@
-"""A record whose force has another gain, zero, lag or noise than the others have.
+"""A record whose force has another gain, zero, lag, noise or duty than the others have.
 
 Each record is a few numbers: the size of its force, its mean, its lag behind a model, its noise.
 Over the records of a test these follow what the test varied, the duty, speed and stroke, with
@@ -24,6 +24,7 @@ from erdctl.bench.rig.linear_model import (
     steady,
 )
 from erdctl.bench.rig.pieces import THIN, Piece, spread
+from erdctl.bench.rig.record_duty import mislabelled
 from erdctl.bench.rig.record_lag import late
 from erdctl.bench.rig.trend import clearest
 from erdctl.core.quantiles import median, percentiles
@@ -62,7 +63,7 @@ def check(found: Sequence[Piece]) -> list[RigFault]:
     least = AT_REST * max(spread(p.x) for p in found)
     moving = [p for p in found if spread(p.x) > least and p.record not in loud]
     rows = best_rows(first_of_each(moving)) if moving else []
-    kinds: list[Callable[[Sequence[Rows]], RigFault | None]] = [_gained, _zeroed, late]
+    kinds: list[Callable[[Sequence[Rows]], RigFault | None]] = [mislabelled, _gained, _zeroed, late]
     for kind in kinds:
         # The clearest first: left in, it widens the scatter that the next is held against.
         for _ in range(max(1, len(rows) // 3)):
@@ -158,8 +159,8 @@ def _gain_fault(r: Rows, ratio: float, scatter: float) -> RigFault:
         "record_gain", r.piece.record,
         f"its force is {ratio:.3g} times what the other records say{known}; these differ from their"
         f" trend by {100 * scatter:.2g} %",
-        "it is left out of fits; look at the amplifier's range and the unit; if the damper itself"
-        " changed, diagnose this record alone", blocks=True,
+        "it is left out of fits; look at the amplifier's range, the unit and what its duty was; if"
+        " the damper itself changed, diagnose this record alone", blocks=True,
     )  # fmt: skip
 
 

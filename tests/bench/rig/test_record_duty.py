@@ -1,0 +1,101 @@
+"""A record with another duty than is logged for it, and what looks like one and is none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from by_hand import recording
+
+from erdctl.bench.rig import look
+from erdctl.bench.rig.fault import RigFault
+from erdctl.core.recording import Array, Recording
+
+LEVELS, MOTIONS = (0.0, 0.1, 0.2, 0.3), ((0.6, 0.02), (1.5, 0.01), (4.0, 0.004))  # [1]; [Hz], [m]
+AT = 7  # of the twelve records the second of the third level
+
+
+def sines(
+    force: Callable[[Array, Array], Array], duty: float = 0.2, spread: float = 0.0
+) -> Recording:
+    """Four levels by three motions; another duty is logged for record AT than it has.
+
+    force : of velocity and duty, beside spring, viscous and yield force [N]
+    """
+    random, t = np.random.default_rng(2), np.arange(800) / 200.0
+    parts = []
+    for k in range(len(LEVELS) * len(MOTIONS)):
+        level, (f, size) = LEVELS[k // 3], MOTIONS[k % 3]
+        x, v = (size * g(2 * np.pi * f * t) for g in (np.sin, np.cos))
+        v *= 2 * np.pi * f
+        u = np.full(len(t), level)
+        F = 170.0 * x + 50.0 * v + 20.0 * u**0.5 * np.sign(v) + force(v, u)
+        F *= 1.0 + spread * random.standard_normal()
+        parts.append((v, x, u, F + 0.2 * random.standard_normal(len(t))))
+    v, x, u, F = (np.concatenate(c) for c in zip(*parts, strict=True))
+    u[800 * AT : 800 * (AT + 1)] = duty
+    n = len(parts)
+    return recording(
+        v, x=x, duty=u, force=F, t=np.tile(t, n), starts=[800 * k for k in range(n + 1)]
+    )
+
+
+def none(v: Array, duty: Array) -> Array:
+    return np.zeros_like(v)
+
+
+def said(r: Recording) -> list[RigFault]:
+    return [f for f in look(r).faults if f.code == "record_duty"]
+
+
+@pytest.mark.parametrize("logged", [0.0, 0.1])
+@pytest.mark.parametrize("spread", [0.0, 0.01])
+def test_a_wrong_label_is_found(logged: float, spread: float) -> None:
+    assert said(sines(none, spread=spread)) == []
+    (fault,) = said(sines(none, logged, spread))
+    assert fault.record == AT
+    assert fault.blocks
+    assert f"at 20 % duty, and {100 * logged:.3g} % is logged" in fault.text
+
+
+def test_a_lower_duty_is_left_to_the_diagnosis() -> None:
+    """As little voltage as an electrical fault leaves."""
+    assert said(sines(none, 0.3)) == []
+
+
+def test_swapped_labels() -> None:
+    """The one that is logged too low is found, beside the other."""
+    r = sines(none, 0.1)
+    duty = r.duty.copy()
+    duty[800 * 4 : 800 * 5] = 0.2
+    assert [f.record for f in said(replace(r, duty=duty))] == [AT]
+
+
+def test_more_friction_in_the_slow_records_is_none() -> None:
+    def stribeck(v: Array, duty: Array) -> Array:
+        return 4.0 * np.exp(-((v / 0.02) ** 2)) * np.sign(v)
+
+    assert said(sines(stribeck)) == []
+
+
+@pytest.mark.parametrize("fastest", [False, True])
+def test_a_level_or_a_motion_that_nothing_else_has_is_none(fastest: bool) -> None:
+    """A law of the field, or of the speed, may be what is missing there."""
+    r = sines(none, 0.05)
+    assert said(r) == []
+    fast = sines(none, 0.1)
+    kept = [k for k in range(12) if k == AT or (k % 3 == 0 if fastest else k // 3 != 1)]
+    assert said(fast.select(kept)) == []
+
+
+def test_the_first_records_before_a_fault_of_the_supply_are_none() -> None:
+    """Healthy ones, with a part of the field in all behind them, are told by the diagnosis."""
+    r = sines(none)
+    assert r.force is not None
+    yielding = 20.0 * r.duty**0.5 * np.sign(r.xdot)
+    late = np.arange(len(r)) >= 800 * 8
+    assert said(replace(r, force=r.force - 0.4 * late * yielding)) == []
+    early = np.arange(len(r)) >= 800 * 4
+    assert said(replace(r, force=r.force - 0.4 * early * yielding)) == []
