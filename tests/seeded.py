@@ -7,7 +7,10 @@ from __future__ import annotations
 
 from erdctl.effects import names
 
-LATER = ("damped_backlash", "deflection_offset", "duty_skew")  # in the order in which they came
+# In the order in which they came.
+LATER = (
+    "damped_backlash", "deflection_offset", "duty_skew", "force_lowpass", "motion_skew",
+)  # fmt: skip
 
 
 def known_before(name: str) -> tuple[str, ...]:

@@ -25,7 +25,7 @@ NEXT = 0.02  # of full scale, by which levels differ
 
 
 @dataclass(frozen=True, eq=False)
-class _Held:
+class _Against:
     """A record against a model of the others.
 
     duty : that is logged;  field : its yield force over that model's, U [1];  motion : (2,) speed
@@ -40,7 +40,7 @@ class _Held:
     theta: Array
 
     @classmethod
-    def against(cls, others: Array, r: Rows) -> _Held:
+    def against(cls, others: Array, r: Rows) -> _Against:
         p, yielding = r.piece, r.columns[r.smooth, 5] - r.columns[r.smooth, 6]
         return cls(
             r, median(p.of("duty")), median(np.abs(yielding)),
@@ -48,7 +48,7 @@ class _Held:
             _rms((r.force - r.columns @ others)[r.smooth]), others,
         )  # fmt: skip
 
-    def moves_within(self, others: Sequence[_Held]) -> bool:
+    def moves_within(self, others: Sequence[_Against]) -> bool:
         """Whether its speed and stroke lie between those of others, or close to one."""
         all_of = np.array([h.motion for h in others])
         low, high = all_of.min(axis=0) / (1.0 + ALIKE), all_of.max(axis=0) * (1.0 + ALIKE)
@@ -66,7 +66,7 @@ def mislabelled(rows: Sequence[Rows]) -> RigFault | None:
     with a field came before it, or the supply may have failed behind it. A lower duty than logged
     is left to the diagnosis: an electrical fault leaves less voltage as well.
     """
-    held = [_Held.against(of_others(rows, i), r) for i, r in enumerate(rows)]
+    held = [_Against.against(of_others(rows, i), r) for i, r in enumerate(rows)]
     missed = median([h.misfit for h in held])
     for own in sorted(held, key=lambda h: -h.misfit):
         if own.misfit < BEYOND * missed:
@@ -83,7 +83,7 @@ def mislabelled(rows: Sequence[Rows]) -> RigFault | None:
     return None
 
 
-def _level(own: _Held, sound: Sequence[_Held], missed: float) -> float | None:
+def _level(own: _Against, sound: Sequence[_Against], missed: float) -> float | None:
     """The higher duty that a record was taken at; None if it was not, or that is not sure."""
     r = own.rows
     if np.ptp(r.piece.of("duty")) >= STEADY:
@@ -116,7 +116,7 @@ def _level(own: _Held, sound: Sequence[_Held], missed: float) -> float | None:
     return level.duty if left < _rms(F - gain * scaled) else None
 
 
-def _nearest(field: float, own: _Held, sound: Sequence[_Held]) -> _Held | None:
+def _nearest(field: float, own: _Against, sound: Sequence[_Against]) -> _Against | None:
     """The one of a higher level that has such a yield force; None where two have nearly that."""
     held = [h for h in sound if np.ptp(h.rows.piece.of("duty")) < STEADY]
     by_distance = sorted(held, key=lambda h: abs(h.field - field))
