@@ -70,6 +70,12 @@ def noisy(clean: Recording, seed: int, rms: float = 0.3, correlation: float = 0.
     return replace(clean, force=clean.force + rms * noise)
 
 
+def every(r: Recording, count: int) -> Recording:
+    """One sample of so many: a control that changes between two is seen at the second."""
+    rows = np.concatenate([np.arange(part.start, part.stop, count) for part in r.slices])
+    return r.take(rows, np.searchsorted(rows, r.starts), r.names)
+
+
 def real(name: str, shared: Path) -> Path:
     """A real recording, or a skip that says what is missing."""
     path = shared / name

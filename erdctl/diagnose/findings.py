@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from erdctl.core.signals import Signals
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import Comparison, compare
 from erdctl.diagnose.discriminating_drive import DiscriminatingDrive, discriminating_drive
@@ -28,6 +29,7 @@ class Finding:
 
     gain : against the best model without it, on what neither has seen;  acts : where it does
     before, after : NRMSE on groups left out of the fit, without and with it
+    caveat : what its value says besides, as of a delay within a sample
     test : the drive that would tell it from its equivalents, if it has any
     """
 
@@ -39,6 +41,7 @@ class Finding:
     after: float
     runner_up: str | None
     test: DiscriminatingDrive | None
+    caveat: str = ""
 
     @property
     def where(self) -> Region | None:
@@ -54,6 +57,7 @@ def findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
     with_all = best.model.force(problem.block.signals, best.values)
     chosen = {e.name for e in best.effects}
     order = (h.effects[-1].name for h in selection.singles)
+    step = Signals.of(problem.recording).typical_step
     runner = next((name for name in order if name not in chosen), None)
     for effect in selection.named:
         without = selection.without[effect.name]
@@ -72,6 +76,7 @@ def findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
                 before=float(np.sqrt(gain.before)) / scale,
                 after=float(np.sqrt(gain.after)) / scale,
                 runner_up=runner,
+                caveat=effect.caveat(effect.local(best.values), step) if effect.caveat else "",
             )
         )
     return tuple(sorted(found, key=lambda f: -_share(selection, f)))

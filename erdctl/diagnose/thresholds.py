@@ -467,6 +467,11 @@ CORNERS = 0.5
 # Origin: none.
 BEGINS = 2.0
 
+# Rest of all samples over that of those which a fit weighs, from which both are said.
+# Decides: a sentence alone, never a name.
+# Origin: none.
+ALL_OVER_WEIGHED = 1.1
+
 # Highest speed (that of all but a hundredth of the samples) at large deflections (beyond a quarter
 # of the range from its middle) over that at any, below which nothing tests a model at both.
 # Decides: a sentence alone, never a name.

@@ -6,12 +6,8 @@ from collections.abc import Sequence
 from math import floor, isfinite, log10
 from typing import Any
 
-import numpy as np
-
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import Bench
-from erdctl.bench.unknown_direction import shares
-from erdctl.core.blocks import SETTLE
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.conditions import one_condition, one_motion, slow_far_out
 from erdctl.diagnose.detectable import Detectable
@@ -19,6 +15,7 @@ from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.fault_wording import sets_in_once_text
 from erdctl.diagnose.findings import Finding, matters
 from erdctl.diagnose.learning.words import law_words, worth_text
+from erdctl.diagnose.noise_wording import begins_text, noise_text
 from erdctl.diagnose.residual.lack_of_fit import LackOfFit
 from erdctl.diagnose.residual.places import MISFIT, WITHOUT_IT
 from erdctl.diagnose.residual.record_levels import taken_by_levels
@@ -32,7 +29,8 @@ UNPREDICTED = "of the square of what no regression predicts, noise included,"
 def finding_text(finding: Finding) -> str:
     """One finding in words."""
     e = finding.effect
-    text = f"{e.title}: {worth_text(finding)}"
+    caveat = finding.caveat and f"{finding.caveat}; "
+    text = f"{e.title}: {caveat}{worth_text(finding)}"
     if finding.where is not None:
         where = finding.where.text
         own = where.replace(MISFIT, "of the square of its force", 1)
@@ -87,7 +85,7 @@ def _left(found: Diagnosis) -> str:
     alone = found.apart and found.learned is None  # what is not logged, and noise
     alone = alone and not matters(found.problem, found.selection, left)
     if cut or alone or found.verdict is not Verdict.UNEXPLAINED:
-        rest = _noise(found) + _hum(left) + _of_records(found) + _begins(found)
+        rest = noise_text(found) + _hum(left) + _of_records(found) + begins_text(found)
         rest += _withdrawn(found)
         if cut:
             limits = "; ".join(f.text for f in found.rig.cut)
@@ -97,10 +95,7 @@ def _left(found: Diagnosis) -> str:
         )
         return "; ".join([rest, *undetected_text(found.undetected)])
     if found.learned is not None and not left.significant:
-        return (
-            f"{_laws(found)}; with that, what remains, {found.carried.overall.rms:.3g} N rms, is"
-            f" noise as far as these data tell{_hum(left)}{_withdrawn(found)}"
-        )
+        return f"{_laws(found)}; with that, {noise_text(found)}{_hum(left)}{_withdrawn(found)}"
     if not left.significant and (once := sets_in_once_text(found)):
         return f"what no law in the time of every record says{once}{_hum(left)}{_withdrawn(found)}"
     words = "" if found.learned is None else f"{_laws(found)}; with that, "
@@ -155,24 +150,6 @@ def _none_of(found: Diagnosis) -> str:
     return several if found.tried > 1 else "no effect that was tried"
 
 
-def _noise(found: Diagnosis) -> str:
-    """That what is left is noise, or nearly so beside all that was missing."""
-    left, rms = found.lack_of_fit, found.carried.overall.rms
-    best = (found.learned or found).selection.best
-    unsure = shares(best.problem.unsure, best.residual**2)
-    of_unsure = "" if unsure is None else unsure.beside(rms)
-    told = f"{rms * (1.0 if unsure is None else unsure.others):.3g} N rms"
-    noise, misfit = left.noise_rms, left.misfit_rms
-    if not left.significant or misfit <= thresholds.MISFIT_OVER_NOISE * noise:
-        return f"what remains, {told}, is noise as far as these data tell{of_unsure}"
-    share = misfit**2 / max(found.selection.base.score - noise**2, 1e-300)
-    return (
-        f"what remains, {told}, is a noise of {noise:.3g} N and {misfit:.3g} N that motion and duty"
-        f" still predict, {100 * share:.2g} % of the square of what was missing: too little beside"
-        f" that for a name{of_unsure}"
-    )
-
-
 def _of_records(found: Diagnosis) -> str:
     """That most of what is left tells records apart, and nothing of their motion."""
     share = taken_by_levels((found.learned or found).selection.best)
@@ -183,26 +160,6 @@ def _of_records(found: Diagnosis) -> str:
         " record's own: of a rig whose records scatter, or of what changes from record to record in"
         " the damper, as its warmth or the strokes that it has made; no motion within them tells"
         " which (--record-gains --record-offsets carry it)"
-    )
-
-
-def _begins(found: Diagnosis) -> str:
-    """That records begin with a misfit, where nothing weighs it."""
-    best = found.selection.best
-    s, weight = best.problem.block.signals, best.problem.block.weight
-    begun = np.repeat(s.t[s.starts[:-1]], np.diff(s.starts))
-    first = (weight == 0.0) & (s.t - begun <= SETTLE) & ~best.problem.unsure
-    if not first.any():
-        return ""
-    there, behind = (
-        float(np.sqrt(np.mean(best.residual[part] ** 2))) for part in (first, weight > 0.0)
-    )
-    if there < thresholds.BEGINS * behind:
-        return ""
-    return (
-        f"; in the first {SETTLE:g} s of records, which no fit weighs since states settle there, it"
-        f" is {there:.3g} N rms, and {behind:.3g} N behind that: with which state a"
-        " record begins is not told, and what acts there alone is not looked for"
     )
 
 

@@ -34,6 +34,14 @@ def duty_skew(field: Array, s: Signals, p: Values, way: str) -> Array:
     return field if p["tau"] == 0.0 else delayed_field(field, s, -p["tau"])
 
 
+def within_a_sample(p: Values, step: float) -> str:
+    """Half a step is what a duty has in the mean that switches when it likes."""
+    if p["tau"] >= step:
+        return ""
+    between = f"less than the {1e3 * step:.3g} ms between samples"
+    return f"{between}, as of a duty that switches between them"
+
+
 EFFECT = Effect(
     name="duty_skew",
     stage=Stage.SENSOR,
@@ -52,5 +60,6 @@ EFFECT = Effect(
             low=0.0, high=1.0, start=5e-3,
         ),
     ),
+    caveat=within_a_sample,
     order=-10,  # the measuring chain comes before the supply
 )  # fmt: skip

@@ -33,6 +33,14 @@ def input_delay(field: Array, s: Signals, p: Values, way: str) -> Array:
     return field if p["tau"] == 0.0 else delayed_field(field, s, p["tau"])
 
 
+def to_a_sample(p: Values, step: float) -> str:
+    """A switch is logged at the next sample: half a step late in the mean, if it comes when it
+    likes."""
+    if p["tau"] > 5.0 * step:
+        return ""
+    return f"more by half of a step of {1e3 * step:.3g} ms if the duty switches between samples"
+
+
 EFFECT = Effect(
     name="input_delay",
     stage=Stage.FIELD,
@@ -51,6 +59,7 @@ EFFECT = Effect(
             low=0.0, high=1.0, start=5e-3,
         ),
     ),
+    caveat=to_a_sample,
     order=10,  # of a constant delay and a memoryless law the order does not matter
     c=CLaw(
         state=("length", "tail", "count", "old_span", "old_value", "new_span", "new_value"),

@@ -102,6 +102,7 @@ class Effect:
         whose time a fit finds by a search of all (`estimate.onsets`); no others
     order : effects of one slot act in this order
     c : the same in C99, for the export;  writes_c : makes it, where that costs something
+    caveat : (p, step) what a value says besides, on samples so far apart [s]; "" for nothing
     causal : what goes on sample by sample, where the effect itself, for fits, looks ahead
     earlier : parameters that files lack which were written before there were any, and what they are
         there: a number, or the symbol whose value it is
@@ -135,6 +136,7 @@ class Effect:
     earlier: tuple[tuple[str, float | str], ...] = ()
     c: CLaw | None = field(default=None, repr=False)
     causal: Causal | None = field(default=None, repr=False)
+    caveat: Callable[[Values, float], str] | None = field(default=None, repr=False, compare=False)
     writes_c: Callable[[], CLaw] | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:

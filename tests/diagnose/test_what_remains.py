@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +11,7 @@ from rig import campaign, noisy
 
 from erdctl.core.signals import Signals
 from erdctl.diagnose.diagnosis import Verdict, diagnose
+from erdctl.diagnose.problem import prepare
 from erdctl.diagnose.wording import remaining_text
 from erdctl.effects import get
 
@@ -47,3 +49,22 @@ def test_that_xdot_was_derived_is_said_of_what_is_not_explained() -> None:
     block = found.problem.block._replace(signals=Signals.of(log))
     of_derived = replace(found, problem=replace(found.problem, recording=log, block=block))
     assert said in remaining_text(of_derived)
+
+
+@pytest.mark.parametrize("over", [1.0, 1.5])
+def test_what_no_fit_weighs_is_not_called_noise(over: float) -> None:
+    """1.59 N were said to be noise beside a noise of 0.218 N, of samples next to turns."""
+    r = noisy(campaign(100.0, 8.0), 4)
+    unsure = prepare(r).unsure
+    assert r.force is not None
+    assert 0.0 < np.mean(unsure) < 0.2
+    more = 0.3 * np.sqrt((over**2 - 1.0) / np.mean(unsure))
+    force = r.force + more * unsure * np.where(np.arange(len(r)) % 2, 1.0, -1.0)
+    found = diagnose(
+        replace(r, force=force), [get("coulomb_friction")], limits=False, learning=False
+    )
+    assert found.verdict is Verdict.ADEQUATE
+    said = remaining_text(found)
+    assert re.search(r"what remains, 0\.(29|30)\d* N rms, is noise as far as these data tell", said)
+    assert ("of all samples, with those next to turns" in said) == (over > 1.0)
+    assert ("which no fit weighs, it is 0.4" in said) == (over > 1.0)

@@ -7,10 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from by_hand import signals
-from rig import campaign, noisy
+from rig import campaign, every, noisy
 
 from erdctl.core.recording import Recording
 from erdctl.diagnose.diagnosis import diagnose
+from erdctl.diagnose.wording import finding_text
 from erdctl.effects import get
 from erdctl.effects.duty_skew import duty_skew
 from erdctl.effects.input_delay import input_delay
@@ -62,3 +63,20 @@ def test_a_duty_that_is_logged_late_has_a_name(samples: int) -> None:
     assert finding.equivalent == ()
     assert found.verdict.value == "explained"
     assert found.fit.values["duty_skew.tau"] == pytest.approx(0.01 * samples, abs=1e-3)
+
+
+def test_a_duty_that_switches_between_samples_is_said_to() -> None:
+    """It is half a sample late in the mean, on a bench on which nothing is."""
+    found = diagnose(
+        noisy(every(campaign(1000.0, 8.0), 20), 5, rms=0.1), [get(n) for n in RIVALS], limits=False
+    )
+    (finding,) = found.findings
+    assert finding.effect.name == "duty_skew"
+    assert found.fit.values["duty_skew.tau"] == pytest.approx(0.01, abs=3e-3)
+    assert "less than the 20 ms between samples, as of a duty that switches" in finding_text(
+        finding
+    )
+
+
+def test_a_duty_that_is_later_than_a_sample_is_late() -> None:
+    assert get("duty_skew").caveat({"tau": 0.021}, 0.02) == ""

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from by_hand import signals
-from rig import campaign, noisy
+from rig import campaign, every, noisy
 from scipy.signal import lfilter
 
 from erdctl.core.recording import Array, Recording
@@ -33,8 +33,7 @@ def filtered(*poles: float) -> Recording:
             force[part] = lfilter(
                 [1.0 - kept], [1.0, -kept], force[part], zi=[kept * force[part][0]]
             )[0]
-    rows = np.concatenate([np.arange(p.start, p.stop, EVERY) for p in fine.slices])
-    return replace(fine, force=force).take(rows, np.searchsorted(rows, fine.starts), fine.names)
+    return every(replace(fine, force=force), EVERY)
 
 
 def named(*poles: float) -> Diagnosis:

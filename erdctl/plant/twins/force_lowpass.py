@@ -1,7 +1,8 @@
 """The force channel is behind an amplifier's low-pass filter.
 
 A first pole of s times 0.1 s, and a second, faster by the drawn ratio, as the filter before a
-converter has. Each is an average of the past under an exponential, node by node.
+converter has. Each is an average of the past under an exponential, exact for straight lines from
+node to node.
 """
 
 from __future__ import annotations
@@ -16,16 +17,27 @@ from erdctl.plant.plant import Plant
 from erdctl.plant.twin import Law, Scales, Shape, Twin
 
 
-def _one_pole(F: Array, kept: float) -> Array:
-    """y[k] = kept y[k-1] + (1 - kept) F[k], settled before the first node."""
-    out, _ = lfilter([1.0 - kept], [1.0, -kept], F, zi=[kept * F[0]])
-    return np.asarray(out)
+def _one_pole(F: Array, v: Array, steps: float) -> Array:
+    """Of a time constant of so many steps, settled before the first node.
+
+    Where the motion turns inside a step the force may jump there, and not in its middle.
+    """
+    kept = exp(-1.0 / steps)
+    now = 1.0 - (1.0 - kept) * steps
+    source = (1.0 - kept - now) * F[:-1] + now * F[1:]
+    turns = np.flatnonzero(v[1:] * v[:-1] < 0.0)
+    before = v[turns] / (v[turns] - v[turns + 1])
+    until, since = np.exp(-before / steps), np.exp((before - 1.0) / steps)
+    source[turns] = (1.0 - until) * since * F[turns] + (1.0 - since) * F[turns + 1]
+    out, _ = lfilter([1.0], [1.0, -kept], source, zi=[kept * F[0]])
+    return np.append(F[0], out)
 
 
 def _recorded(F: Array, grid: FineGrid, p: Values) -> Array:
+    v = grid.v
     for pole in (p["slow"], p["fast"]):
         if pole > 0.0:
-            F = _one_pole(F, exp(-grid.h / pole))
+            F, v = _one_pole(F, v, pole / grid.h), np.ones_like(v)  # a filtered force has no jump
     return F
 
 
