@@ -60,6 +60,7 @@ def command(
       erdctl validate damper.json other.csv --plot loops.png --plot time:force.png
     """
     from erdctl.bench.rig import look
+    from erdctl.bench.rig.fault import sound
     from erdctl.bench.unknown_direction import unknown_direction
     from erdctl.cli.long import UNMODELLED, validate_long
     from erdctl.cli.pictures import draw, wanted, wants
@@ -88,7 +89,7 @@ def command(
         if params == "-" and "-" in logs:
             raise UsageProblem("PARAMS and LOG cannot both be stdin")
         parameters = read_parameters(params)
-    long = unknown = None
+    long = unknown = as_fitted = None
     if report is None and not asked:  # which take the whole log
         long = validate_long(parameters, logs, Normalise(normalise), options)
     if long is not None:
@@ -110,17 +111,26 @@ def command(
         labels = dict(log.recording.labels)
         rig = look(log.recording, modelled).accept(accept)
         found = validate(log.recording, modelled, Normalise(normalise))
+        mended = sound(log.recording, rig.faults)
+        if parameters is not None and mended is not log.recording:
+            again = validate(mended, simulate(parameters, mended), Normalise(normalise))
+            as_fitted = again.overall
         assert log.recording.force is not None
         peak = max(float(log.recording.force.max()), -float(log.recording.force.min()))
         unknown = unknown_direction(Signals.of(log.recording), log.recording.force - modelled)
     show(rig)
     if unknown is not None:
         say(unknown.text(found.overall.nrmse))
+    if as_fitted is not None:
+        say(
+            "the errors below are with the channels as they are logged; on what fits take in their"
+            f" place the NRMSE of all samples is {as_fitted.nrmse:.4f} ({as_fitted.rms:.4g} N)"
+        )
     if as_json:
         from erdctl.io import documents
         from erdctl.io.validation import to_json
 
-        documents.write(to_json(found, labels, rig.to_json(), unknown), "-")
+        documents.write(to_json(found, labels, rig.to_json(), unknown, as_fitted), "-")
     else:
         _show(found, peak)
     if report is not None:

@@ -110,3 +110,16 @@ def test_inspect_lists_them(tmp_path: Path) -> None:
     assert result.exit_code == 1
     assert {f["code"] for f in json.loads(result.stdout)["rig"]} == {"x_clipped"}
     assert run("inspect", FIXTURES / "healthy_campaign.parquet", "--strict").exit_code == 0
+
+
+def test_validate_says_the_error_on_what_fits_take(tmp_path: Path) -> None:
+    """The table was of a velocity that is noise, beside a note that the derivative of x is taken."""
+    log, out = spoiled("noise of the velocity channel", tmp_path), tmp_path / "p.json"
+    assert run("identify", log, "-o", out).exit_code == 0
+    result = run("validate", out, log)
+    assert "the errors below are with the channels as they are logged" in result.stderr
+    found = json.loads(run("validate", out, log, "--json").stdout)
+    assert found["as_fitted"]["nrmse"] < 0.5 * found["nrmse"]
+    assert found["as_fitted"]["samples"] == found["samples"]
+    accepted = run("validate", out, log, "--json", "--accept", "velocity_noise")
+    assert "as_fitted" not in json.loads(accepted.stdout)
