@@ -10,6 +10,7 @@ from erdctl.effects import names
 # In the order in which they came.
 LATER = (
     "damped_backlash", "deflection_offset", "duty_skew", "force_lowpass", "force_crosstalk",
+    "clock_drift",
 )  # fmt: skip
 
 

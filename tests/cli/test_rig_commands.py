@@ -113,7 +113,7 @@ def test_inspect_lists_them(tmp_path: Path) -> None:
 
 
 def test_validate_says_the_error_on_what_fits_take(tmp_path: Path) -> None:
-    """The table was of a velocity that is noise, beside a note that the derivative of x is taken."""
+    """The table was of a velocity that is noise, and the note said that another one is taken."""
     log, out = spoiled("noise of the velocity channel", tmp_path), tmp_path / "p.json"
     assert run("identify", log, "-o", out).exit_code == 0
     result = run("validate", out, log)

@@ -72,7 +72,7 @@ def test_of_no_time_it_is_none_and_records_begin_anew() -> None:
     assert force_lowpass(column, s, {"tau": 0.4}) == pytest.approx(column)
 
 
-@pytest.mark.parametrize("tau", [0.006, 0.02])
+@pytest.mark.parametrize("tau", [0.006, pytest.param(0.02, marks=pytest.mark.long)])
 def test_it_has_a_name(tau: float) -> None:
     """Behind 15 ms a lag of the signed yield force, a delay, a power of the speed and a Stribeck
     friction were named, behind 5 ms two laws of the fluid learned; none of it is there."""

@@ -17,7 +17,7 @@ from erdctl.prove.coverage import Held, conceal, read
 WITH_LAWS = [name for name, twin in every().items() if twin.law is not None]
 # A simulation in samples' steps cannot place these: the sample next to a turn or a contact is of
 # the one side or the other, and the fit leaves it out, or counts it as no more than noise.
-BY_SAMPLES = {"time_skew", "velocity_noise", "backlash", "damped_backlash"}
+BY_SAMPLES = {"time_skew", "clock_drift", "velocity_noise", "backlash", "damped_backlash"}
 
 
 def share(held: list[Held], widened: float = 1.0) -> float:
