@@ -49,6 +49,16 @@ def delays(s: Signals, rest: Array) -> list[dict[str, float]]:
     return [{"tau": way * size} for size in sizes for way in (1.0, -1.0)]
 
 
+def of_the_motion(p: Values, step: float) -> str:
+    """No channel is ahead of what it shows: another one is behind."""
+    if p["tau"] >= 0.0:
+        return ""
+    return (
+        "early is to say that the motion was recorded late, as a deflection behind a filter; a dead"
+        " time of the field of about as much beside it is then none of the fluid"
+    )
+
+
 EFFECT = Effect(
     name="time_skew",
     stage=Stage.MOTION,
@@ -67,4 +77,5 @@ EFFECT = Effect(
         ),
     ),
     guesses=delays,
+    caveat=of_the_motion,
 )  # fmt: skip
