@@ -23,7 +23,7 @@ def beyond_corners(t: Array, x: Array, at: Index, offsets: Index, variance: floa
 
     t : (n,) [s];  at : (k,) samples;  offsets : of the surroundings of a corner, as many on either
     side, without those within which it is, as the samples are;  variance : of the noise of x [m^2]
-    Check: of |k|, of |k| with a spike of -0.7 at its corner and of 0.7 beside it; k^2 has none.
+    Check: of |k|, and with a spike of -0.7 at its corner, and two samples beside; k^2 has none.
     >>> k, near = np.arange(-12.0, 13.0), np.array([-6, -5, -4, -3, 3, 4, 5, 6])
     >>> values = abs(k), abs(k) - 0.7 * (k == 0), abs(k) - 0.7 * (k == 2), k**2
     >>> at = np.array([12]), np.array([12]), np.array([14]), np.array([12])
