@@ -516,13 +516,14 @@ MOST_OF_IT = 0.5
 # Origin: budget; the last two none.
 KNOTS_ACROSS, SURFACES_FITTED, WIDER, AS_FEW = 4, 2, 0.1, 0.9
 
-# Points of a curve as documents give it.
+# Points of a curve as documents give it, and those among which its words look for its ends.
 # Origin: budget.
-CURVE_POINTS = 33
+CURVE_POINTS, CURVE_WORDS = 33, 1025
 
-# Part of a curve's range by which it may turn back from point to point and be told by its ends.
-# Origin: none; it decides words only.
-FLAT = 0.01
+# Part of a curve's range by which it may go beyond its ends and be told by them, and of its largest
+# size below which a value is said as 0.
+# Origin: none; they decide words only.
+FLAT, NONE_OF_IT = 0.01, 1e-3
 
 # Time constants of a memory that are tried, the shortest in steps of the log; of one that goes by
 # the way the shortest travel, over the stroke.

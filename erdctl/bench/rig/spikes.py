@@ -8,13 +8,15 @@ from typing import NamedTuple
 import numpy as np
 
 from erdctl.bench.rig.fault import RigFault, marked
+from erdctl.bench.rig.motion_corners import beyond_corners
 from erdctl.bench.rig.pieces import NEAR, Piece, largest_near, resolution, spread, widened
 from erdctl.core.messages import counted
 from erdctl.core.quantiles import median, medians, percentiles
-from erdctl.core.recording import Array, Index, Recording
+from erdctl.core.recording import DERIVED, Array, Index, Recording
 
 HALF = 8  # samples on either side that a spike is held against
 WIDE = 2  # of those, the nearest, which it may take up itself
+AROUND = np.array([k for k in range(-HALF, HALF + 1) if abs(k) > WIDE])
 SIGMAS = 8.0
 OVER = 3.0  # times what its surroundings vary by: noise with a memory has peaks, too
 RANGE = 0.04  # of the channel's range
@@ -84,6 +86,9 @@ def _spikes(found: Sequence[Piece], channel: str, clipped: Sequence[RigFault]) -
         if not len(at):
             continue
         noise = p.noise(channel)[0]
+        if channel == "x" and p.recording.xdot_note.startswith(DERIVED):
+            variance = noise**2 + resolution(p.x) ** 2 / 12.0
+            height = np.minimum(height, beyond_corners(p.t, p.x, at, AROUND, variance))
         if channel == "force":
             # Where the piston turns, or touches rest, a sound force jumps there and back, but by no
             # more than it spans.
@@ -242,13 +247,12 @@ def _standing_out(values: Array, *, smooth: bool) -> tuple[Index, Array]:
     scale = median(d2)
     centre = np.flatnonzero(d2 > 5.0 * scale) + 1
     centre = centre[(centre >= HALF) & (centre < n - HALF)]
-    offsets = np.array([k for k in range(-HALF, HALF + 1) if abs(k) > WIDE])
-    around, own = values[centre[:, None] + offsets], values[centre]
+    around, own = values[centre[:, None] + AROUND], values[centre]
     if smooth and len(centre):
-        half = len(offsets) // 2
+        half = len(AROUND) // 2
         left, right = medians(around[:, :half]), medians(around[:, half:])
-        middle = median(offsets[half:])
-        around = around - np.outer((right - left) / (2.0 * middle), offsets)
+        middle = median(AROUND[half:])
+        around = around - np.outer((right - left) / (2.0 * middle), AROUND)
     # But for the highest and the lowest, which may be the next spike.
     around = np.partition(around, (1, around.shape[1] - 2), axis=1)
     low, high = around[:, 1], around[:, -2]

@@ -40,6 +40,7 @@ class LearnedLaw:
     tau : the time constant of its coordinate, if that has one [s], or its travel [m]
     z : of each coordinate (k,) values;  f : (k,) or (k, m) the curve [N], [m], or [1] of a factor
         less 1
+    turns : (z, f) where a curve over one coordinate is smallest and largest, also between those
     """
 
     law: Law
@@ -48,6 +49,7 @@ class LearnedLaw:
     tau: float | None
     z: tuple[Array, ...]
     f: Array
+    turns: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,12 +132,16 @@ def _law(found: Selection, finding: Finding, values: Values) -> LearnedLaw:
     law, p = effect.law, effect.local(values)
     curve = law.curve
     z = tuple(np.linspace(*axis.range, thresholds.CURVE_POINTS) for axis in curve.axes)
+    sizes = np.array([p[q.symbol] for q in law.curve.amplitudes(law.unit)])
+    turns: tuple[tuple[float, float], ...] = ()
     if isinstance(curve, Surface):
         shape = len(z[0]), len(z[1])
         rows = curve.at_both(np.repeat(z[0], shape[1]), np.tile(z[1], shape[0]))
     else:
         shape, rows = z[0].shape, curve.at(z[0], p)
-    sizes = np.array([p[q.symbol] for q in law.curve.amplitudes(law.unit)])
+        fine = np.linspace(*curve.axes[0].range, thresholds.CURVE_WORDS)
+        f = sizes @ curve.at(fine, p)
+        turns = tuple((float(fine[k]), float(f[k])) for k in (f.argmin(), f.argmax()))
     others = [h.effects[-1] for _, h in found.look_alikes[effect.name]]
     return LearnedLaw(
         law=law,
@@ -144,4 +150,5 @@ def _law(found: Selection, finding: Finding, values: Values) -> LearnedLaw:
         tau=p.get("tau"),
         z=z,
         f=(sizes @ rows).reshape(shape),
+        turns=turns,
     )

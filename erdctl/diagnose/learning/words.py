@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.findings import Finding
 from erdctl.diagnose.learning.stage import LearnedLaw
@@ -63,7 +61,7 @@ def worth_text(worth: Finding) -> str:
 
 
 def _course(found: LearnedLaw) -> str:
-    """How far a law goes, over which range."""
+    """How far a law goes, over which range; and where it turns, if it goes beyond its ends."""
     law, f = found.law, found.f
     size, unit = UNITS.get(law.unit, (1.0, law.unit))
     ends = []
@@ -72,15 +70,35 @@ def _course(found: LearnedLaw) -> str:
         ends.append([f"{v * factor:.3g} {of}".rstrip() for v in axis.range])
     low, high = (" and ".join(of) for of in zip(*ends, strict=True))
     first, last = float(f.flat[0]), float(f.flat[-1])
+    turns = found.turns or ((0.0, float(f.min())), (0.0, float(f.max())))
+    least, most = (value for _, value in turns)
+    none = thresholds.NONE_OF_IT * max(-least, most)
+
+    def said(value: float) -> str:
+        return f"{size * value if abs(value) > none else 0.0:.3g}"
+
     if law.unit != "1":
-        how = f", from {size * first:.3g} {unit} at {low} to {size * last:.3g} {unit} at {high}"
-        extremes = f", between {size * f.min():.3g} and {size * f.max():.3g} {unit}"
+        how = f", from {said(first)} {unit} at {low} to {said(last)} {unit} at {high}"
+        extremes = f", between {said(least)} and {said(most)} {unit}"
     else:
         change = (1.0 + last) / max(1.0 + first, thresholds.LEAST_FACTOR) - 1.0
-        how = f", by {100 * change:+.0f} % from {low} to {high}"
+        how = f", by {_percent(change)} from {low} to {high}"
         extremes = (
-            f", between {100 * f.min():+.0f} and {100 * f.max():+.0f} % of itself at its reference"
+            f", between {_percent(least).removesuffix(' %')} and {_percent(most)} of itself"
+            " at its reference"
         )
-    rises = np.diff(f) * np.sign(last - first)
-    turns = f.ndim > 1 or float(rises.min()) < -thresholds.FLAT * float(np.ptp(f))
-    return how + (extremes if turns else "")
+    if f.ndim > 1:
+        return how + extremes
+    # Its ends say nothing of a bump or a dip, and least of all where they are alike.
+    beyond = min(first, last) - least, most - max(first, last)
+    factor, of = UNITS.get(law.curve.kind.unit, (1.0, law.curve.kind.unit))
+    places = [
+        f"the {word} at {factor * z:.3g} {of}".rstrip()
+        for word, far, (z, _) in zip(("smallest", "largest"), beyond, turns, strict=True)
+        if far > thresholds.FLAT * (most - least)
+    ]
+    return how + (f"{extremes}, {' and '.join(places)}" if places else "")
+
+
+def _percent(part: float) -> str:
+    return f"{round(100 * part):+d} %"
