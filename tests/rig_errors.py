@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
-from erdctl.core.recording import Array, Recording
+from erdctl.core.recording import Array, Index, Recording
 
 Random = np.random.Generator
 Spoil = Callable[[Recording, Random], Recording]
@@ -209,6 +210,23 @@ def _mislabelled(r: Recording, random: Random) -> Recording:
     return _with(r, duty=duty)
 
 
+def held(values: Array, over: float, starts: Index | None = None) -> Array:
+    """Values (n,) that are read once in so many samples, from the first of each record on."""
+    out = values.copy()
+    for a, b in pairwise([0, len(values)] if starts is None else starts.tolist()):
+        read = np.ceil(np.arange(np.ceil((b - a) / over)) * over - 1e-9).astype(int)
+        out[a:b] = values[a:b][read[np.searchsorted(read, np.arange(b - a), side="right") - 1]]
+    return out
+
+
+def _x_held(r: Recording, random: Random) -> Recording:
+    return _with(r, x=held(r.x, 5.0, r.starts))
+
+
+def _force_held(r: Recording, random: Random) -> Recording:
+    return _with(r, force=held(_force(r), 5.0, r.starts))
+
+
 def _error(spoil: Spoil, codes: str, place: str) -> RigError:
     return RigError(spoil, frozenset(codes.split()), place)
 
@@ -248,5 +266,7 @@ ERRORS = {
     "one record with the duty of another": _error(
         _mislabelled, "record_duty record_gain", "record"
     ),
+    "x held": _error(_x_held, "x_held", "log"),
+    "force held": _error(_force_held, "force_held", "log"),
     "zero of the velocity channel": _error(_velocity_zero, "velocity_offset", "log"),
 }  # fmt: skip

@@ -62,9 +62,10 @@ def command(
     and a drive that would show it. identify and diagnose decide by the same rules.
 
     Faults of the rig come before that, each with its place and a remedy: a wrong sign or unit, an
-    inverted duty, clipped or frozen channels, spikes, bursts of noise, lost samples, records unlike
-    the others in gain, zero, lag, noise or duty, and a velocity channel that does not follow x. A
-    long Parquet or Arrow file is read in stretches, and may be larger than memory.
+    inverted duty, channels that are clipped, frozen or held (read at a slower rate than the log),
+    spikes, bursts of noise, lost samples, records unlike the others in gain, zero, lag, noise or
+    duty, and a velocity channel that does not follow x. A long Parquet or Arrow file is read in
+    stretches, and may be larger than memory.
 
     --forecast says of every effect from which size this motion and control would show it, for the
     paper's model and the noise of the force: also of a drive that is only planned, which has no

@@ -13,6 +13,7 @@ from erdctl.bench.rig import (
     clipping,
     control,
     frozen,
+    held,
     inverted,
     losses,
     scale,
@@ -22,7 +23,9 @@ from erdctl.bench.rig import (
     velocity,
 )
 from erdctl.bench.rig.fault import Rig, RigFault, sound
+from erdctl.bench.rig.holding import hold
 from erdctl.bench.rig.looking import Looked
+from erdctl.bench.rig.pieces import FEWEST, Piece
 from erdctl.core.recording import Array, Index, Recording
 from erdctl.core.stretches import Stretch, stretches
 
@@ -73,22 +76,42 @@ class Looking:
 
 def _look(recording: Recording, looked: Looked) -> list[RigFault]:
     found = looked.pieces(recording)
-    faults = scale.check(found) + velocity.check(found) + control.check(found)
+    faults = held.check(found, "x")
+    guessed = {p.record for p in found if hold(p.x) > 1.0} if faults else set()
+    if (between := sound(recording, faults)) is not recording:
+        found = looked.pieces(between)
+    faults += scale.check(found) + velocity.check(found) + control.check(found)
     # What follows is held against motion and control, so not against what is wrong of these.
     if (sounder := sound(recording, faults)) is not recording:
         found = looked.pieces(sounder)
     clipped = clipping.check(found, "x")
     faults += clipped + frozen.check(found, "x", clipped)
-    faults += losses.gaps(found) + losses.jumps(found, clipped) + spikes.check(found, "x", clipped)
+    # Between samples of an x that is held nothing jumps but what the curve through them misses.
+    known = [p for p in found if p.record not in guessed]
+    faults += losses.gaps(found) + (losses.jumps(known, clipped) if known else [])
+    faults += spikes.check(found, "x", clipped)
     if recording.force is None:
         return faults
-    faults += sign.check(found)
-    if not any(f.code == "force_sign" for f in faults):
-        faults += inverted.check(found)
+    once = held.check(found, "force")
+    if not once:
+        return faults + _of_force(found, faults)
+    # Of a force that is held each value is looked at once.
+    thinner, rows = held.read(sounder)
+    found = [p for p in looked.pieces(thinner) if len(p) >= FEWEST]
+    more = _of_force(found, faults) if found else []
+    placed = [f if f.samples is None else replace(f, samples=rows[f.samples]) for f in more]
+    return faults + once + placed
+
+
+def _of_force(found: list[Piece], faults: list[RigFault]) -> list[RigFault]:
+    """What is wrong with the force, beside faults of the motion and the control."""
+    out = sign.check(found)
+    if not any(f.code == "force_sign" for f in out):
+        out += inverted.check(found)
     clipped = clipping.check(found, "force")
-    faults += clipped + frozen.check(found, "force", clipped)
-    faults += spikes.check(found, "force", clipped) + spikes.bursts(found, clipped)
-    wrong = {f.record for f in faults if f.blocks}
+    out += clipped + frozen.check(found, "force", clipped)
+    out += spikes.check(found, "force", clipped) + spikes.bursts(found, clipped)
+    wrong = {f.record for f in [*faults, *out] if f.blocks}
     if None not in wrong:
-        faults += unlike.check([p for p in found if p.record not in wrong])
-    return faults
+        out += unlike.check([p for p in found if p.record not in wrong])
+    return out

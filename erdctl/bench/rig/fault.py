@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from erdctl.bench.differentiation import derive_xdot
 from erdctl.bench.held_duty import held_duty
+from erdctl.bench.rig.holding import between
 from erdctl.bench.rig.pieces import FEWEST
 from erdctl.core.errors import InputProblem, UsageProblem
 from erdctl.core.recording import Index, Recording
@@ -19,7 +21,7 @@ CODES = (
     "force_clipped", "x_clipped", "force_frozen", "x_frozen", "force_spikes", "x_spikes",
     "force_burst", "samples_missing", "x_jumps", "velocity_noise", "velocity_lag", "velocity_gain",
     "velocity_offset", "duty_noise", "duty_inverted", "record_gain", "record_offset", "record_lag",
-    "record_noise", "record_duty",
+    "record_noise", "record_duty", "x_held", "force_held",
 )  # fmt: skip
 REFUSED = 3  # faults that one message tells
 VELOCITY_CODES = ("velocity_noise", "velocity_lag", "velocity_gain")
@@ -131,7 +133,8 @@ class Rig:
 
         Without the records that cannot be used, unless there are no others; samples at fault are
         marked in `excluded`; a velocity channel at fault is left out for the derivative of x, or
-        has its zero taken off; a duty with noise is taken at the levels that it holds.
+        has its zero taken off; a duty with noise is taken at the levels that it holds, and a held x
+        on the curve between the samples at which it is read.
         """
         if self.recording is None:
             raise ValueError("a log that was read in stretches is not there to be used")
@@ -151,20 +154,19 @@ class Rig:
 
 def sound(recording: Recording, faults: Collection[RigFault]) -> Recording:
     """The recording with the derivative of x in the place of a velocity channel at fault, or with
-    that channel less its zero; and with the levels of a duty with noise.
+    that channel less its zero; with the levels of a duty with noise; and with x as it goes between
+    the samples at which it is read, where it is held.
     """
     codes = {f.code for f in faults}
-    if "duty_noise" in codes and (held := held_duty(recording.duty, recording.starts)) is not None:
-        recording = replace(recording, duty=held.duty)
-    if zero := sum(f.zero for f in faults):
-        return replace(recording, xdot=recording.xdot - zero)
-    if codes.isdisjoint(VELOCITY_CODES):
-        return recording
-    from erdctl.bench.differentiation import derive_xdot
-
     r = recording
-    xdot, note = derive_xdot(r.t, r.x, r.starts)
-    return replace(r, xdot=xdot, xdot_note=f"{note}, the column xdot being left out")
+    if "duty_noise" in codes and (held := held_duty(r.duty, r.starts)) is not None:
+        r = replace(r, duty=held.duty)
+    if zero := sum(f.zero for f in faults):
+        r = replace(r, xdot=r.xdot - zero)
+    elif not codes.isdisjoint(VELOCITY_CODES):
+        xdot, note = derive_xdot(r.t, r.x, r.starts)
+        r = replace(r, xdot=xdot, xdot_note=f"{note}, the column xdot being left out")
+    return between(r) if "x_held" in codes else r
 
 
 def marked(recording: Recording, faults: Collection[RigFault]) -> npt.NDArray[np.bool_]:
