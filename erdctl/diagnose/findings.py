@@ -76,7 +76,7 @@ def findings(problem: Problem, selection: Selection) -> tuple[Finding, ...]:
                 before=float(np.sqrt(gain.before)) / scale,
                 after=float(np.sqrt(gain.after)) / scale,
                 runner_up=runner,
-                caveat=effect.caveat(effect.local(best.values), step) if effect.caveat else "",
+                caveat=effect.caveat(effect.among(best.values), step) if effect.caveat else "",
             )
         )
     return tuple(sorted(found, key=lambda f: -_share(selection, f)))

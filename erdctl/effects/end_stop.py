@@ -65,6 +65,17 @@ def starts(s: Signals, rest: Array) -> list[Values]:
     ]  # fmt: skip
 
 
+def softer_than_the_gas(p: Values, step: float) -> str:
+    """No end of a stroke gives way more readily than the spring within it."""
+    gas = max(p.get("compression.k_nom", 0.0), p.get("release.k_nom", 0.0))
+    if max(p["k_c"], p["k_r"]) >= gas:
+        return ""
+    return (
+        "softer than the gas spring, so a spring that stiffens along the stroke, or a deflection"
+        " channel that is not linear, rather than a stop"
+    )
+
+
 EFFECT = Effect(
     name="end_stop",
     stage=Stage.MOTION,
@@ -105,6 +116,7 @@ EFFECT = Effect(
     ),
     columns=end_stop,
     guesses=starts,
+    caveat=softer_than_the_gas,
     earlier=(("x_r", "x_stop"), ("theta", 0.0), ("e", 1e-3)),
     c=CLaw(
         force="""

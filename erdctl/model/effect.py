@@ -102,7 +102,8 @@ class Effect:
         whose time a fit finds by a search of all (`estimate.onsets`); no others
     order : effects of one slot act in this order
     c : the same in C99, for the export;  writes_c : makes it, where that costs something
-    caveat : (p, step) what a value says besides, on samples so far apart [s]; "" for nothing
+    caveat : (p, step) what a value says besides, on samples so far apart [s], "" for nothing; p are
+        the effect's own values by symbol and those of the whole model by name
     causal : what goes on sample by sample, where the effect itself, for fits, looks ahead
     earlier : parameters that files lack which were written before there were any, and what they are
         there: a number, or the symbol whose value it is
@@ -206,6 +207,10 @@ class Effect:
     def key(self, symbol: str) -> str:
         """Name of a parameter among those of a whole model, e.g. `coulomb_friction.F_c`."""
         return f"{self.name}.{symbol}"
+
+    def among(self, values: Values) -> dict[str, float]:
+        """Its own values by symbol, beside all of a model."""
+        return {**values, **self.local(values)}
 
     def local(self, values: Values) -> dict[str, float]:
         """This effect's own values out of those of a whole model; amplitudes may be missing."""

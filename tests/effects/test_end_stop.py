@@ -6,6 +6,10 @@ import numpy as np
 import pytest
 from made import signals, unit_forces
 
+from erdctl.effects import get
+from erdctl.effects.end_stop import softer_than_the_gas
+
+STOP = get("end_stop")
 SPRING = {"x_stop": 0.02, "x_r": 0.02, "theta": 0.0, "e": 1e-3}
 
 
@@ -38,3 +42,12 @@ def test_damping_from_the_first_touch_is_a_dashpot_beside_the_spring() -> None:
     mirrored = signals(-v, x=np.full(3, -0.02 - d))
     other = unit_forces("end_stop", mirrored, SPRING | {"theta": theta, "e": 1e-6})[1]
     assert other == pytest.approx(-found)
+
+
+def test_a_stop_that_is_softer_than_the_gas_is_said_to_be_none() -> None:
+    """Of a deflection channel that is bent by a tenth 38 N/m of "stiff contact" were named."""
+    values = {"compression.k_nom": 170.0, "release.k_nom": 120.0, "end_stop.k_c": 0.0}
+    soft, stiff = (STOP.among(values | {"end_stop.k_r": k}) for k in (38.0, 800.0))
+    assert "rather than a stop" in softer_than_the_gas(soft, 0.002)
+    assert softer_than_the_gas(stiff, 0.002) == ""
+    assert STOP.caveat is softer_than_the_gas
