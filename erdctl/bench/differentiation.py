@@ -20,6 +20,7 @@ from erdctl.bench.deflection_noise import (
     variance_at,
 )
 from erdctl.core.errors import InputProblem
+from erdctl.core.messages import duration
 from erdctl.core.recording import DERIVED, Array, Index
 
 WINDOW = 0.020  # s: passes what a damper test moves at (below 20 Hz), averages sensor noise
@@ -134,7 +135,7 @@ def _record(t: Array, x: Array, step: float, even: bool) -> tuple[Array, str]:
     )
     noise = square**0.5
     error = noise * slope_errors(x.size, width, degree)
-    span = f"{width} samples = {1e3 * (width - 1) * step:.3g} ms"
+    span = f"{width} samples = {duration((width - 1) * step)}"
     fallen = f"{bandwidth(width, step, degree):.3g} Hz"
     if not even:
         note = f"local quadratic fits at the uneven times ({span}; -3 dB near {fallen})"

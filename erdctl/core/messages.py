@@ -41,6 +41,26 @@ def counted(count: int, noun: str) -> str:
     return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
 
 
+def plain(value: float, digits: int = 3) -> str:
+    """A number with so many significant digits, and no exponent below a million.
+
+    >>> plain(1234.5), plain(0.29649), plain(-148.8), plain(-0.0)
+    ('1230', '0.296', '-149', '0')
+    """
+    return f"{float(f'{value:.{digits}g}') + 0.0:g}"
+
+
+def duration(seconds: float, digits: int = 3) -> str:
+    """A time as a sentence has it: in ms, or in s from 1 s on.
+
+    >>> duration(0.296), duration(1.2345), duration(0.99996), duration(0.01, 2)
+    ('296 ms', '1.23 s', '1 s', '10 ms')
+    """
+    if abs(float(f"{seconds:.{digits}g}")) >= 1.0:
+        return f"{plain(seconds, digits)} s"
+    return f"{plain(1e3 * seconds, digits)} ms"
+
+
 # No-break and thin spaces stand in units and numbers, and harm nobody.
 _SPACES = "\u00a0\u2009\u202f"
 

@@ -11,6 +11,7 @@ from erdctl.bench.direction_of_motion import certain
 from erdctl.bench.identifiability import held_values, unmet
 from erdctl.core.blocks import SETTLE, Block, pieces, sample
 from erdctl.core.errors import InputProblem
+from erdctl.core.messages import duration
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import DIRECTIONS, Recording
 from erdctl.estimate.covariance import Fit, estimates, together
@@ -164,7 +165,7 @@ def _of_lags(names: Sequence[str], taken: Values | None) -> list[str]:
     names : of parameters that lags held at 0 may have moved;  taken : all values, if with lags
     """
     if taken is not None:
-        lags = " and ".join(f"{1e3 * taken[n]:.3g} ms in {n.split('.')[0]}" for n in LAGS)
+        lags = " and ".join(f"{duration(taken[n])} in {n.split('.')[0]}" for n in LAGS)
         return [
             f"lags of {lags} are taken, as with them nothing but noise is left: reversals alone"
             " show them, where other physics may look alike, so no interval is given"

@@ -249,3 +249,10 @@ def test_a_rod_at_rest_has_no_direction(spacing: str) -> None:
     rests = (t < 0.9) | (t > 2.1)
     assert not xdot[rests].any()
     assert np.all(xdot[(t > 1.1) & (t < 1.9)] < -0.009)
+
+
+def test_a_window_of_seconds_is_said_in_s() -> None:
+    """Of a log of one sample a second it was "5 samples = 4e+03 ms"."""
+    t: Array = np.arange(50.0)
+    _, note = derive_xdot(t, 0.01 * np.sin(0.1 * t), np.array([0, 50]))
+    assert "5 samples = 4 s;" in note

@@ -9,7 +9,7 @@ import numpy as np
 from erdctl.bench.gaps import GAP, gaps_of
 from erdctl.bench.rig.fault import RigFault, marked
 from erdctl.bench.rig.pieces import Piece, resolution, widened
-from erdctl.core.messages import counted
+from erdctl.core.messages import counted, duration
 from erdctl.core.quantiles import median
 
 SIGMAS = 10.0
@@ -32,7 +32,7 @@ def gaps(found: Sequence[Piece]) -> list[RigFault]:
                 p.record,
                 f"{counted(lost.sum(), 'sample')} missing in {counted(len(at), 'gap')} of the"
                 " time, the longest of"
-                f" {1e3 * steps[longest]:.4g} ms at t = {p.t[longest]:.6g} s",
+                f" {duration(steps[longest], 4)} at t = {p.t[longest]:.6g} s",
                 "the time is right, so fits go on; record at a rate that the recorder can keep",
             )
         )

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from erdctl.bench.rig.fault import RigFault
 from erdctl.bench.rig.linear_model import LEAST_RECORDS, Rows, levels_and_motion, model, steady
 from erdctl.bench.rig.trend import clearest
+from erdctl.core.messages import duration
 from erdctl.core.recording import Array
 
 PRIOR, PRIOR_SECONDS = 1e-3, 5e-4  # scatter of lags on a real rig: of a cycle; [s]
@@ -55,8 +56,8 @@ def late(rows: Sequence[Rows]) -> RigFault | None:
         return None
     return RigFault(
         "record_lag", seen[found.index].piece.record,
-        f"its force is {1e3 * abs(found.difference) * unit:.3g} ms {way} against the motion than"
-        f" in the other records, which differ by {1e3 * found.scatter * unit:.2g} ms",
+        f"its force is {duration(abs(found.difference) * unit)} {way} against the motion than"
+        f" in the other records, which differ by {duration(found.scatter * unit, 2)}",
         "it is left out of fits; look at the filters and the clocks of both channels", blocks=True,
     )  # fmt: skip
 

@@ -9,6 +9,7 @@ import numpy as np
 from erdctl.bench.differentiation import derive_xdot
 from erdctl.bench.rig.fault import RigFault
 from erdctl.bench.rig.pieces import Piece
+from erdctl.core.messages import duration
 from erdctl.core.quantiles import median
 
 NOISE = 0.03  # of the effective speed
@@ -59,7 +60,7 @@ def check(found: Sequence[Piece]) -> list[RigFault]:
     if abs(tau) > least and abs(tau) > SCATTER * error:
         way = "later" if tau > 0 else "earlier"
         out.append(
-            RigFault("velocity_lag", None, f"xdot is {1e3 * abs(tau):.3g} ms {way} than x", REMEDY)
+            RigFault("velocity_lag", None, f"xdot is {duration(abs(tau))} {way} than x", REMEDY)
         )
     g, error = _middle(gain)
     if abs(g - 1.0) > GAIN and abs(g - 1.0) > SCATTER * error:

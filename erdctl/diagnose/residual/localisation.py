@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from erdctl.core.messages import duration, plain
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
 from erdctl.diagnose import thresholds
@@ -118,7 +119,7 @@ def since_onset(
             inside = s.t >= t_0
             share, time = shares(problem, inside, square)
             low = max(t_0, float(s.t.min()))
-            text = said(share, time, f"from {low:.4g} s to the end of the records")
+            text = said(share, time, f"from {plain(low, 4)} s to the end of the records")
             found.append(Region(Variable.TIME, low, end, share, time, text))
     return found
 
@@ -220,25 +221,35 @@ def said(share: float, time: float, where: str) -> str:
 def describe(variable: Variable, low: float, high: float) -> str:
     """An interval in an engineer's words."""
     scale, unit = UNITS[variable]
-    a, b = low * scale, high * scale
+    a, b = plain(low * scale), plain(high * scale)
     match variable:
-        case Variable.SINCE_REVERSAL:
-            where = f"within {b:.3g} {unit} of a reversal"
-            where = where if low <= 0.2 * high else f"{a:.3g} to {b:.3g} {unit} after a reversal"
-        case Variable.SINCE_DUTY_STEP:
-            where = f"within {b:.3g} {unit} of a duty step"
-            where = where if low <= 0.2 * high else f"{a:.3g} to {b:.3g} {unit} after a duty step"
+        case Variable.SINCE_REVERSAL | Variable.SINCE_DUTY_STEP:
+            of = "reversal" if variable is Variable.SINCE_REVERSAL else "duty step"
+            where = f"within {duration(high)} of a {of}"
+            where = where if low <= 0.2 * high else f"{_span(low, high)} after a {of}"
         case Variable.XDOT if min(-low, high) > 0.2 * max(-low, high):
-            where = f"at speeds from {a:.3g} to {b:.3g} {unit}, around reversal"
+            where = f"at speeds from {a} to {b} {unit}, around reversal"
         case Variable.XDOT:
             side = "compression" if high > -low else "release"
-            where = f"in {side}, at {a:.3g} to {b:.3g} {unit}"
+            where = f"in {side}, at {a} to {b} {unit}"
         case Variable.DUTY:
-            where = f"at {a:.3g} to {b:.3g} {unit} duty"
+            where = f"at {a} to {b} {unit} duty"
         case Variable.X:
-            where = f"at deflections from {a:.3g} to {b:.3g} {unit}"
+            where = f"at deflections from {a} to {b} {unit}"
         case Variable.TIME:
-            where = f"from {a:.3g} to {b:.3g} {unit} in the records"
+            # As logged: it may begin anew with each record, or run on over them.
+            where = f"where t is from {a} to {b} {unit}"
         case _:
-            where = f"after {a:.3g} to {b:.3g} {unit} of dissipated energy"
+            where = f"after {a} to {b} {unit} of dissipated energy"
     return where
+
+
+def _span(low: float, high: float) -> str:
+    """Two times in one unit, that of the later one.
+
+    Check: 0.3 to 1.2 s are no 300 ms to 1.2 s.
+    >>> _span(0.3, 1.2), _span(0.03, 0.12)
+    ('0.3 to 1.2 s', '30 to 120 ms')
+    """
+    last = duration(high)
+    return f"{plain(low if last.endswith(' s') else 1e3 * low)} to {last}"

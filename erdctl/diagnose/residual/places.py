@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import chain
 
+from erdctl.core.messages import plain
 from erdctl.core.recording import Array
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.problem import Problem
@@ -105,7 +106,7 @@ def _own(
 def _after_less(effect: Effect, region: Region) -> Region:
     """From an onset on, where a fit to before and after misses the less."""
     text = (
-        f"{effect.name} acts from {region.low:.4g} s to the end of the records, in"
+        f"{effect.name} acts from {plain(region.low, 4)} s to the end of the records, in"
         f" {100 * region.time:.0f} % of the time; a fit to before and after alike misses the"
         f" shorter by more, which has {100 * (1 - region.share):.0f} % of the misfit"
     )

@@ -14,6 +14,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from erdctl.core.messages import plain
 from erdctl.core.recording import Array, Index, Recording
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
@@ -119,7 +120,7 @@ def regions(told: Sequence[Unlogged], best: Hypothesis, misfit: float) -> list[R
     for u, square in zip(told, own, strict=True):
         share, time = square / max(total, 1e-300), len(u.rows) / samples
         name = best.problem.recording.names[u.record]
-        where = f"in {u.way} from {u.begin:.4g} to {u.end:.4g} s in record {name!r}"
+        where = f"in {u.way} from {plain(u.begin, 4)} to {plain(u.end, 4)} s in record {name!r}"
         text = said(share, time, f"{where}, where the log does not tell why")
         found.append(Region(Variable.TIME, u.begin, u.end, share, time, text))
     return sorted(found, key=lambda r: -r.share)[: thresholds.REGIONS]

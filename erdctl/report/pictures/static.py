@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from erdctl.model.simulate import simulate, without_lag
 from erdctl.report import draw, style
 from erdctl.report.kind import Picture
+from erdctl.report.readable import number, scaled
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -42,8 +43,9 @@ def static(figure: Figure, subject: Subject) -> None:
 def _lags(subject: Subject) -> str:
     assert subject.parameters is not None
     lags = [subject.parameters.values[f"{d}.T_d"] for d in ("compression", "release")]
-    both = dict.fromkeys(f"{1e3 * lag:.3g}" for lag in lags)
-    return f"T_d = {' / '.join(both)} ms"
+    factor, unit = scaled("s", max(lags))
+    both = dict.fromkeys(number(factor * lag, 3) for lag in lags)
+    return f"T_d = {' / '.join(both)} {unit}"
 
 
 PICTURE = Picture(

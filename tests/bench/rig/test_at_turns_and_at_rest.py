@@ -68,3 +68,13 @@ def test_records_that_are_all_at_rest_are_not_held_against_each_other() -> None:
     force = force + 0.3 * np.random.default_rng(65).normal(size=len(r))
     codes = {f.code for f in look(replace(r, x=still, xdot=still, force=force)).faults}
     assert not codes & {"record_offset", "record_gain", "record_lag"}
+
+
+def test_a_gap_of_seconds_is_said_in_s() -> None:
+    """It was "the longest of 1205 ms"."""
+    r = log(61)
+    t = r.t.copy()
+    own = r.slices[0]
+    t[own.start + 500 : own.stop] += 1.2
+    (fault,) = [f for f in look(replace(r, t=t)).faults if f.code == "samples_missing"]
+    assert "the longest of 1.205 s at t =" in fault.text

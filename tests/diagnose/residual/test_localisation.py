@@ -207,6 +207,25 @@ def test_a_side_is_said_where_an_interval_hardly_crosses_rest() -> None:
     assert describe(Variable.XDOT, -0.01, 0.02).endswith("around reversal")
 
 
+def test_times_from_a_second_on_are_in_s() -> None:
+    """It was "within 1.23e+03 ms of a duty step"."""
+    assert describe(Variable.SINCE_DUTY_STEP, 0.0, 1.2344) == "within 1.23 s of a duty step"
+    assert describe(Variable.SINCE_REVERSAL, 0.0, 0.9998) == "within 1 s of a reversal"
+    assert describe(Variable.SINCE_DUTY_STEP, 0.0, 0.296) == "within 296 ms of a duty step"
+    assert describe(Variable.SINCE_REVERSAL, 0.4, 1.2) == "0.4 to 1.2 s after a reversal"
+    assert describe(Variable.SINCE_REVERSAL, 0.04, 0.12) == "40 to 120 ms after a reversal"
+
+
+def test_no_place_has_an_exponent() -> None:
+    assert describe(Variable.XDOT, 1.234, 2.346) == "in compression, at 1230 to 2350 mm/s"
+    assert describe(Variable.TIME, 1234.0, 5432.0) == "where t is from 1230 to 5430 s"
+
+
+def test_a_time_that_runs_on_over_records_is_that_of_the_log() -> None:
+    """Of records of 6 s each it was "from 38.9 to 55.3 s in the records", which none is as long."""
+    assert describe(Variable.TIME, 38.9275, 55.3275) == "where t is from 38.9 to 55.3 s"
+
+
 def test_what_was_found_and_what_is_predicted_add_up() -> None:
     """They have signs: where they cancel there was no misfit; variance has none."""
     predicted, found = np.array([1.0, 2.0, 0.0]), np.array([-1.0, 1.0, 3.0])
