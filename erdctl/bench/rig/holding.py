@@ -29,7 +29,8 @@ def hold(values: Array) -> float:
     that, and hardly any is shorter. A channel that has more than half of the log's rate has single
     samples, too, as noise of a digit has, and is not told.
 
-    Check: of a sine each third sample is held; a sine in 40 digits over 6000 samples repeats, too.
+    Check: of a sine each third sample is held: 3, and 1 of all samples; a sine in 40 digits over
+    6000 samples repeats, too.
     >>> sine = np.sin(0.05 * np.arange(600))
     >>> hold(sine[np.arange(600) // 3 * 3]), hold(sine)
     (3.0, 1.0)
@@ -66,7 +67,7 @@ def read_at(values: Array, held: float) -> Index:
     Where it has the same value over several of these times, it was read in between as well, as
     also before its first change and behind its last.
 
-    Check: 1 1 2 2 2 2 3 3, each held for 2 samples.
+    Check: 1 1 2 2 2 2 3 3, each held for 2 samples, is read at samples 0, 2, 4 and 6.
     >>> read_at(np.array([1.0, 1.0, 2.0, 2.0, 2.0, 2.0, 3.0, 3.0]), 2.0).tolist()
     [0, 2, 4, 6]
     """
