@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from erdctl.bench.rig.fault import RigFault
 from erdctl.bench.rig.linear_model import STEADY, Rows, of_others
@@ -15,9 +14,7 @@ from erdctl.core.recording import Array
 
 BEYOND, LIKE_OTHERS = 2.5, 1.5  # times what a model misses of the others, before and after
 TAKEN = 0.8  # of the square of the record's misfit
-SAME = (
-    0.2  # of the change of the yield force: by which the two directions and the levels may differ
-)
+SAME = 0.2  # of the change of the yield force, by which it may differ from that of a level
 ALIKE = 0.25  # of speed and stroke, by which a record may be beyond the others
 SOUND = 0.5  # of the record's misfit, which those that it is held against must not have
 NEARER = 0.5  # times the distance of the next level's yield force
@@ -93,27 +90,18 @@ def _level(own: _Against, sound: Sequence[_Against], missed: float) -> float | N
     if not any(abs(h.duty - own.duty) < NEXT for h in sound) or not own.moves_within(sound):
         return None
     A, F, theta = r.columns[r.smooth], r.force[r.smooth], own.theta
-    up = A[:, 7] > 0.0
-    unit = np.where(up, theta[5], -theta[6])
+    unit = np.where(A[:, 7] > 0.0, theta[5], -theta[6])
     rest = F - A @ np.where(np.isin(np.arange(len(theta)), (5, 6)), 0.0, theta)
-
-    def best(use: npt.NDArray[np.bool_]) -> float:
-        return float(unit[use] @ rest[use]) / max(float(unit[use] @ unit[use]), 1e-300)
-
-    found = best(up | ~up)
+    found = float(unit @ rest) / max(float(unit @ unit), 1e-300)
     change = found - own.field
     level = _nearest(found, own, sound)
     if level is None or abs(found - level.field) > SAME * change:
         return None
-    if max(abs(best(way) - found) for way in (up, ~up)) > SAME * change:
-        return None
     left = _rms(rest - found * unit)
-    scaled = A @ theta
-    gain = float(F @ scaled) / max(float(scaled @ scaled), 1e-300)
     usual = max(missed, r.piece.noise("force")[0])
     if left > LIKE_OTHERS * usual or left**2 > (1.0 - TAKEN) * own.misfit**2:
         return None
-    return level.duty if left < _rms(F - gain * scaled) else None
+    return level.duty
 
 
 def _nearest(field: float, own: _Against, sound: Sequence[_Against]) -> _Against | None:

@@ -80,14 +80,46 @@ def test_more_friction_in_the_slow_records_is_none() -> None:
     assert said(sines(stribeck)) == []
 
 
-@pytest.mark.parametrize("fastest", [False, True])
-def test_a_level_or_a_motion_that_nothing_else_has_is_none(fastest: bool) -> None:
-    """A law of the field, or of the speed, may be what is missing there."""
-    r = sines(none, 0.05)
-    assert said(r) == []
-    fast = sines(none, 0.1)
-    kept = [k for k in range(12) if k == AT or (k % 3 == 0 if fastest else k // 3 != 1)]
-    assert said(fast.select(kept)) == []
+def raised(to: float, way: float = 0.0) -> Callable[[Array, Array], Array]:
+    """Record AT alone has the yield force of another level; way : in one direction, twice."""
+
+    def force(v: Array, duty: Array) -> Array:
+        of_at = 0.085 < np.abs(v).max() < 0.097 and duty[0] == 0.2
+        more = 20.0 * (to**0.5 - 0.2**0.5) * of_at
+        return more * np.sign(v) * (2.0 * (v * way > 0.0) if way else 1.0)
+
+    return force
+
+
+def test_a_level_that_nothing_else_has_is_none() -> None:
+    """A law of the field may be what is missing there, or another one."""
+    assert said(sines(none, 0.05)) == []
+    assert said(sines(none, 0.1).select([k for k in range(12) if k == AT or k // 3 != 1])) == []
+
+
+def test_a_level_that_is_between_those_of_others_is_none() -> None:
+    assert said(sines(raised(0.25), 0.0)) == []
+    few = [9, 10, 0, 1, 2, AT, 11]  # two levels, of which neither is near
+    assert said(sines(raised(0.16), 0.0).select(few)) == []
+
+
+def test_a_motion_that_nothing_else_has_is_none() -> None:
+    """A law of the speed may be what is missing there."""
+    r = sines(raised(0.3))
+    assert [f.record for f in said(r)] == [AT]
+    assert said(r.select([k for k in range(12) if k == AT or k % 3 == 0])) == []
+
+
+def test_more_in_one_direction_is_none() -> None:
+    assert said(sines(raised(0.3, 1.0))) == []
+    assert said(sines(raised(0.3, -1.0))) == []
+
+
+def test_a_control_that_steps_has_no_label() -> None:
+    r = sines(none)
+    duty = r.duty.copy()
+    duty[800 * AT : 800 * AT + 500] = 0.1
+    assert said(replace(r, duty=duty)) == []
 
 
 def test_the_first_records_before_a_fault_of_the_supply_are_none() -> None:
