@@ -144,7 +144,7 @@ def test_a_damper_has_as_many_effects_as_go_together(on_log: OnLog) -> None:
         _, values = twin.law(twin.build(on_log.base, twin.start, shape, on_log.scales))
         laws.append((twin, values))
     clashes = 0
-    for _ in range(40):
+    for _ in range(60):
         chosen = [laws[k] for k in random.permutation(len(laws))[:3]]
         clashes += any(not a.goes_with(b) for (a, _), (b, _) in combinations(chosen, 2))
         first = on_log.also_with(*chosen[0])
