@@ -143,6 +143,7 @@ def _no_scatter(
     told = [order[k] for k in telling(best, once.effect)]
     recording = found.problem.recording
     of_those = once.of_those(told, recording.t[recording.starts[:-1]])
+    of_those = replace(of_those, silent=frozenset({*order} - {*told}))
     sure = not of_those.whole or (
         explained
         and is_no_scatter(best, once.effect, once.f, once.first, may_be_a_gain=once.may_be_a_gain)

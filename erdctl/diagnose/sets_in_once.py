@@ -49,6 +49,7 @@ class SetsInOnce:
     whole : whether that record has it from its beginning
     at : 95 % interval of the onset [s], in the time of that record;  f : effectiveness left [1]
     kinds : of faults that it may be, `effect` among them
+    silent : records that would show no fault if they had it, as an electrical one at no duty
     confirmed : what a search with it says
     """
 
@@ -59,6 +60,7 @@ class SetsInOnce:
     at: tuple[float, float]
     f: float
     kinds: tuple[Effect, ...]
+    silent: frozenset[int] = frozenset()
     confirmed: Confirmed | None = None
 
     @property
@@ -80,8 +82,8 @@ class SetsInOnce:
     @property
     def odd(self) -> tuple[int, ...]:
         """Records to look at: those that have it, or the few that have not, whatever the reason."""
-        without = self.order[: self.first]
-        few = self.whole and not self.stays and len(without) < len(self.records)
+        without = tuple(r for r in self.order[: self.first] if r not in self.silent)
+        few = self.whole and not self.stays and 0 < len(without) < len(self.records)
         return without if few else self.records
 
     @property

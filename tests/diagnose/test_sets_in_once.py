@@ -110,6 +110,16 @@ def test_where_most_records_have_it_the_others_are_said(recordings: Any) -> None
     assert "in record 'r3' the viscous and yield force is 1.68 times" in remaining_text(found)
 
 
+def test_a_record_that_tells_nothing_is_not_said_to_be_whole(recordings: Any) -> None:
+    """The first drive has hardly any field, and was listed as one of those without the fault."""
+    onsets = tuple(NEVER if r == 3 else 0.0 for r in range(6))
+    found = diagnosed(recordings("electrical_fault", onsets, 76))
+    assert found.once is not None
+    assert found.once.records == (1, 2, 4, 5)
+    assert found.once.silent == {0}
+    assert found.once.odd == (3,)
+
+
 @pytest.mark.parametrize("seed", [31, 32, 33])
 def test_nothing_is_sought_in_vain(seed: int, recordings: Any) -> None:
     """In healthy drives, in those of which every one has it, and where the log's time goes on."""
