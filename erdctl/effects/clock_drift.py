@@ -21,13 +21,12 @@ error of clocks).
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.delayed_channel import delayed
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import ChannelSlot, Values
 
@@ -38,11 +37,7 @@ def clock_drift(column: Array, s: Signals, p: Values) -> Array:
     """(n,) the column as the force channel records it."""
     if p["r"] == 0.0 and p["tau"] == 0.0:
         return column
-    out = np.empty_like(column)
-    for a, b in pairwise(s.starts.tolist()):
-        t = s.t[a:b] - s.t[a]  # small numbers, whatever the clock says
-        out[a:b] = np.interp(t - p["tau"] - p["r"] * s.t[a:b], t, column[a:b])
-    return out
+    return delayed(column, s, p["tau"] + p["r"] * s.t)
 
 
 def rates(s: Signals, rest: Array) -> list[dict[str, float]]:

@@ -16,13 +16,12 @@ Source: T. I. Laakso et al., Splitting the unit delay, IEEE Signal Processing Ma
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 
 from erdctl.core.quantity import Quantity
 from erdctl.core.recording import Array
 from erdctl.core.signals import Signals
+from erdctl.model.delayed_channel import delayed
 from erdctl.model.effect import Effect, Requirement, Stage, Variable
 from erdctl.model.slots import ChannelSlot, Values
 
@@ -31,11 +30,7 @@ def time_skew(column: Array, s: Signals, p: Values) -> Array:
     """(n,) the column as the force channel records it."""
     if p["tau"] == 0.0:
         return column
-    out = np.empty_like(column)
-    for a, b in pairwise(s.starts.tolist()):
-        t = s.t[a:b] - s.t[a]  # small numbers, whatever the clock says
-        out[a:b] = np.interp(t - p["tau"], t, column[a:b])
-    return out
+    return delayed(column, s, np.broadcast_to(p["tau"], column.shape))
 
 
 def delays(s: Signals, rest: Array) -> list[dict[str, float]]:

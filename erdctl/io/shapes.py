@@ -280,7 +280,6 @@ class ValidationFile(ScoreDocument):
     """Scores of a model on logs.
 
     normalise : the denominator of the NRMSE
-    as_fitted : the overall score on what fits take of a log with a velocity or a duty at fault
     direction_unknown : where the rod rests or turns, if most of the squared error lies there
     """
 
@@ -290,7 +289,6 @@ class ValidationFile(ScoreDocument):
     nrmse_by_direction: list[DirectionScore]
     nrmse_by_record: list[RecordScore]
     direction_unknown: NotRequired[DirectionUnknown]
-    as_fitted: NotRequired[ScoreDocument]
     rig: NotRequired[list[RigFaultDocument]]
     provenance: NotRequired[LabelsDocument]
 

@@ -16,13 +16,11 @@ def to_json(
     labels: Mapping[str, str],
     rig: Sequence[Mapping[str, Any]] = (),
     unknown: UnknownDirection | None = None,
-    as_fitted: Score | None = None,
 ) -> dict[str, Any]:
     """The document of a validation.
 
     labels : of the test, see `Recording`;  rig : what is wrong with the recording
     unknown : what lies where the direction of motion is not told
-    as_fitted : of all samples, on the channels that fits take in the place of those at fault
     """
 
     def score(s: Score) -> dict[str, float]:
@@ -36,7 +34,6 @@ def to_json(
         "nrmse_by_direction": [{"direction": d, **score(s)} for d, s in found.by_direction.items()],
         "nrmse_by_record": [{"record": r, **score(s)} for r, s in found.by_record.items()],
         **({} if unknown is None else {"direction_unknown": _unknown(unknown, found.overall)}),
-        **({} if as_fitted is None else {"as_fitted": score(as_fitted)}),
         "rig": [*rig],
         **({"provenance": dict(labels)} if labels else {}),
     }
