@@ -130,7 +130,7 @@ def command(
         from erdctl.io import documents
         from erdctl.io.validation import to_json
 
-        documents.write(to_json(found, labels, rig.to_json(), unknown, as_fitted), "-")
+        documents.write(to_json(found, labels, rig.to_json(), unknown), "-")
     else:
         _show(found, peak)
     if report is not None:
