@@ -65,6 +65,15 @@ class Exploration(NamedTuple):
         return tuple(e for e in hypothesis.effects if e not in self.base.effects)
 
 
+def without_one(x: Exploration, best: Hypothesis, effect: Effect) -> Hypothesis:
+    """A hypothesis without one of its effects, fitted from where it is, if it was not yet."""
+    others = tuple(e for e in best.effects if e is not effect)
+    if key_of(others) not in x.explored:
+        task = Task("second pass", others, (best.values,), record_effects=best.record_effects)
+        x.explored.keep(*x.executor.fit_compatible(x.problem, [task]))
+    return x.explored[key_of(others)]
+
+
 def forward_step(
     x: Exploration, parents: Sequence[Hypothesis], candidates: Sequence[Effect], stage: str
 ) -> list[Hypothesis]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.comparison import compare, ranked
 from erdctl.diagnose.executor import Task
-from erdctl.diagnose.forward_step import Exploration, key_of, related, with_effect
+from erdctl.diagnose.forward_step import Exploration, key_of, related, with_effect, without_one
 from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.predictability import misfit_is_left
@@ -44,10 +44,7 @@ def look_alikes(
     """
     others = tuple(e for e in best.effects if e is not effect)
     names, rest = key_of(best.effects), key_of(others)
-    if rest not in x.explored:
-        task = Task("second pass", others, (best.values,), record_effects=best.record_effects)
-        x.explored.keep(*x.executor.fit_compatible(x.problem, [task]))
-    parent = x.explored[rest]
+    parent = without_one(x, best, effect)
     promises = dict[str, Candidate]()
     alone = rest == key_of(x.base.effects)
     if alone:

@@ -33,6 +33,7 @@ from erdctl.diagnose.forward_step import (
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.levels_of_records import not_of_records
 from erdctl.diagnose.look_alikes import is_preferred, look_alikes
+from erdctl.diagnose.other_dips import deepest_dip
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.predictability import misfit_is_left, search_is_worthwhile
 from erdctl.diagnose.resolved import resolved
@@ -107,7 +108,7 @@ def search(
             more = most - len(x.added(best))
             best, _ = _forward_selection(x, best, candidates, more, seed)
     if misfit_is_left(best, seed):
-        best = in_the_place_of_plain(x, best, candidates)
+        best = in_the_place_of_plain(x, deepest_dip(x, best), candidates)
     best = eliminate(x, best)
     best = second_pass(x, best, most)
     best = as_good_as_explored(x, best)
@@ -277,6 +278,8 @@ def _forward_selection(
         begun = depth or x.explored.keys() > {key_of(best.effects)}
         if begun and not search_is_worthwhile(best, seed):
             break  # more effects would have nothing to explain
+        if parents[0] is best:
+            best = parents[0] = deepest_dip(x, best)
         stage = f"{depth + 1} effects" if depth else "each effect"
         more = ranked(forward_step(x, parents, candidates, stage))
         singles = singles if depth else more
