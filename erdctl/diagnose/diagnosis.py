@@ -28,7 +28,7 @@ from erdctl.diagnose.learning.stage import Learned, learned
 from erdctl.diagnose.problem import Problem, check_enough, prepare, with_given
 from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying
 from erdctl.diagnose.residual.lack_of_fit import LackOfFit
-from erdctl.diagnose.residual.localisation import Region, record_region
+from erdctl.diagnose.residual.localisation import Region
 from erdctl.diagnose.residual.places import places
 from erdctl.diagnose.residual.predictability import lack_of_fit_of
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
@@ -233,9 +233,7 @@ def diagnose(
         missed = selection.base.residual - named.residual  # what both predict, so without noise
         square = lack_of_fit.square(missed) if left else missed**2
         acted = [(f.effect, f.acts) for f in found]
-        alone = record_region(named.problem, square)
         mismatch = places(named.problem, square, acted, sure=not left)
-        mismatch += [alone] if alone else []
     mismatch = [*regions(apart, named, lack_of_fit.misfit_rms), *mismatch]
     base, best = selection.base, named
     similar = resemblance(named.problem, lack_of_fit.predicted) if left else None

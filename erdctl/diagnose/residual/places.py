@@ -16,6 +16,7 @@ from erdctl.diagnose.residual.localisation import (
     excess,
     locate,
     points,
+    record_region,
     said,
     shares,
     since_onset,
@@ -65,6 +66,8 @@ def places(
     or where misfit gathers in its variable, or where it acts if there is no less misfit there than
     elsewhere; unless the misfit gathers far more sharply elsewhere. Next where it gathers most
     sharply, then the same of the other effects. Where it gathers nowhere, where the first one acts.
+    A single record in which it gathers comes last; first if it has all but a little of what is not
+    explained, which is then to be looked for in that record, and not where the record happens to be.
     square : (n,) squared misfit [N^2];  effects : each with where it acts, the first one first
     sure : whether they explain it; if not, they come second
     """
@@ -85,7 +88,11 @@ def places(
             listed.append(region)
     if not listed and sure and effects:
         listed = [_of_effect(problem, square, effects[0][0], r) for r in effects[0][1]]
-    return listed[: thresholds.REGIONS]
+    listed = listed[: thresholds.REGIONS]
+    if alone := record_region(problem, square):
+        first = not sure and alone.share >= thresholds.RECORD_FIRST
+        listed.insert(0 if first else len(listed), alone)
+    return listed
 
 
 def _own(

@@ -7,6 +7,7 @@ from rig import campaign
 
 from erdctl.diagnose.problem import prepare
 from erdctl.diagnose.residual.localisation import locate, record_region
+from erdctl.diagnose.residual.places import places
 from erdctl.model.effect import Variable
 
 
@@ -25,6 +26,21 @@ def test_one_record() -> None:
     share = float(np.dot(weight[part], square[part]) / np.dot(weight, square))
     assert abs(found.share - share) < 1e-9
     assert all(r.variable is not Variable.RECORD for r in locate(problem, square))
+
+
+def test_what_nothing_explains_is_looked_for_in_the_record_that_has_it_all() -> None:
+    """A record with its axes reversed was told as "100 % of the misfit lies at 7.5 to 12.5 % duty",
+    and the record fourth."""
+    recording = campaign()
+    problem = prepare(recording)
+    square = np.full(len(recording), 1e-4)
+    square[recording.slices[4]] = 4.0
+    unexplained, explained = (places(problem, square, sure=sure) for sure in (False, True))
+    assert [r.variable for r in unexplained].index(Variable.RECORD) == 0
+    assert explained == [*unexplained[1:], unexplained[0]]
+    square[recording.slices[1]] = 2.0
+    others = [r.variable for r in places(problem, square, sure=False)]
+    assert others.index(Variable.RECORD) == len(others) - 1
 
 
 def test_all_records_alike() -> None:
