@@ -278,7 +278,7 @@ def _forward_selection(
         begun = depth or x.explored.keys() > {key_of(best.effects)}
         if begun and not search_is_worthwhile(best, seed):
             break  # more effects would have nothing to explain
-        if parents[0] is best:
+        if parents[:1] == [best]:
             best = parents[0] = deepest_dip(x, best)
         stage = f"{depth + 1} effects" if depth else "each effect"
         more = ranked(forward_step(x, parents, candidates, stage))

@@ -79,6 +79,14 @@ MOVES = 1e-6
 # Origin: most of it; of six nulls of the plant, white, AR(1) and pink, the most had 0.06.
 LEVELS_SAID = 0.5
 
+# Of a straight line of the gains of records over their order: its chance among records that are
+# alike, what it changes the gain by from the first to the last, the degrees of freedom that the
+# scatter about it has, and the part of the order that what the test set does not say already.
+# Decides: whether the force is said to rise or fall in the order of the records.
+# Origin: COURSE_CHANCE, that one log in a thousand is said to; a load cell holds 1 % and twice that
+# is a drift; the others far from dividing by nothing.
+COURSE_CHANCE, COURSE_LEAST, COURSE_FREE, COURSE_OWN = 1e-3, 0.02, 5, 0.1
+
 # Part of a misfit's square that a fault in one record, or from one record on, takes: as it seems
 # before anything is fitted with it, and in the end, with what else is then named.
 # Decides: whether a second search is made for it; whether what that names is said.

@@ -16,9 +16,9 @@ from erdctl.diagnose.fault_wording import sets_in_once_text
 from erdctl.diagnose.findings import Finding, matters
 from erdctl.diagnose.learning.words import law_words, worth_text
 from erdctl.diagnose.noise_wording import begins_text, noise_text
+from erdctl.diagnose.residual.course_of_records import of_records
 from erdctl.diagnose.residual.lack_of_fit import LackOfFit
 from erdctl.diagnose.residual.places import MISFIT, WITHOUT_IT
-from erdctl.diagnose.residual.record_levels import taken_by_levels
 from erdctl.diagnose.unlogged_wording import unlogged_text
 from erdctl.diagnose.unseen import Left, Unseen
 
@@ -151,15 +151,33 @@ def _none_of(found: Diagnosis) -> str:
 
 
 def _of_records(found: Diagnosis) -> str:
-    """That most of what is left tells records apart, and nothing of their motion."""
-    share = taken_by_levels((found.learned or found).selection.best)
-    if len(found.problem.recording.names) < 2 or share < thresholds.LEVELS_SAID:
+    """That most of the misfit tells records apart, and nothing of their motion; or that noise does
+    in part, in their order."""
+    if len(found.problem.recording.names) < 2:
         return ""
+    best, left = (found.learned or found).selection.best, found.lack_of_fit
+    said = of_records(best)
+    noise = found.verdict is not Verdict.UNEXPLAINED
+    share = said.square / max(best.rms**2 if noise else left.misfit_rms**2, 1e-300)
+    if share < thresholds.LEVELS_SAID and not (noise and said.course):
+        return ""
+    of_it = f"{100 * min(share, 1.0):.0f} % of its square"
+    words = f"; {of_it} is a gain and a zero of each record's own"
+    carry = "(--record-gains --record-offsets carry it)"
+    if said.course is None:
+        return (
+            f"{words}: of a rig whose records scatter, or of what changes from record to record in"
+            " the damper, as its warmth or the strokes that it has made; no motion within them"
+            f" tells which {carry}"
+        )
+    first, last = said.course
+    change = 100.0 * (last / first - 1.0)
+    way = "rises" if change > 0.0 else "falls"
     return (
-        f"; {100 * share:.0f} % of the square of all that remains is a gain and a zero of each"
-        " record's own: of a rig whose records scatter, or of what changes from record to record in"
-        " the damper, as its warmth or the strokes that it has made; no motion within them tells"
-        " which (--record-gains --record-offsets carry it)"
+        f"{words}, and the force {way} in the order of the records, by {abs(change):.2g} % from the"
+        " first to the last, beyond what their duty, speed and stroke would say: a damper that"
+        " warms up or cools, a supply or a load cell that drifts; log the temperature, and record"
+        f" the first motion once more at the end {carry}"
     )
 
 

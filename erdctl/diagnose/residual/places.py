@@ -67,7 +67,7 @@ def places(
     elsewhere; unless the misfit gathers far more sharply elsewhere. Next where it gathers most
     sharply, then the same of the other effects. Where it gathers nowhere, where the first one acts.
     A single record in which it gathers comes last; first if it has all but a little of what is not
-    explained, which is then to be looked for in that record, and not where the record happens to be.
+    explained, which is then to be looked for in that record, and not where that happens to lie.
     square : (n,) squared misfit [N^2];  effects : each with where it acts, the first one first
     sure : whether they explain it; if not, they come second
     """

@@ -26,11 +26,6 @@ def with_levels(hypothesis: Hypothesis, of: Hypothesis | None = None) -> Hypothe
     return with_columns(hypothesis, np.vstack([records * modelled, records]))
 
 
-def taken_by_levels(best: Hypothesis) -> float:
-    """Part of the mean square that a model leaves which a gain and a zero of each record take."""
-    return _taken(best, with_levels(best))
-
-
 def records_apart(best: Hypothesis) -> tuple[float, Hypothesis] | None:
     """Standard deviation [1] of the gains of records beyond their errors, and the model with these.
 
