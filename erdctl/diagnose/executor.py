@@ -19,6 +19,7 @@ from erdctl.core.workers import alone_with, leave, pool
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.bounds import Bounds
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis, rank_starts
+from erdctl.diagnose.of_steps import as_it_slips
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.record_effects import RecordEffects
 from erdctl.estimate.least_squares import Fitted
@@ -252,7 +253,8 @@ def fitted(problem: Problem, task: Task) -> Hypothesis | None:
         starts: Sequence[Mapping[str, float]] = task.starts
         if task.best is not None:
             starts = rank_starts(problem, task.effects, starts, task.record_effects)[: task.best]
-        return fit_hypothesis(problem, task.effects, starts, task.steps, task.record_effects)
+        found = fit_hypothesis(problem, task.effects, starts, task.steps, task.record_effects)
+        return as_it_slips(found)
     except IncompatibleEffects:
         return None
 
