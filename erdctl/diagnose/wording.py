@@ -85,7 +85,7 @@ def _left(found: Diagnosis) -> str:
     alone = found.apart and found.learned is None  # what is not logged, and noise
     alone = alone and not matters(found.problem, found.selection, left)
     if cut or alone or found.verdict is not Verdict.UNEXPLAINED:
-        rest = noise_text(found) + _hum(left) + _of_records(found) + begins_text(found)
+        rest = noise_text(found) + _hum(left) + _of_records(found, noise=True) + begins_text(found)
         rest += _withdrawn(found)
         if cut:
             limits = "; ".join(f.text for f in found.rig.cut)
@@ -127,7 +127,7 @@ def _left(found: Diagnosis) -> str:
     resembles = found.resemblance
     if resembles is not None:
         words += f"; it is most like {resembles.form} (correlation {resembles.correlation:+.2f})"
-    words += sets_in_once_text(found) or _of_records(found)
+    words += sets_in_once_text(found) or _of_records(found, noise=False)
     words += _hum(left) + _withdrawn(found) + _derived(found)
     return words if found.apart or not found.mismatch else f"{words}; {found.mismatch[0].text}"
 
@@ -150,14 +150,13 @@ def _none_of(found: Diagnosis) -> str:
     return several if found.tried > 1 else "no effect that was tried"
 
 
-def _of_records(found: Diagnosis) -> str:
-    """That most of the misfit tells records apart, and nothing of their motion; or that noise does
-    in part, in their order."""
+def _of_records(found: Diagnosis, *, noise: bool) -> str:
+    """That most of the misfit tells records apart, and nothing of their motion; or, of what is said
+    to be noise, that it does so, if only by the order of records."""
     if len(found.problem.recording.names) < 2:
         return ""
     best, left = (found.learned or found).selection.best, found.lack_of_fit
     said = of_records(best)
-    noise = found.verdict is not Verdict.UNEXPLAINED
     share = said.square / max(best.rms**2 if noise else left.misfit_rms**2, 1e-300)
     if share < thresholds.LEVELS_SAID and not (noise and said.course):
         return ""

@@ -93,6 +93,18 @@ def test_a_force_that_drifts_over_the_records_is_said_to(change: float) -> None:
     assert float(told[1]) == pytest.approx(100.0 * abs(change), rel=0.25)
 
 
+def test_of_a_force_that_was_cut_nothing_of_the_kind_is_said() -> None:
+    """It is `unexplained` for what lay beyond the limit, and what is left is noise."""
+    r = swept(np.tile(STROKES, 2))
+    log = noisy(r, seed=21)
+    assert log.force is not None
+    found = diagnose(
+        replace(log, force=np.minimum(log.force, 0.8 * log.force.max())), [], limits=False
+    )
+    assert found.rig.cut
+    assert "each record's own" not in remaining_text(found)
+
+
 def test_gains_that_follow_what_the_test_set_are_no_course() -> None:
     """A law of the duty that a model lacks goes with the order in which duties were tested."""
     g = np.random.default_rng(5)
