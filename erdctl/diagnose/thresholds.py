@@ -74,7 +74,7 @@ CHANCE_OF_LEVELS, LEVELS_FROM = 2.5e-4, 5
 # Origin: none; far above rounding, far below what shows.
 MOVES = 1e-6
 
-# Part of the mean square left that a gain and a zero of each record take.
+# Part of the mean square left, or of a misfit's, that a gain and a zero of each record take.
 # Decides: whether that is said.
 # Origin: most of it; of six nulls of the plant, white, AR(1) and pink, the most had 0.06.
 LEVELS_SAID = 0.5

@@ -114,6 +114,19 @@ def test_gains_that_follow_what_the_test_set_are_no_course() -> None:
     assert course(gains, g.permutation(duty)[:, None]) is not None
 
 
+def test_a_drift_as_small_as_that_of_any_load_cell_is_no_course() -> None:
+    order, scatter = np.arange(12), 1e-4 * np.array([1, -1, 0, 1, -1, 1, 0, -1, 1, -1, 0, 1])
+    test = (order % 4)[:, None].astype(float)
+    assert course(1.0 + 0.01 * order / 11 + scatter, test) is None
+    assert course(1.0 + 0.04 * order / 11 + scatter, test) is not None
+
+
+def test_few_records_have_no_course() -> None:
+    order = np.arange(6)
+    test = np.array([[0.0, 1.0, 2.0], [1.0, 0.0, 2.0], [2.0, 1.0, 1.0]] * 2)
+    assert course(1.0 + 0.02 * order, test) is None
+
+
 def test_chance_makes_no_course() -> None:
     g = np.random.default_rng(6)
     said = [

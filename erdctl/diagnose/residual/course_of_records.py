@@ -59,7 +59,8 @@ def course(gains: Array, test: Array) -> tuple[float, float] | None:
     count = len(gains)
     order = np.arange(count) - 0.5 * (count - 1)
     other = np.column_stack([np.ones(count), test])
-    left, sizes, _ = np.linalg.svd(other - other.mean(axis=0) * (np.arange(other.shape[1]) > 0))
+    other[:, 1:] -= other[:, 1:].mean(axis=0)
+    left, sizes, _ = np.linalg.svd(other, full_matrices=False)
     basis = left[:, : int(np.count_nonzero(sizes > thresholds.BASIS * sizes[0]))]
     free = count - basis.shape[1] - 1
     own = order - basis @ (basis.T @ order)
