@@ -54,6 +54,7 @@ def test_a_piston_that_does_not_slip_is_judged_by_the_steps_of_its_fit(
     assert (as_it_slips(fitted) is fitted) == (c_vis == 300.0)
 
 
+@pytest.mark.long
 @pytest.mark.real_data
 def test_a_real_damper_has_the_names_that_hold_on_all_samples() -> None:
     """Falling friction behind a mount was taken for the better one on the samples of the search; on

@@ -113,16 +113,22 @@ def test_a_telephone_never_scrolls_sideways(
     assert wide == []
 
 
+SWATCHES = (
+    "JSON.stringify([...document.querySelectorAll('[data-swatch]')]"
+    ".map(s => getComputedStyle(s).backgroundColor))"
+)
+
+
 def page_colours(found: Opened) -> dict[str, list[str]]:
     """The colours of the levels, as the swatches show them, for each scheme."""
-    out = {}
-    for scheme in ("light", "dark"):
-        found.page.emulate_media(color_scheme=scheme)
-        found.page.wait_for_timeout(50)
-        out[scheme] = found.page.locator("[data-swatch]").evaluate_all(
-            "all => all.map(s => getComputedStyle(s).backgroundColor)"
-        )
-    return {k: [hexadecimal(c) for c in v] for k, v in out.items()}
+    page, out = found.page, dict[str, str]()
+    page.emulate_media(color_scheme="light")
+    out["light"] = page.evaluate(SWATCHES)
+    page.emulate_media(color_scheme="dark")
+    # A page is painted again when its machine comes to it: 50 ms were too short for a busy one.
+    page.wait_for_function(f"light => {SWATCHES} !== light", arg=out["light"])
+    out["dark"] = page.evaluate(SWATCHES)
+    return {k: [hexadecimal(c) for c in json.loads(v)] for k, v in out.items()}
 
 
 def hexadecimal(css: str) -> str:

@@ -46,8 +46,8 @@ def course(gains: Array, test: Array) -> tuple[float, float] | None:
 
     gains : (r,);  test : (r, k) what the test set for each, beside whose straight lines the order
         has to say more
-    Check: 0 to 9 % more by the tenth record is a course, also where the duty of records goes up and
-    down; beside a duty that rises with the order it is none of either.
+    Check: a gain of 1 that is 1.09 by the tenth record is a course where the duty goes up and down;
+    beside a duty that rises with the order it is none.
     >>> order, scatter = np.arange(10.0), 1e-3 * np.array([1, -1, 0, 1, -1, 1, 0, -1, 1, -1])
     >>> [round(g, 2) for g in course(1.0 + 0.01 * order + scatter, (order % 3)[:, None])]
     [1.0, 1.09]
