@@ -19,6 +19,7 @@ from erdctl.bench.rig import (
     scale,
     sign,
     spikes,
+    twice,
     unlike,
     velocity,
 )
@@ -111,6 +112,7 @@ def _of_force(found: list[Piece], faults: list[RigFault]) -> list[RigFault]:
     clipped = clipping.check(found, "force")
     out += clipped + frozen.check(found, "force", clipped)
     out += spikes.check(found, "force", clipped) + spikes.bursts(found, clipped)
+    out += twice.check(found)
     wrong = {f.record for f in [*faults, *out] if f.blocks}
     if None not in wrong:
         out += unlike.check([p for p in found if p.record not in wrong])
