@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 import sys
+from collections import defaultdict
 from collections.abc import Generator
 from functools import cache
 from typing import Any
+from zlib import crc32
 
 import hypothesis
 import pytest
@@ -63,6 +65,23 @@ def _trace(control: Any, wanted: bool) -> None:
     """Only where it changes: to begin anew takes 50 ms, which most tests do not."""
     if control is not None and control.started != wanted:
         (control.resume if wanted else control.pause)()
+
+
+@pytest.hookimpl(tryfirst=True)  # before tests are chosen by their marks
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Of a test with the mark `few(n)` so many sets of parameters run, the others with `-m long`.
+
+    Which, a checksum of their names tells: the same ones in each process, and along no parameter.
+    """
+    sets: dict[str, list[pytest.Item]] = defaultdict(list)
+    for item in items:
+        if item.get_closest_marker("few") and not item.get_closest_marker("long"):
+            sets[item.nodeid.partition("[")[0]].append(item)
+    for of_one in sets.values():
+        mark = of_one[0].get_closest_marker("few")
+        assert mark is not None
+        for item in sorted(of_one, key=lambda i: crc32(i.nodeid.encode()))[mark.args[0] :]:
+            item.add_marker("long")
 
 
 def pytest_configure(config: pytest.Config) -> None:

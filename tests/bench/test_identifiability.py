@@ -86,6 +86,7 @@ def lacking(r: Recording) -> tuple[set[str], set[str]]:
     )
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("name", LOGS)
 def test_inspect_identify_and_diagnose_agree(name: str) -> None:
     r = noisy(LOGS[name](), seed=3)

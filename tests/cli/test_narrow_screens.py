@@ -57,6 +57,7 @@ def words(text: str) -> set[str]:
     return set(DRAWN.sub(" ", text).split())
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("name", COMMANDS)
 def test_nothing_is_cut(name: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     found: list[Any] = []
@@ -80,6 +81,7 @@ def test_nothing_is_cut(name: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
             assert max(map(len, rows)) <= width
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("name", TABLES)
 def test_nothing_is_cut_on_a_terminal(name: str, tmp_path: Path) -> None:
     given = [str(tmp_path / w) if w in ("p.json", "pwm.csv") else w for w in COMMANDS[name]]

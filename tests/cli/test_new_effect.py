@@ -192,6 +192,7 @@ def log_of(r: Recording, path: Path) -> str:
     return str(path)
 
 
+@pytest.mark.long
 def test_from_learned_to_named(tmp_path: Path) -> None:
     """A law learned in one log is written, declared by a package, and named in another log."""
     logs = [noisy(gas_that_warms(campaign(100.0, 5.0), STIFFNESS, TAU), seed=s) for s in (31, 32)]

@@ -119,6 +119,7 @@ def test_two_duties_and_two_motions_tell_one_effect_and_not_two() -> None:
     assert "--drive sweep:" in said
 
 
+@pytest.mark.long
 def test_of_one_motion_it_is_said_that_nothing_tests_another() -> None:
     levels = (0.0, 0.15, 0.3, 0.45)
     r = concatenate([sine(0.8, 0.015, d, f"r{i}") for i, d in enumerate(levels)])
@@ -159,6 +160,7 @@ def test_what_is_more_than_one_motion() -> None:
     assert not one_motion(concatenate([slow, wide]))
 
 
+@pytest.mark.long
 def test_large_deflections_at_low_speeds_alone_are_told() -> None:
     """And which drive has both, at the highest speed of the log."""
     slow, fast = (sine(f, x, 0.0, f"{f}") for f, x in ((0.2, 0.025), (3.0, 0.005)))

@@ -51,6 +51,7 @@ def with_effect(found: Diagnosis, name: str, times: float) -> Recording:
     return replace(r, force=r.force + added)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     "name", [*FEW[:2], *(pytest.param(name, marks=pytest.mark.long) for name in FEW[2:])]
 )
@@ -61,6 +62,7 @@ def test_that_size_is_named_and_a_tenth_is_not(healthy: Diagnosis, name: str) ->
     assert tenth.findings == ()
 
 
+@pytest.mark.long
 def test_a_shape_that_was_added_to_an_effect_does_not_switch_off_its_force() -> None:
     """Of no size would a stop have been seen, it was said, since its contact may be damped."""
     r, stop = noisy(campaign(100.0, 8.0), seed=31), get("end_stop")

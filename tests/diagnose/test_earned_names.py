@@ -57,6 +57,7 @@ def test_once_a_law_takes_the_rest_the_effect_has_its_name() -> None:
     assert it.corrected.overall.rms < 1.05 * NOISE
 
 
+@pytest.mark.long
 def test_what_takes_more_is_named_beside_what_stays() -> None:
     it = found(0.85, learning=False)
     assert it.verdict is Verdict.UNEXPLAINED

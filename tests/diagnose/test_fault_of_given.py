@@ -72,6 +72,7 @@ def test_the_fault_and_what_is_left(kind: str, seed: int, left: float, halves: A
     assert found.may_be_a_gain == ("oil_leakage" in (found.effect.name, *found.alike))
 
 
+@pytest.mark.long
 def test_a_load_cell_that_is_off_is_not_ruled_out(halves: Any) -> None:
     given, healthy, _ = halves("electrical_fault", 81, 0.6)
     found = answered(given, replace(healthy, force=0.8 * healthy.force))
@@ -99,6 +100,7 @@ def test_nothing_is_said_of_a_healthy_damper(seed: int, halves: Any) -> None:
     assert "as_fault" not in to_json(found)
 
 
+@pytest.mark.long
 def test_another_damper_has_no_fault(halves: Any) -> None:
     """Its parameters all differ; no one number makes one of the other."""
     given, *_ = halves("oil_leakage", 81, 0.6)
@@ -108,6 +110,7 @@ def test_another_damper_has_no_fault(halves: Any) -> None:
     assert found.as_fault is None
 
 
+@pytest.mark.long
 def test_a_batch_job_that_asks_whether_the_parameters_hold_is_told(tmp_path: Path) -> None:
     """Fitted anew the model is adequate; for the parameters that were given that says nothing."""
     onsets = (*[np.inf] * 2, *[0.0] * 2)

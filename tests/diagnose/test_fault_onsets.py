@@ -56,6 +56,7 @@ def base(kind: str, onset: float, ramp: float) -> tuple[Problem, Hypothesis]:
 CASES = [(kind, *when) for kind in FIELDS for when in ((13.21, 0.0), (7.3, 4.0))]
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("case", CASES, ids=lambda c: f"{c[0]}-{c[1]}-{c[2]}")
 def test_kind_onset_and_ramp(case: tuple[str, float, float]) -> None:
     kind, onset, ramp = case

@@ -42,6 +42,7 @@ def said(seed: int, path: Path, *candidates: str) -> Diagnosis:
     return diagnose(found, [get(n) for n in candidates], limits=False, learning=False)
 
 
+@pytest.mark.long
 def test_levels_that_differ_by_little_leave_the_exponent_of_the_field_free() -> None:
     """Held at 1 it would miss two records by 3 % of the yield force, which friction takes."""
     one, two = at(0.65, 0.65), noisy(at(0.65, 0.673), seed=3, rms=0.05)
@@ -52,6 +53,7 @@ def test_levels_that_differ_by_little_leave_the_exponent_of_the_field_free() -> 
     assert found.verdict is Verdict.ADEQUATE
 
 
+@pytest.mark.long
 def test_what_the_log_cannot_test_is_told_where_it_would_do_as_well(tmp_path: Path) -> None:
     found = said(1131034, tmp_path, "preyield_viscosity", "preyield_field_dependence", "cavitation")
     assert found.untestable.keys() == {"preyield_field_dependence"}  # of one duty or two
@@ -60,6 +62,7 @@ def test_what_the_log_cannot_test_is_told_where_it_would_do_as_well(tmp_path: Pa
     assert "preyield_field_dependence" in finding.equivalent
 
 
+@pytest.mark.long
 def test_what_a_strong_effect_leaves_by_its_form_has_no_name(tmp_path: Path) -> None:
     """The void of the plant is compressed, and a base valve fills it: not that of the catalogue."""
     others = "presliding_friction", "gas_polytropic", "position_dependent_damping", "time_skew"
@@ -82,6 +85,7 @@ def test_a_play_is_searched_for_in_close_steps(tmp_path: Path) -> None:
     assert found.fit.values["backlash.g"] == pytest.approx(1.64e-3, rel=0.02)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("many", [False, True])
 def test_faint_effects_have_a_name_where_many_records_show_them(many: bool) -> None:
     """A zero error of less than a per cent of the square that a strong effect takes."""
@@ -126,6 +130,7 @@ def rubbing(more_at_rest: float, ripple: float) -> Recording:
     return noisy(replace(r, force=r.force + rubs + ripple * np.sin(r.x / 0.0006)), 3, 0.3)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("more_at_rest", "ripple", "named"),
     [
@@ -156,6 +161,7 @@ def test_at_one_speed_but_for_turns_no_law_of_the_speed_is_told(tmp_path: Path) 
     assert not [n for n, e in estimates.items() if e.identified]
 
 
+@pytest.mark.long
 def test_a_turn_on_a_sample_of_a_mended_velocity_is_no_misfit(tmp_path: Path) -> None:
     """It was an error of twice the yield force, 87 % of what the right model left, and a velocity
     that is noisy and late by a third of a sample was told as a skew of the force."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from rig import campaign, noisy
 
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
@@ -24,6 +25,7 @@ def rubbing_and_turbulent() -> Diagnosis:
     )
 
 
+@pytest.mark.long
 def test_what_faint_effects_can_stand_in_for_still_goes_first() -> None:
     """With friction away the rest may fit nearly as well; alone it takes the most by far."""
     found = rubbing_and_turbulent()

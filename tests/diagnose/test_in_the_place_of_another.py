@@ -57,6 +57,7 @@ def test_one_effect_has_the_place_of_two_that_say_no_more(tmp_path: Path) -> Non
     assert found.verdict is Verdict.EXPLAINED
 
 
+@pytest.mark.long
 def test_nothing_is_built_on_the_wrong_one_of_two_that_differ_by_little(tmp_path: Path) -> None:
     """Of a soft fluid, nine times the noise, a mount leaves a tenth. Only the mount was fitted at
     first, and what it leaves was named a damping that changes with position and an end stop."""

@@ -13,6 +13,7 @@ from erdctl.io.logs import read_logs
 from erdctl.plant.nulls import draw_null
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("seed", [1120102, 1120138, 1120354])
 def test_is_no_skew(seed: int, tmp_path: Path) -> None:
     """These had been named: the skew leaves doubtful samples without weight, those next to turns,

@@ -226,6 +226,7 @@ def test_levels_of_a_record_with_few_samples_of_weight_speak_against_nothing() -
     assert beyond_levels(problem, paper, rubbing)
 
 
+@pytest.mark.long
 def test_a_lag_under_a_held_duty_is_no_parameter_that_takes_of_levels(tmp_path: Path) -> None:
     """Dahl's damper in eight records, each with one duty of three: 43 % of the mean square, down
     to the noise, was held for chance: the lag of the viscosity counted, which no held duty shows.

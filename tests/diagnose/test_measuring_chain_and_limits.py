@@ -69,6 +69,7 @@ def test_noise_of_the_velocity_is_no_physics() -> None:
     assert set(named(found)) <= {"velocity_noise"}
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("low", "dashpot"),
     [

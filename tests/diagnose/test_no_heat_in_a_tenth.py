@@ -6,6 +6,7 @@ import io
 
 import numpy as np
 import pyarrow.parquet as pq
+import pytest
 
 from erdctl import plant
 from erdctl.diagnose.diagnosis import Verdict, diagnose
@@ -13,6 +14,7 @@ from erdctl.effects import get, names
 from erdctl.io.logs import read_logs
 
 
+@pytest.mark.long
 def test_a_charge_that_flow_carries_away_is_no_heat() -> None:
     """Of this yield force heat with a time constant of 0.11 s explained all but the noise."""
     case = plant.draw(1_280_014, kind="unknown", known=names())

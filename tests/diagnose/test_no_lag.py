@@ -30,6 +30,7 @@ def without_lag(late: int) -> Recording:
     return noisy(replace(log, force=force), seed=5, rms=0.2)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("late", [0, 1])
 def test_is_no_effect(late: int) -> None:
     """The limit of a short lag is late by a sample; no lag at all is a model of its own."""

@@ -95,6 +95,7 @@ def test_the_document_tells_shared_from_per_record() -> None:
     assert document["remaining"]["over_noise"] == pytest.approx(1.0, rel=0.05)
 
 
+@pytest.mark.long
 def test_offsets_come_out_and_the_common_one_is_a_finding() -> None:
     r = noisy(campaign(100.0, 6.0), seed=3)
     shifts = np.array([1.0, -2.0, 0.5, 0.0, 1.5, -1.0, 2.0, -0.5, -1.5])

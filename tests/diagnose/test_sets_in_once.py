@@ -59,6 +59,7 @@ def sought(recording: Recording) -> SetsInOnce | None:
     return sets_in_once(best, FAULTS, lack_of_fit_of(best).misfit_rms)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("kind", quarter_car.FAULTS)
 @pytest.mark.parametrize("onsets", [STAYS, ONCE], ids=["stays", "once"])
 def test_record_and_time(kind: str, onsets: tuple[float, ...], recordings: Any) -> None:
@@ -79,6 +80,7 @@ def test_the_time_and_the_kind_are_chosen_together(seed: int, left: float, recor
     assert found.f == pytest.approx(left, abs=0.03)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("kind", "having", "seed"),
     [
@@ -98,6 +100,7 @@ def test_records_that_have_it_all_along(
     assert found.f == pytest.approx(0.6, abs=0.05)
 
 
+@pytest.mark.long
 def test_where_most_records_have_it_the_others_are_said(recordings: Any) -> None:
     """23 of 24 records were listed as those of a fault, where the duty of one was logged wrong."""
     onsets = tuple(NEVER if r == 3 else 0.0 for r in range(6))
@@ -110,6 +113,7 @@ def test_where_most_records_have_it_the_others_are_said(recordings: Any) -> None
     assert "in record 'r3' the viscous and yield force is 1.68 times" in remaining_text(found)
 
 
+@pytest.mark.long
 def test_a_record_that_tells_nothing_is_not_said_to_be_whole(recordings: Any) -> None:
     """The first drive has hardly any field, and was listed as one of those without the fault."""
     onsets = tuple(NEVER if r == 3 else 0.0 for r in range(6))
@@ -120,6 +124,7 @@ def test_a_record_that_tells_nothing_is_not_said_to_be_whole(recordings: Any) ->
     assert found.once.odd == (3,)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("seed", [31, 32, 33])
 def test_nothing_is_sought_in_vain(seed: int, recordings: Any) -> None:
     """In healthy drives, in those of which every one has it, and where the log's time goes on."""
@@ -136,6 +141,7 @@ def diagnosed(recording: Recording) -> Diagnosis:
     return with_a_fault_once(run, recording)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "onsets", [STAYS, pytest.param(ONCE, marks=pytest.mark.long)], ids=["stays", "once"]
 )
@@ -179,6 +185,7 @@ def test_a_fault_all_along_is_said_with_its_records(recordings: Any) -> None:
     assert "--where" not in text  # no one record holds its law
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("spread", [0.02, pytest.param(0.1, marks=pytest.mark.long)])
 def test_records_whose_gains_scatter_have_no_fault(spread: float, recordings: Any) -> None:
     """As of a rig that is off, however far."""

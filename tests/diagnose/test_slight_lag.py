@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 import trajectories
 from rig import noisy, recording
 
@@ -29,6 +30,7 @@ def steady() -> Recording:
     return concatenate(out)
 
 
+@pytest.mark.long
 def test_held_at_0_it_would_be_named_otherwise() -> None:
     log = noisy(steady(), seed=3, rms=0.1)
     problem = prepare(log)

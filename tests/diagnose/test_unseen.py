@@ -137,6 +137,7 @@ def test_the_document_says_which_kind_of_unseen_a_figure_is() -> None:
     assert found.withdrawn == ()
 
 
+@pytest.mark.long
 def test_what_predicts_the_records_kept_aside_the_worse_is_not_named() -> None:
     """Damping that turns its sign in those records: the search finds it, and it does not hold."""
     log, damping = noisy(many(), seed=6), get("quadratic_damping")

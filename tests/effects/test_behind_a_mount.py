@@ -178,6 +178,7 @@ def test_a_seal_that_bends_goes_with_the_piston(x_d: float, gap: float) -> None:
     assert np.abs(parts["yield"][1:]).max() < 1e-3  # no field: what the tables of laws leave
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("gap", [0.0, GAP])
 @pytest.mark.parametrize(("s_m", "m"), [(2e-5, 0.3), (2e-4, 1.0), (2e-4, 4.0)])
 def test_a_mass_goes_with_the_piston(s_m: float, m: float, gap: float) -> None:
@@ -228,6 +229,7 @@ def test_a_rod_that_rests_is_held_by_what_rubs(preload: float) -> None:
 RIGID = [e for e in catalogue() if e.name not in {"backlash", *get("mount_compliance").equivalents}]
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("seed", range(40))
 def test_whatever_acts_a_stiff_mount_is_none_and_a_soft_one_drives_nothing(seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -56,6 +56,7 @@ def test_over_records_whose_time_goes_on() -> None:
     assert drift.rms < 0.9 * base.rms
 
 
+@pytest.mark.long
 def test_a_delay_that_stays_is_none() -> None:
     found, names = named(recorded(0.0, 0.012))
     assert names == {"time_skew"}

@@ -37,6 +37,7 @@ def solved(s: Signals, s_m: float, c_m: float, g: float, Y: float) -> Array:
     return np.array([spring(e) + c_m * slope(t, e) for t, e in zip(s.t, stretch, strict=True)])
 
 
+@pytest.mark.few(9)
 @pytest.mark.parametrize("rate", [250.0, 1000.0])
 @pytest.mark.parametrize("g", [0.0, 2e-3])
 @pytest.mark.parametrize("c_m", [30.0, 500.0, 5000.0])

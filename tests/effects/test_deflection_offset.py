@@ -29,6 +29,7 @@ def test_a_channel_that_counts_from_elsewhere(zero: float) -> None:
     assert force == pytest.approx(Model().force(s, TRUTH), abs=1e-9)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("zero", [0.02, 0.06])
 def test_a_deflection_from_an_end_of_its_range_is_no_zero_of_the_force(zero: float) -> None:
     """The force channel was said to have a zero error of -4 N, the damping to vary over the stroke
@@ -44,6 +45,7 @@ def test_a_deflection_from_an_end_of_its_range_is_no_zero_of_the_force(zero: flo
     assert x_z == pytest.approx(zero, abs=1e-3)
 
 
+@pytest.mark.long
 def test_alike_springs_tell_it_from_no_zero_of_the_force() -> None:
     clean = campaign(100.0, 8.0)
     assert clean.force is not None

@@ -52,6 +52,7 @@ def test_parts_of_a_step_are_the_mirror_of_a_dead_time() -> None:
     assert ahead[inner] == pytest.approx(back[inner])
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("samples", [1, 2])
 def test_a_duty_that_is_logged_late_has_a_name(samples: int) -> None:
     """A friction that goes with a power of the duty was learned, and stood beside a rest that "is

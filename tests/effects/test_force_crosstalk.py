@@ -39,6 +39,7 @@ def test_it_has_a_name(full: float) -> None:
     assert found.fit.values["force_crosstalk.F_u"] == pytest.approx(full, abs=0.15)
 
 
+@pytest.mark.long
 def test_beside_a_zero_of_the_channel() -> None:
     found, names = named(seen(4.0, zero=-3.0))
     assert names == {"force_crosstalk", "force_offset"}

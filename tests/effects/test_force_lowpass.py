@@ -84,6 +84,7 @@ def test_it_has_a_name(tau: float) -> None:
     assert found.fit.values["force_lowpass.tau"] == pytest.approx(tau, rel=0.03)
 
 
+@pytest.mark.long
 def test_a_second_pole_is_a_delay_beside_it() -> None:
     """As of an amplifier and a filter against aliasing: what a pole well above does."""
     found = named(0.015, 0.003)

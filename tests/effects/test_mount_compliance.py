@@ -47,6 +47,7 @@ def test_a_stiff_mount_is_none() -> None:
     assert stiff[moving] == pytest.approx(off[moving], abs=5e-3 * np.ptp(off))
 
 
+@pytest.mark.few(5)
 @pytest.mark.parametrize("rate", [200.0, 1000.0])
 @pytest.mark.parametrize("duty", [0.0, 0.3])
 @pytest.mark.parametrize("s_m", [1e-8, 1e-6, 1e-4])

@@ -71,6 +71,7 @@ APART = {  # both directions, which differ
 }  # fmt: skip
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("s_m", [0.0, 2e-5])
 def test_a_step_of_the_control_acts_on_what_is_stretched(s_m: float) -> None:
     """F_y = F_ER z, as in Spencer's and in Dahl's damper, where the control multiplies z. The

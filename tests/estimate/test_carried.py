@@ -75,6 +75,7 @@ def test_what_is_told_only_together_stays_so() -> None:
         assert ends == (max(q.low, -1e9), min(q.high, 1e9))
 
 
+@pytest.mark.long
 def test_a_yield_force_beside_a_saturation_of_any_sharpness() -> None:
     """With one sharpness taken, one of 16 intervals held it, and the farthest was 31 errors off."""
     readings = [(9404, "white", 0), (9407, "ar1", 0), (9409, "white", 1), (9413, "white", 0)]

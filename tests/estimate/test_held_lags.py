@@ -34,6 +34,7 @@ def sine(apart: float, lag: float, seed: int, noise: float = 4.0) -> Recording:
     return Recording(t=t, x=x, xdot=xdot, duty=duty, force=force, starts=starts, names=("sine",))
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("lag", [0.02, 0.06, 0.13])
 @pytest.mark.parametrize("apart", [0.05, 0.3])
 def test_what_a_lag_may_have_done_is_in_the_intervals(lag: float, apart: float) -> None:

@@ -42,6 +42,7 @@ def test_where_the_piston_slips_nothing_is_told() -> None:
         assert "slips" in (told[name].reason or "")
 
 
+@pytest.mark.long
 def test_where_it_does_not_it_is() -> None:
     found, true = fitted(v_s=0.1, c_vis=600.0)
     assert found.jumps is None

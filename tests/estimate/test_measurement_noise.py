@@ -26,6 +26,7 @@ def drawn(seed: int) -> tuple[Recording, float]:
     return log.recording, float(plant.key(case)["force_noise"]["rms"])
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize("seed", range(420_000, 420_010))
 def test_noise_beside_hidden_physics(seed: int) -> None:
     recording, noise = drawn(seed)

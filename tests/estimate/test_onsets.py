@@ -83,6 +83,7 @@ def test_what_an_onset_leaves_is_what_least_squares_leave(effect: Effect) -> Non
         assert given == pytest.approx(square, rel=1e-5, abs=1e-6 * float(block.force @ block.force))
 
 
+@pytest.mark.few(1)
 @every
 def test_the_best_is_the_best_of_all_times(effect: Effect) -> None:
     s = drive(4.0)
@@ -111,6 +112,7 @@ def test_a_fit_finds_it_from_anywhere(effect: Effect, t_0: float, t_r: float) ->
     assert found[effect.key("t_r")] == pytest.approx(t_r, abs=4 * STEP)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("rho", "used", "loud"),
     [

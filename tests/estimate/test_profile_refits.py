@@ -35,6 +35,7 @@ def assessed(progress: Any, threads: int = 1) -> Fit:
     return assess(model, [block], values, threads=threads, progress=progress)
 
 
+@pytest.mark.long
 def test_refits_end_where_a_step_gains_nothing_that_an_interval_would_show(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -33,6 +33,7 @@ def rms(r: Recording, model: Model, values: Values) -> float:
     return validate(r, model.force(Signals.of(r), values)).overall.rms
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("seed", [1594002, 1594079, 1600014, 1600081])
 def test_a_log_of_two_records_is_simulated_as_it_was_fitted(seed: int, tmp_path: Path) -> None:
     """In the first two the parameters make up for the zero of each record: its scatter, of which
@@ -49,6 +50,7 @@ def test_a_log_of_two_records_is_simulated_as_it_was_fitted(seed: int, tmp_path:
         assert found.fit.stderr[f"{way}.sigma"] < 1e4 * np.ptp(r.force)
 
 
+@pytest.mark.long
 def test_heat_that_is_never_lost_is_written_so() -> None:
     """A time constant at its upper bound has an error beyond all bounds; it was written at the
     lower one, 1 s."""

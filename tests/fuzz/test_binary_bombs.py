@@ -28,6 +28,7 @@ sys.exit(code)
 """
 
 
+@pytest.mark.few(6)
 @pytest.mark.parametrize("name", BOMBS)
 def test_memory_is_bounded(name: str, tmp_path: Path) -> None:
     data, suffix = bomb(name)

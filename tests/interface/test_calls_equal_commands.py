@@ -112,6 +112,7 @@ def test_mimic(options: dict[str, float], tmp_path: Path) -> None:
     assert json.loads((tmp_path / "called.mat.manifest.json").read_text()) == manifest
 
 
+@pytest.mark.few(1)
 def test_diagnose(found: erdctl.interface.diagnose.Diagnosed, tmp_path: Path) -> None:
     expected = command("diagnose", LATE, "--effects", ",".join(FEW), "--jobs", "1")
     assert found.to_dict() == expected

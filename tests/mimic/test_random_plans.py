@@ -72,6 +72,7 @@ def judge_healthy(plan: RandomPlan, run: Run, channel: str, breaks: int | None) 
     return len(back)
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("batch", range((COUNT + BATCH - 1) // BATCH))
 def test_random_plans_keep_every_limit(batch: int, tmp_path: Path) -> None:
     first = FIRST + batch * BATCH

@@ -134,6 +134,7 @@ def test_a_channel_of_the_log_is_not_applied_again(on_log: OnLog) -> None:
     assert drifted - late.plain == pytest.approx(late.added(twin, twin.start, shape), abs=1e-6)
 
 
+@pytest.mark.long
 def test_a_damper_has_as_many_effects_as_go_together(on_log: OnLog) -> None:
     """Any that a log may be said to have: what the plant cannot simulate beside others is left."""
     random = np.random.default_rng(7)

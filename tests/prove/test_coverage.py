@@ -65,6 +65,7 @@ def test_the_law_between_samples_is_that_of_the_plant(name: str) -> None:
         assert np.sqrt(np.mean(off**2)) < 0.2 * 0.003 * np.ptp(block.force)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("effect", ["mount_compliance", "input_delay", "time_skew", "cavitation"])
 def test_a_bias_of_the_step_is_gone(effect: str) -> None:
     """These were off by several errors in the log's own steps."""

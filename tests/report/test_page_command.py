@@ -148,6 +148,7 @@ def _one_line(text: str) -> str:
     return " ".join(text.split())
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", ["worn", "validation"])
 def test_where_an_export_goes_in_the_words_of_the_help(
     made: Callable[[str], Path], name: str

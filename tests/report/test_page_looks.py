@@ -95,6 +95,7 @@ def test_every_formula_fits_a_telephone(browser: Any, tmp_path: Path) -> None:
     page.close()
 
 
+@pytest.mark.few(8)
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_a_telephone_never_scrolls_sideways(
@@ -170,6 +171,7 @@ def test_a_misfit_has_one_colour_in_pictures_and_pages(
         assert theirs[:3] == pytest.approx(to_rgb(ours), abs=2 / 255)
 
 
+@pytest.mark.long
 def test_a_printed_table_has_its_head_on_every_page(browser: Any, tmp_path: Path) -> None:
     """A table of 150 records over several sheets of paper."""
     rng = np.random.default_rng(1)
@@ -190,6 +192,7 @@ def test_a_printed_table_has_its_head_on_every_page(browser: Any, tmp_path: Path
         assert all(word in head for word in ("record", "samples", "RMSE [N]", "NRMSE")), head
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     "name",
     [

@@ -193,6 +193,7 @@ FAULTS = {
 }
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize(
     ("number", "faults"),
     [("14", ["oil=0.5"]), ("15", ["electrical=0.5"]), ("17", ["deformation=0.5"]),
@@ -240,6 +241,7 @@ def parts() -> oracle.Response:
     return oracle.respond(*(SCHEDULE[c].to_numpy() for c in ("t", "x", "xdot", "duty")))
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("number", "fault"), [("22", "oil=0.5"), ("24", "electrical=0.5"), ("26", "deformation=0.5")]
 )

@@ -36,6 +36,7 @@ def every(r: Recording, nth: int) -> Recording:
     return replace(r, **channels, starts=np.cumsum([0, *counts]))
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("seed", range(410_000, 410_006))
 def test_a_log_of_the_plant(seed: int) -> None:
     """At its own rate nothing is found; at an eighth no record is said to be noisy."""
@@ -85,6 +86,7 @@ def test_a_gas_that_warms_is_no_zero(seed: int) -> None:
     assert look(recorded(case)).lines() == []
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("counts", [60, 120, 250])
 def test_a_count_that_flickers_is_no_spike(counts: int) -> None:
     """A record of a weak force on a coarse channel had 1 to 8 spikes, of one count each."""
@@ -95,6 +97,7 @@ def test_a_count_that_flickers_is_no_spike(counts: int) -> None:
         assert "force_spikes" not in {f.code for f in found}
 
 
+@pytest.mark.long
 def test_a_mass_is_no_lag() -> None:
     """Of a linear damper it is, and a record without field was said to be early by m / c."""
     case = plant.draw(1_254_000, kind="pair", effects=("time_skew", "fluid_inertia"))
@@ -108,6 +111,7 @@ SPOILED = {
 }
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("code", SPOILED)
 def test_among_records_of_any_control(code: str) -> None:
     """One record in eight logs with an error: mostly it is seen, and never another one blamed."""

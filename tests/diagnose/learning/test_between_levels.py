@@ -29,6 +29,7 @@ NARROWEST = {"sine": 2.0, "bell": 1.0}
 BETWEEN = (0.05, 0.15, 0.25, 0.35, 0.4)
 
 
+@pytest.mark.long
 @given(
     levels=st.lists(st.integers(0, 100), min_size=4, max_size=12, unique=True).map(sorted),
     seed=st.integers(0, 1000),

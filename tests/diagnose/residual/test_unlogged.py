@@ -195,6 +195,7 @@ def test_neither_is_a_law_of_the_speed_in_a_random_motion_that_grows() -> None:
     assert unlogged(fitted(held)) == ()
 
 
+@pytest.mark.long
 def test_a_fault_that_comes_and_goes_is_none_that_stays() -> None:
     """Which some effect of the catalogue would be, from its onset on."""
     made = log(6, between=(4.25, 8.25), part=0.4)
@@ -206,6 +207,7 @@ def test_a_fault_that_comes_and_goes_is_none_that_stays() -> None:
     assert {u.compression for u in found.apart} == {True, False}
 
 
+@pytest.mark.long
 def test_nor_does_one_from_the_beginning_of_a_record() -> None:
     """That may be one of its beginning on, to a search for faults, which then is none."""
     made = log(8, between=(0.0, 4.25), part=0.4)

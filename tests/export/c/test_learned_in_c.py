@@ -113,6 +113,7 @@ def off_by(model: Model, values: dict[str, float], s: Signals, *options: str) ->
     return np.abs(forces(block_of(model, values), s, *options) - expected) / np.ptp(expected)
 
 
+@pytest.mark.few(14)
 @pytest.mark.parametrize("slot", CAUSAL)
 @pytest.mark.parametrize("what", ["splines", "forms", "surfaces"])
 def test_every_law_is_the_same_in_c(slot: LawSlot, what: str) -> None:
@@ -223,6 +224,7 @@ def test_laws_act_with_the_catalogue(name: str) -> None:
     assert np.abs(found - expected).max() < 1e-9 * np.ptp(expected)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("slot", [LawSlot.FORCE, LawSlot.DUTY, LawSlot.DEFLECTION])
 def test_it_stays_clean_with_bad_input_under_sanitizers(slot: LawSlot, tmp_path: Path) -> None:
     curves = [curve(kind, slot) for kind in KINDS]

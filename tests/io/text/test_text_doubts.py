@@ -274,6 +274,7 @@ def test_names_that_are_not_their_cells(read: Converted, names: str) -> None:
 # --- cut off
 
 
+@pytest.mark.few(5)
 @pytest.mark.parametrize("between", [";", ",", "\t", " "])
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "utf-16-le"])
 def test_a_last_cell_that_is_cut_off(tmp_path: Path, between: str, encoding: str) -> None:
