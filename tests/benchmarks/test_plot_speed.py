@@ -51,7 +51,7 @@ def report() -> Iterator[None]:
         pytest.param(("--kind", "motion"), marks=pytest.mark.long),
         pytest.param(("--kind", "average"), marks=pytest.mark.long),
         # These simulate ten million rows as well.
-        ("--kind", "time", "--params", PARAMS),
+        pytest.param(("--kind", "time", "--params", PARAMS), marks=pytest.mark.long),
         ("--params", PARAMS),
     ],
     ids=lambda options: " ".join(options[:2]),

@@ -46,7 +46,6 @@ def rod_and_force(record: str, duty: float) -> tuple[np.ndarray, np.ndarray, np.
     return 1e3 * x, 1e3 * xdot, force
 
 
-@pytest.mark.long
 def test_the_corrected_loops_are_the_true_ones(made: tuple[Figure, Path]) -> None:
     figure, folder = made
     document = json.loads((folder / "diagnosis.json").read_text())
