@@ -26,13 +26,13 @@ FACTOR = np.uint64(0x9E3779B97F4A7C15)  # any that is odd and has bits all over
 class _Same:
     """Samples of a piece that are those of an earlier one.
 
-    first : the first of them in the later piece;  of : in the earlier one;  length : how many
+    first_earlier, first_later : the first of them in either;  length : how many
     """
 
     earlier: Piece
     later: Piece
-    first: int
-    of: int
+    first_earlier: int
+    first_later: int
     length: int
 
     @property
@@ -41,11 +41,18 @@ class _Same:
         longest = max(len(self.earlier), len(self.later))
         return self.earlier.record != self.later.record and self.length > WHOLE * longest
 
+    def of(self, channel: str) -> tuple[Array, Array]:
+        """(length,) a channel in the earlier one and in the later one."""
+        a, b, n = self.first_earlier, self.first_later, self.length
+        return self.earlier.of(channel)[a : a + n], self.later.of(channel)[b : b + n]
+
     def copy(self) -> list[RigFault]:
-        """Of one duty the later one is left out; of two both are, as one of the labels is wrong."""
+        """The later record is left out; both are where motion or duty is not the same as well, as
+        nobody knows of which of them the force is.
+        """
         a, b = self.earlier, self.later
-        of, its = a.of("duty")[self.of :][: self.length], b.of("duty")[self.first :][: self.length]
-        if np.array_equal(of, its):
+        other = next((c for c in ("duty", "x") if not np.array_equal(*self.of(c))), None)
+        if other is None:
             return [
                 RigFault(
                     "record_twice", b.record,
@@ -54,27 +61,33 @@ class _Same:
                     " copied", blocks=True,
                 )
             ]  # fmt: skip
-        return [
-            RigFault(
-                "record_twice", own.record,
-                f"its force is that of record '{other.name}', sample for sample, and its duty is"
-                f" not ({100 * median(duty):.3g} for {100 * median(beside):.3g} % in the median)",
-                "both are left out of fits; look at which file was copied, and at which duty",
-                blocks=True,
-            )
-            for own, other, duty, beside in ((a, b, of, its), (b, a, its, of))
-        ]  # fmt: skip
+        levels = [100.0 * median(duty) for duty in self.of("duty")]
+        out = []
+        for own, beside, (here, there) in ((a, b, levels), (b, a, levels[::-1])):
+            what = f"duty is not ({here:.3g} for {there:.3g} % in the median)"
+            out.append(
+                RigFault(
+                    "record_twice", own.record,
+                    f"its force is that of record '{beside.name}', sample for sample, and its"
+                    f" {what if other == 'duty' else 'motion is not'}",
+                    "both are left out of fits; look at which file was copied, and whose it was",
+                    blocks=True,
+                )
+            )  # fmt: skip
+        return out
 
     def overlap(self) -> RigFault:
         """The samples of the later one are left out."""
-        a, b, end = self.earlier, self.later, self.first + self.length
+        a, b = self.earlier, self.later
         where = "in the same record" if a.record == b.record else f"in record '{a.name}'"
+        before, t = self.of("t")
+        first = b.first + self.first_later
         return RigFault(
             "record_twice", b.record,
-            f"its force from {b.t[self.first]:.5g} to {b.t[end - 1]:.5g} s is that from"
-            f" {a.t[self.of]:.5g} s on {where}, sample for sample",
+            f"its force from {t[0]:.5g} to {t[-1]:.5g} s is that from {before[0]:.5g} s on {where},"
+            " sample for sample",
             "fits take it once; look at how the log was cut, or put together",
-            samples=np.arange(b.first + self.first, b.first + end),
+            samples=np.arange(first, first + self.length),
         )  # fmt: skip
 
 
@@ -133,7 +146,7 @@ def _same(pieces: Sequence[Piece]) -> Iterator[_Same]:
     for (i, j, shift), _ in sorted(shifts.items(), key=lambda s: (s[0][1], -s[1])):
         begin, length = _shared(pieces[i].force, pieces[j].force, shift)
         if length >= LEAST:
-            yield _Same(pieces[i], pieces[j], begin, begin - shift, length)
+            yield _Same(pieces[i], pieces[j], begin - shift, begin, length)
 
 
 def _windows(force: Array) -> tuple[npt.NDArray[np.uint64], Index]:

@@ -68,6 +68,13 @@ def test_under_two_duties_neither_is_used(good: Recording) -> None:
     assert "(42 for" in other.text
 
 
+def test_of_two_motions_neither_is_used(good: Recording) -> None:
+    """As where the force of one run was written beside the deflection of the next."""
+    log = beside(good, replace(good.select([3]), x=-good.select([3]).x))
+    assert [(f.record, f.blocks) for f in said(log)] == [(3, True), (len(good.names), True)]
+    assert all("and its motion is not" in f.text for f in said(log))
+
+
 def test_cuts_that_overlap_count_once(good: Recording) -> None:
     log = beside(cut(good, 2, 0, 400), cut(good, 2, 200, len(good)), good.select([5]))
     (fault,) = said(log)
