@@ -7,12 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from erdctl.bench.differentiation import derive_xdot
+from erdctl.bench.rig import record_velocity
 from erdctl.bench.rig.fault import RigFault
 from erdctl.bench.rig.pieces import Piece
 from erdctl.core.messages import duration
 from erdctl.core.quantiles import median
 
 NOISE = 0.03  # of the effective speed
+MOSTLY_NOISE = 0.5  # of the effective speed, in a record that hardly moves: its gain is not told
 QUIETER = 3.0  # times less noise than xdot, so that the derivative of x serves better
 LATE = 2e-3  # s
 LATE_STEPS = 1.0
@@ -27,7 +29,7 @@ REMEDY = "fits take the derivative of x in its place; leave the column out, or r
 
 
 def check(found: Sequence[Piece]) -> list[RigFault]:
-    """Noise, lag, gain and zero of a measured xdot.
+    """Noise, lag, gain and zero of a measured xdot, and records in which it is not as in others.
 
         x_{i+k} - x_i = (W + tau (xdot_{i+k} - xdot_i) - v_0 (t_{i+k} - t_i)) / g
 
@@ -36,9 +38,10 @@ def check(found: Sequence[Piece]) -> list[RigFault]:
     """
     if not found or found[0].recording.xdot_note != "measured":
         return []
-    rows = [row for p in found if (row := _against_x(p)) is not None]
-    if not rows:
+    seen = [(p, row) for p in found if (row := _against_x(p)) is not None]
+    if not seen:
         return []
+    rows = [row for _, row in seen]
     columns = (np.array(c) for c in zip(*rows, strict=True))
     gain, late, zero, noise, derived, cycle, step, speed = columns
     out = []
@@ -66,6 +69,11 @@ def check(found: Sequence[Piece]) -> list[RigFault]:
     if abs(g - 1.0) > GAIN and abs(g - 1.0) > SCATTER * error:
         out.append(
             RigFault("velocity_gain", None, f"xdot is {g:.3f} times the derivative of x", REMEDY)
+        )
+    if not out:
+        moving = [(p, row) for p, row in seen if row[3] < MOSTLY_NOISE]
+        out = record_velocity.check(
+            [p for p, _ in moving], [row[0] for _, row in moving], [row[1] for _, row in moving]
         )
     v_0, error = _middle(zero)
     if not out and abs(v_0) > max(ZERO * median(speed), SCATTER * error):
