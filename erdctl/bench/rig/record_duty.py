@@ -101,6 +101,8 @@ def _level(own: _Against, sound: Sequence[_Against], missed: float) -> float | N
     usual = max(missed, r.piece.noise("force")[0])
     if left > LIKE_OTHERS * usual or left**2 > (1.0 - TAKEN) * own.misfit**2:
         return None
+    if left > _rms_with_a_gain(A @ theta, F):
+        return None
     return level.duty
 
 
@@ -114,6 +116,12 @@ def _nearest(field: float, own: _Against, sound: Sequence[_Against]) -> _Against
     next_level = next((h for h in by_distance if abs(h.duty - first.duty) > NEXT), own)
     sure = abs(first.field - field) < NEARER * abs(next_level.field - field)
     return first if sure else None
+
+
+def _rms_with_a_gain(modelled: Array, force: Array) -> float:
+    """What a gain of all of the force leaves, in place of another yield force [N]."""
+    gain = float(modelled @ force) / max(float(modelled @ modelled), 1e-300)
+    return _rms(force - gain * modelled)
 
 
 def _rms(values: Array) -> float:

@@ -8,10 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from by_hand import recording
+from places import FIXTURES
 
 from erdctl.bench.rig import look
 from erdctl.bench.rig.fault import RigFault
 from erdctl.core.recording import Array, Recording
+from erdctl.io.logs import read_logs
 
 LEVELS, MOTIONS = (0.0, 0.1, 0.2, 0.3), ((0.6, 0.02), (1.5, 0.01), (4.0, 0.004))  # [1]; [Hz], [m]
 AT = 7  # of the twelve records the second of the third level
@@ -131,3 +133,13 @@ def test_the_first_records_before_a_fault_of_the_supply_are_none() -> None:
     assert said(replace(r, force=r.force - 0.4 * late * yielding)) == []
     early = np.arange(len(r)) >= 800 * 4
     assert said(replace(r, force=r.force - 0.4 * early * yielding)) == []
+
+
+def test_a_gain_of_one_record_is_no_label() -> None:
+    """Where most of a force is its yield force, a higher level leaves as little as others do."""
+    path = str(FIXTURES / "healthy_campaign.parquet")
+    good = read_logs([path], need_force=True, report=lambda line: None).recording
+    assert good.force is not None
+    force = good.force.copy()
+    force[good.slices[AT]] *= 1.1
+    assert said(replace(good, force=force)) == []
