@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -17,22 +17,22 @@ from erdctl.core.quantiles import median
 # least lag in steps and of a cycle.
 GAIN, PRIOR_GAIN = 0.08, 0.02
 LATE, PRIOR_LATE, LATE_STEPS, LATE_CYCLE = 4e-3, 1e-3, 2.0, 0.01
+# A piece of a record, the gain of xdot over x there, and its lag [s].
+Row = tuple[Piece, float, float]
 
 
-def check(pieces: Sequence[Piece], gain: Sequence[float], late: Sequence[float]) -> list[RigFault]:
-    """By the gain of xdot over x (k,), and by its lag (k,) [s], of a piece of each record (k,)."""
-    left: Mapping[int, tuple[Piece, float, float]] = {
-        p.record: (p, g, s) for p, g, s in zip(pieces, gain, late, strict=True)
-    }
+def check(rows: Sequence[Row]) -> list[RigFault]:
+    """By gain and lag, each against the mean of the other records; the clearest first."""
+    left = {row[0].record: row for row in rows}
     out: list[RigFault] = []
     for _ in range(max(1, len(left) // 3)):
         if len(left) < LEAST_RECORDS:
             break
-        rows = list(left.values())
-        texts = _late(rows) or _gained(rows)
-        if texts is None:
+        others = list(left.values())
+        said = _late(others) or _gained(others)
+        if said is None:
             break
-        record, text = texts
+        record, text = said
         out.append(
             RigFault(
                 "record_velocity", record, text,
@@ -40,11 +40,11 @@ def check(pieces: Sequence[Piece], gain: Sequence[float], late: Sequence[float])
                 blocks=True,
             )
         )  # fmt: skip
-        left = {r: row for r, row in left.items() if r != record}
+        del left[record]
     return out
 
 
-def _late(rows: Sequence[tuple[Piece, float, float]]) -> tuple[int, str] | None:
+def _late(rows: Sequence[Row]) -> tuple[int, str] | None:
     lags = [s for _, _, s in rows]
     least = [max(LATE, LATE_STEPS * p.step, LATE_CYCLE * p.cycle) for p, _, _ in rows]
     away = clearest(lags, np.ones((len(rows), 1)), least, PRIOR_LATE)
@@ -58,7 +58,7 @@ def _late(rows: Sequence[tuple[Piece, float, float]]) -> tuple[int, str] | None:
     )
 
 
-def _gained(rows: Sequence[tuple[Piece, float, float]]) -> tuple[int, str] | None:
+def _gained(rows: Sequence[Row]) -> tuple[int, str] | None:
     logs = [float(np.log(g)) for _, g, _ in rows]
     away = clearest(logs, np.ones((len(rows), 1)), [GAIN] * len(rows), PRIOR_GAIN)
     if away is None:

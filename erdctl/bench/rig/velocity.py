@@ -29,7 +29,7 @@ REMEDY = "fits take the derivative of x in its place; leave the column out, or r
 
 
 def check(found: Sequence[Piece]) -> list[RigFault]:
-    """Noise, lag, gain and zero of a measured xdot, and records in which it is not as in others.
+    """Noise, lag, gain and zero of a measured xdot.
 
         x_{i+k} - x_i = (W + tau (xdot_{i+k} - xdot_i) - v_0 (t_{i+k} - t_i)) / g
 
@@ -38,10 +38,9 @@ def check(found: Sequence[Piece]) -> list[RigFault]:
     """
     if not found or found[0].recording.xdot_note != "measured":
         return []
-    seen = [(p, row) for p in found if (row := _against_x(p)) is not None]
-    if not seen:
+    rows = [row for p in found if (row := _against_x(p)) is not None]
+    if not rows:
         return []
-    rows = [row for _, row in seen]
     columns = (np.array(c) for c in zip(*rows, strict=True))
     gain, late, zero, noise, derived, cycle, step, speed = columns
     out = []
@@ -70,11 +69,6 @@ def check(found: Sequence[Piece]) -> list[RigFault]:
         out.append(
             RigFault("velocity_gain", None, f"xdot is {g:.3f} times the derivative of x", REMEDY)
         )
-    if not out:
-        moving = [(p, row) for p, row in seen if row[3] < MOSTLY_NOISE]
-        out = record_velocity.check(
-            [p for p, _ in moving], [row[0] for _, row in moving], [row[1] for _, row in moving]
-        )
     v_0, error = _middle(zero)
     if not out and abs(v_0) > max(ZERO * median(speed), SCATTER * error):
         out.append(
@@ -85,6 +79,15 @@ def check(found: Sequence[Piece]) -> list[RigFault]:
             )
         )  # fmt: skip
     return out
+
+
+def of_records(found: Sequence[Piece]) -> list[RigFault]:
+    """Records in which a measured xdot goes otherwise with x; of those of which x is sound."""
+    if not found or found[0].recording.xdot_note != "measured":
+        return []
+    seen = [(p, row) for p in found if (row := _against_x(p)) is not None]
+    moving = [(p, row[0], row[1]) for p, row in seen if row[3] < MOSTLY_NOISE]
+    return record_velocity.check(moving)
 
 
 def _confirmed(found: Sequence[Piece], better: float) -> tuple[float, float]:
