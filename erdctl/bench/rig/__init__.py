@@ -23,7 +23,7 @@ from erdctl.bench.rig import (
     unlike,
     velocity,
 )
-from erdctl.bench.rig.fault import VELOCITY_CODES, Rig, RigFault, sound
+from erdctl.bench.rig.fault import Rig, RigFault, sound
 from erdctl.bench.rig.holding import hold
 from erdctl.bench.rig.looking import Looked
 from erdctl.bench.rig.pieces import FEWEST, Piece
@@ -91,9 +91,8 @@ def _look(recording: Recording, looked: Looked) -> list[RigFault]:
     known = [p for p in found if p.record not in guessed]
     faults += losses.gaps(found) + (losses.jumps(known, clipped) if known else [])
     faults += spikes.check(found, "x", clipped)
-    if not any(f.code in VELOCITY_CODES for f in faults):
-        wrong = {f.record for f in faults}
-        faults += velocity.of_records([p for p in found if p.record not in wrong])
+    wrong = {f.record for f in faults}
+    faults += velocity.of_records([p for p in found if p.record not in wrong])
     if recording.force is None:
         return faults
     once = held.check(found, "force")

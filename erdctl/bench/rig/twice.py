@@ -101,8 +101,6 @@ def check(found: Sequence[Piece]) -> list[RigFault]:
     out: list[RigFault] = []
     lost: set[int | None] = set()
     for same in [*_copies(found), *_same([p for p in found if _noisy(p)])]:
-        if same.later.record in lost:
-            continue
         faults = same.copy() if same.whole else [same.overlap()]
         out += [f for f in faults if f.record not in lost]
         lost |= {f.record for f in faults if f.blocks}

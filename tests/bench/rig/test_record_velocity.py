@@ -64,5 +64,7 @@ def test_a_record_that_hardly_moves_has_none(tmp_path: Path) -> None:
 
 
 def test_where_all_are_alike_it_is_the_channel(good: Recording) -> None:
-    (fault,) = look(replace(good, xdot=1.2 * good.xdot)).faults
+    """And fits take the derivative of x, of a record that is otherwise as well."""
+    wrong = spoiled(good, 1.2)
+    (fault,) = look(replace(wrong, xdot=1.2 * wrong.xdot)).faults
     assert (fault.code, fault.record) == ("velocity_gain", None)
