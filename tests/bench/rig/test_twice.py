@@ -126,7 +126,7 @@ def test_coarse_digits_are_the_same_now_and_then(good: Recording, digit: float) 
 def test_a_force_that_stands_is_no_copy(good: Recording) -> None:
     """At a limit, for longer than what is compared, in many records; or for a whole one."""
     limits = np.arange(30.0, 60.0, 0.1)  # of which one in 32 is a value that begins a window
-    limit = next(F for F in limits if len(_windows(np.append(np.full(40, F), 0.0))[1]))
+    limit = next(F for F in limits if len(_windows(np.repeat([F, 0.0], 20))[1]))
     force = force_of(good).copy()
     for a, b in pairwise(good.starts.tolist()):
         force[a + 50 : min(a + 250, b)] = limit
