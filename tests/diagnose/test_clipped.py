@@ -30,7 +30,6 @@ def diagnosed(r: Recording) -> Diagnosis:
     return diagnose(r, [get(name) for name in CANDIDATES], limits=False)
 
 
-@pytest.mark.few(1)
 @pytest.mark.parametrize("error", ["force clipped", "x clipped"])
 def test_it_is_never_adequate(error: str) -> None:
     """At 8 % of the samples the force is what the amplifier gives, or the stroke what it shows."""

@@ -85,7 +85,6 @@ def test_a_play_is_searched_for_in_close_steps(tmp_path: Path) -> None:
     assert found.fit.values["backlash.g"] == pytest.approx(1.64e-3, rel=0.02)
 
 
-@pytest.mark.few(1)
 @pytest.mark.parametrize("many", [False, True])
 def test_faint_effects_have_a_name_where_many_records_show_them(many: bool) -> None:
     """A zero error of less than a per cent of the square that a strong effect takes."""
@@ -130,7 +129,6 @@ def rubbing(more_at_rest: float, ripple: float) -> Recording:
     return noisy(replace(r, force=r.force + rubs + ripple * np.sin(r.x / 0.0006)), 3, 0.3)
 
 
-@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("more_at_rest", "ripple", "named"),
     [

@@ -47,6 +47,11 @@ def test_its_gain(good: Recording, gain: float) -> None:
     assert f"its xdot is {gain:.3g} times the derivative of its x" in fault.text
 
 
+def test_what_channels_differ_by_is_none(good: Recording) -> None:
+    """However little the other records scatter."""
+    assert faults(spoiled(good, 1.07)) == []
+
+
 @pytest.mark.parametrize("late", [-8, 8])
 def test_its_lag(good: Recording, late: int) -> None:
     """It was a force that is early, and the clocks of both channels to be looked at."""
