@@ -25,6 +25,7 @@ from erdctl.diagnose.fit_errors import fit_errors, may_be_absent
 from erdctl.diagnose.forward_step import key_of
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.learning.stage import Learned, learned
+from erdctl.diagnose.on_all_samples import on_all, refit
 from erdctl.diagnose.problem import Problem, check_enough, prepare, with_given
 from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying
 from erdctl.diagnose.residual.lack_of_fit import LackOfFit
@@ -33,14 +34,10 @@ from erdctl.diagnose.residual.places import places
 from erdctl.diagnose.residual.predictability import lack_of_fit_of
 from erdctl.diagnose.residual.resemblance import Resemblance, resemblance
 from erdctl.diagnose.residual.unlogged import Unlogged, regions, unlogged, without
-from erdctl.diagnose.search import Selection, named_again, on_all, refit, search
+from erdctl.diagnose.search import Selection, named_again
+from erdctl.diagnose.searched import Searched, searched
 from erdctl.diagnose.sets_in_once import SetsInOnce, sets_in_once
-from erdctl.diagnose.slight_lag import (
-    earned_by_lags,
-    freed,
-    to_be_searched_with_lags,
-    without_lags_held,
-)
+from erdctl.diagnose.slight_lag import freed
 from erdctl.diagnose.thin import thinned
 from erdctl.diagnose.unseen import Unseen, kept_aside, on_unseen
 from erdctl.diagnose.withdrawal import that_hold
@@ -78,7 +75,7 @@ class Diagnosis:
         that leave more of the misfit than the part `taken` that they take
     undetected : what was not named, and the size from which these data would have shown it
     rig : what is wrong with the recording; if all of it is, nothing was searched
-    tried : how many effects were
+    tried : how many effects were;  searched : what was found before any sample was kept from it
     learned : what the data say of a rest that no effect explains; `fit`, `corrected` and all that
         is said of the best model are then of the one with these laws
     once : a fault that sets in once, from which no law is learned
@@ -111,6 +108,7 @@ class Diagnosis:
     rig: Rig
     learned: Learned | None
     tried: int
+    searched: Searched
     once: SetsInOnce | None = None
     as_fault: FaultOfGiven | None = None
     apart: tuple[Unlogged, ...] = ()
@@ -132,6 +130,7 @@ def diagnose(
     cluster: Cluster | None = None,
     progress: Progress = lambda stage, what: None,
     apart: tuple[Unlogged, ...] = (),
+    known: Searched | None = None,
 ) -> Diagnosis:
     """Diagnose a recording with a measured force against a catalogue of effects.
 
@@ -144,6 +143,7 @@ def diagnose(
     once : look for a fault that sets in once in all of the log
     jobs, cluster : processes here, or a cluster, that try hypotheses; the results are the same
     apart : strokes to leave out, as a first diagnosis has found them
+    known : the search of one that differed by nothing before it
     """
     again = partial(
         diagnose, recording, candidates, most=most, seed=seed, given=given, free=free,
@@ -171,20 +171,16 @@ def diagnose(
     untested = [e for e in candidates if e.name in missing]
     bounds = Bounds.of(candidates, problem.block)
     with ExitStack() as pools:
-        given_to = partial(executor, jobs=jobs, progress=progress, bounds=bounds, cluster=cluster)
-        workers = pools.enter_context(given_to((thin, seen, problem)))
-        searched = search(thin, testable, most, workers, seed, given, untested)
-        if given is None and to_be_searched_with_lags(thin, searched):
-            lagging = [without_lags_held(p) for p in (thin, seen, problem)]
-            others = pools.enter_context(given_to(lagging))
-            with_lags = search(lagging[0], testable, most, others, seed, None, untested)
-            if earned_by_lags(thin, searched, with_lags):
-                searched, workers = with_lags, others
-                thin, seen, problem = lagging
-        chosen: Selection | None = (settled := refit(seen, searched, workers))
-        if 0 < len(settled.named) < len(searched.named):
-            searched = named_again(thin, searched, settled.best, testable, workers, untested)
-            chosen = refit(seen, searched, workers)
+        there = partial(executor, jobs=jobs, progress=progress, bounds=bounds, cluster=cluster)
+        known, workers = searched(
+            (thin, seen, problem), testable, most, lambda p: pools.enter_context(there(p)), seed,
+            given, untested, once=once and not free, known=known,
+        )  # fmt: skip
+        (thin, seen, problem), sought = known.problems, known.selection
+        chosen: Selection | None = (settled := refit(seen, sought, workers))
+        if 0 < len(settled.named) < len(sought.named):
+            sought = named_again(thin, sought, settled.best, testable, workers, untested)
+            chosen = refit(seen, sought, workers)
         unfitted, withdrawn = problem.of(aside) if aside else None, tuple[Effect, ...]()
         while chosen is not None:
             selection, gone, unseen = that_hold(chosen, unfitted, seen, workers)
@@ -200,6 +196,8 @@ def diagnose(
         fault: SetsInOnce | None = None
         if once and not free:
             fault = sets_in_once(selection.best, testable, lack_of_fit.misfit_rms)
+            if fault is None and known.selection.ended:
+                return again(apart=apart, once=False)
         if selection.named and matters(problem, selection, lack_of_fit):
             part = part_taken(selection, lack_of_fit, fault)
             if not earned(part):
@@ -214,7 +212,7 @@ def diagnose(
         left, more = matters(problem, selection, lack_of_fit), None
         untold = cannot_tell(recording, selection.named)
         if learning and left and not (rig.blocking or untold or fault):
-            start = searched.base, _on_thin(thin, searched.best, selection.best)
+            start = sought.base, _on_thin(thin, sought.best, selection.best)
             more = learned(
                 (thin, seen, problem), unfitted, kept, start, testable, lack_of_fit, workers, seed
             )
@@ -251,7 +249,7 @@ def diagnose(
     as_fault = None if given is None else fault_of_given(problem, given, testable, best)
     undetected: tuple[Detectable, ...] = ()
     if limits:
-        undetected = _undetected(thin, searched.best, named, candidates, missing, progress)
+        undetected = _undetected(thin, sought.best, named, candidates, missing, progress)
     return Diagnosis(
         verdict=verdict,
         cannot_tell=untold,
@@ -281,6 +279,7 @@ def diagnose(
         rig=rig,
         learned=more,
         tried=len(testable),
+        searched=known,
         once=None if untold else fault,
         as_fault=as_fault,
         apart=apart,

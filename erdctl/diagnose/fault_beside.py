@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
 from erdctl.diagnose.problem import Problem, prepare
 from erdctl.diagnose.residual.predictability import lack_of_fit_of
+from erdctl.diagnose.sets_in_once import sets_in_once
 from erdctl.estimate.onset_profile import Onset, Profile
 from erdctl.estimate.onsets import profile, profile_within
 from erdctl.model.effect import Effect
@@ -47,6 +49,17 @@ class FaultBeside:
     def explained(self) -> bool:
         """Whether no misfit shows with it."""
         return not lack_of_fit_of(self.hypothesis).significant
+
+
+# Each step of a search asks, and the search at its end.
+@lru_cache(maxsize=2)
+def a_fault_explains(best: Hypothesis, candidates: tuple[Effect, ...], seed: int) -> bool:
+    """Whether a fault that sets in once, beside the effects of a hypothesis, leaves no misfit."""
+    once = sets_in_once(best, candidates, lack_of_fit_of(best, seed).misfit_rms)
+    if once is None:
+        return False
+    found = fault_beside(best.problem, best, once.kinds, once.in_order(best.problem.recording))
+    return found is not None and found.explained
 
 
 def fault_beside(

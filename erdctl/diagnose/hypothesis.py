@@ -19,6 +19,7 @@ from erdctl.estimate.held_lags import LAGS
 from erdctl.estimate.jumps import slips
 from erdctl.estimate.least_squares import Fitted, at_bound, fit
 from erdctl.estimate.linearisation import jacobian
+from erdctl.estimate.onsets import placed
 from erdctl.model.composed import Model
 from erdctl.model.effect import Effect
 
@@ -169,10 +170,12 @@ def rank_starts(
     points: Sequence[Mapping[str, float]],
     record_effects: RecordEffects | None = None,
 ) -> list[dict[str, float]]:
-    """Starts after a short search from each, the most promising first."""
+    """Starts after a short search from each, with onsets where they are, the best first."""
     model, steps = Model(tuple(effects)), thresholds.STEPS_RANKING
     problem = told_by_control(problem, model, _complete(problem, model, points[0]))
-    found = [_fitted(problem, model, point, steps, record_effects) for point in points]
+    still = [problem.holding(p, placed(model)) for p in points]  # to place them takes longest
+    begun = zip(still, points, strict=True)
+    found = [_fitted(part, model, p, steps, record_effects) for part, p in begun]
     return [f.values for f in sorted(found, key=lambda f: f.cost)]
 
 

@@ -14,7 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from erdctl.core.recording import Recording, running_time
+from erdctl.core.recording import Recording
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.corrected import parameters
 from erdctl.diagnose.diagnosis import Diagnosis, Verdict
@@ -35,8 +35,7 @@ def with_a_fault_once(run: Callable[..., Diagnosis], recording: Recording) -> Di
     found = run(recording)
     if found.once is None:
         return found
-    ordered = found.problem.recording.select(found.once.order)  # without what the rig has spoilt
-    ordered = replace(ordered, t=running_time(ordered.t, ordered.starts))
+    ordered = found.once.in_order(found.problem.recording)  # without what the rig has spoilt
     again = run(ordered, limits=False, learning=False, once=False)
     once = _named(found, found.once, again, ordered) or _beside(found, found.once, ordered)
     if once is None or once.confirmed is None:
@@ -45,10 +44,14 @@ def with_a_fault_once(run: Callable[..., Diagnosis], recording: Recording) -> Di
         left = found.verdict is Verdict.UNEXPLAINED
         apart = found.apart or (() if found.rig.blocking else unlogged(found.selection.best))
         if left or apart:
-            return run(recording, once=False, apart=apart)
+            sought = not found.searched.selection.ended and apart == found.apart
+            known = found.searched if sought else None
+            return run(recording, once=False, apart=apart, known=known)
         return replace(found, once=None)
     if _only_without_its_records(found, again):
-        found = run(recording, once=False, learning=False, apart=found.apart)
+        found = run(
+            recording, once=False, learning=False, apart=found.apart, known=found.searched
+        )  # fmt: skip
     first = _place(found.problem.recording, once, once.confirmed.share)
     # A fit that is bent by the fault misses in other records, too, and another part in these.
     others = (r for r in found.mismatch if r.variable is not Variable.RECORD)

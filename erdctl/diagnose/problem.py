@@ -58,6 +58,10 @@ class Problem:
         part = prepare(self.recording.select(records), self.free)
         return replace(part, held=self.held, needs=self.needs)
 
+    def holding(self, values: Mapping[str, float], names: Iterable[str]) -> Problem:
+        """The problem with some parameters held where given values have them."""
+        return replace(self, held={n: values[n] for n in names if n in values} | {**self.held})
+
     def with_free(self, betas: Iterable[str]) -> Problem:
         """The problem with each beta free that is told after all, and with it the sigma beside."""
         told = {*betas}

@@ -6,8 +6,9 @@ hypothesis replaces another only if it is better by more than chance.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 from erdctl.core.progress import part_of
 from erdctl.diagnose import thresholds
@@ -17,10 +18,11 @@ from erdctl.diagnose.backward_step import (
     second_pass,
     without_each,
 )
-from erdctl.diagnose.carry_over import to_other_motions, to_other_records
+from erdctl.diagnose.carry_over import to_other_motions
 from erdctl.diagnose.companion_effects import joint_tasks
 from erdctl.diagnose.comparison import compare_alike, critical_of, ranked
 from erdctl.diagnose.executor import Executor, Task
+from erdctl.diagnose.fault_beside import a_fault_explains
 from erdctl.diagnose.form_error import beyond_form_error, is_only_form
 from erdctl.diagnose.forward_step import (
     Exploration,
@@ -31,12 +33,10 @@ from erdctl.diagnose.forward_step import (
     related,
 )
 from erdctl.diagnose.hypothesis import Hypothesis, fit_hypothesis
-from erdctl.diagnose.levels_of_records import not_of_records
 from erdctl.diagnose.look_alikes import is_preferred, look_alikes
 from erdctl.diagnose.other_dips import deepest_dip
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.residual.predictability import misfit_is_left, search_is_worthwhile
-from erdctl.diagnose.resolved import resolved
 from erdctl.diagnose.richer_forms import (
     earns_it,
     in_the_place_of_plain,
@@ -57,6 +57,8 @@ class Selection:
     without : for each chosen effect, the best model that lacks it
     look_alikes : for each chosen effect, those that would do as well in its place, best first
     simpler : of fewer effects, others than the chosen ones, that nearly do as well, best first
+    ended : whether no further effects were sought, as with a fault that sets in once no misfit is
+        left, which takes another search
     """
 
     base: Hypothesis
@@ -65,6 +67,7 @@ class Selection:
     without: Mapping[str, Hypothesis]
     look_alikes: Mapping[str, tuple[tuple[str, Hypothesis], ...]]
     simpler: tuple[Hypothesis, ...] = ()
+    ended: bool = False
 
     @property
     def named(self) -> tuple[Effect, ...]:
@@ -85,10 +88,13 @@ def search(
     seed: int = 0,
     given: Parameters | None = None,
     untested: Sequence[Effect] = (),
+    *,
+    once: bool = False,
 ) -> Selection:
     """Search for the effects, at most `most`, by which the recording differs from a given model.
 
     untested : effects that the log cannot show, which are no candidates but may be look-alikes
+    once : end where a fault that sets in once would leave nothing
     """
     base = _base(problem, given, executor)
     # One evaluation is the start itself.
@@ -96,8 +102,9 @@ def search(
         None if given is None else fit_hypothesis(problem, given.model.effects, [given.values], 1)
     )
     x = Exploration(problem, base, Explored([base]), executor, told)
-    best, singles = _forward_selection(x, base, candidates, most, seed)
-    if misfit_is_left(best, seed):
+    ends = partial(_ends, x, tuple(e for e in candidates if once and e.sets_in), seed)
+    best, singles = _forward_selection(x, base, candidates, most, seed, ends)
+    if misfit_is_left(best, seed) and not ends(best):
         alone = best
         parents = [base] if best is base else [base, best]
         for hypothesis in executor.fit(problem, joint_tasks(x, parents, candidates, most)):
@@ -106,8 +113,10 @@ def search(
                 x.explored.keep(hypothesis)
         if best is not alone:
             more = most - len(x.added(best))
-            best, _ = _forward_selection(x, best, candidates, more, seed)
+            best, _ = _forward_selection(x, best, candidates, more, seed, ends)
     if misfit_is_left(best, seed):
+        if ends(best):
+            return replace(_named(x, best, candidates, singles, untested), ended=True)
         best = in_the_place_of_plain(x, deepest_dip(x, best), candidates)
     best = eliminate(x, best)
     best = second_pass(x, best, most)
@@ -199,84 +208,23 @@ def _named(
     )  # fmt: skip
 
 
-def refit(
-    problem: Problem, found: Selection, executor: Executor, idle: Effect | None = None
-) -> Selection:
-    """The same selection refitted to another problem, usually all samples, from where it ended.
-
-    What a part of the samples spoke for and all of them do not is dropped, and so is what does not
-    carry over to records that were left out.
-    idle : one of the chosen effects, that is left out
-    """
-    kept = key_of(found.best.effects) - ({idle.name} if idle else set())
-    known = found.base, found.best, *found.without.values(), *found.simpler
-    again = {key_of(h.effects): h for h in known}
-    whole = len(found.best.residual) == len(problem.block.force)  # all samples were searched
-    if whole and found.best.record_effects is None:  # which settle by and by
-        explored = Explored(again.values())
-    else:
-        explored = _on_all_samples(problem, again.values(), found.best, executor)
-    explored.restarts.update((key, key_of(found.best.effects)) for key in again)
-    base = explored[key_of(found.base.effects)]
-    x = Exploration(problem, base, explored, executor)
-    best, last = explored[kept], None
-    while best is not last:  # each may leave what the other one drops
-        last, best = best, to_other_records(x, resolved(x, eliminate(x, best)))
-        best = not_of_records(x, beyond_form_error(x, best))
-    for other in (explored[key_of(h.effects)] for h in found.simpler):
-        # As much by fewer effects, which the samples of the search were too few to tell.
-        if len(other.effects) < len(best.effects):
-            left = eliminate(x, other)
-            best = left if compare_alike(problem, best, left).gain > 0.0 else best
-    names = [e.name for e in x.added(best)]
-    without = dict(zip(names, without_each(x, best), strict=True))
-    alike = {n: found.look_alikes.get(n, ()) for n in names}
-    return Selection(base, best, found.singles, without, alike)
-
-
-def _on_all_samples(
-    problem: Problem, hypotheses: Iterable[Hypothesis], best: Hypothesis, executor: Executor
-) -> Explored:
-    """Hypotheses fitted to all samples, from where they ended on some.
-
-    Where a cost has several dips, as that of a delay has, also from where the best one has these
-    parameters: a dip that was next on some samples can be far on all.
-    """
-    tasks = []
-    for h in hypotheses:
-        dips = {e.key(q.symbol) for e in h.effects if e.guesses for q in e.quantities}
-        elsewhere = {n: v for n, v in best.values.items() if n in dips and v != h.values[n]}
-        starts = (h.values, {**h.values, **elsewhere}) if elsewhere else (h.values,)
-        tasks.append(
-            Task(
-                "all samples", h.effects, starts, thresholds.STEPS_AGAIN,
-                record_effects=h.record_effects,
-            )
-        )  # fmt: skip
-    return Explored(executor.fit_compatible(problem, tasks))
-
-
-def on_all(problem: Problem, found: Selection, executor: Executor) -> Selection:
-    """The chosen model and its base fitted to more data than chose them; no choice rests on it."""
-    tasks = [
-        Task("all records", h.effects, (h.values,), thresholds.STEPS_AGAIN)
-        for h in ((found.base, found.best) if found.named else (found.base,))
-    ]
-    fits = executor.fit_compatible(problem, tasks)
-    return replace(found, base=fits[0], best=fits[-1])
-
-
 def _forward_selection(
-    x: Exploration, best: Hypothesis, candidates: Sequence[Effect], most: int, seed: int
+    x: Exploration,
+    best: Hypothesis,
+    candidates: Sequence[Effect],
+    most: int,
+    seed: int,
+    ends: Callable[[Hypothesis], bool],
 ) -> tuple[Hypothesis, list[Hypothesis]]:
     """Up to `most` effects more than those of a hypothesis, one by one, in a beam.
 
+    ends : whether a hypothesis is the last one
     Returns the best hypothesis, and the hypotheses with a single effect more.
     """
     parents, singles = [best], list[Hypothesis]()
     for depth in range(most):
         begun = depth or x.explored.keys() > {key_of(best.effects)}
-        if begun and not search_is_worthwhile(best, seed):
+        if begun and (not search_is_worthwhile(best, seed) or ends(best)):
             break  # more effects would have nothing to explain
         if parents[:1] == [best]:
             best = parents[0] = deepest_dip(x, best)
@@ -308,6 +256,11 @@ def base_starts(given: Mapping[str, float]) -> list[dict[str, float]]:
     """Where the fits of a model with given values begin before any effect is added."""
     fresh = fresh_start(*thresholds.FRESH), fresh_start(*thresholds.FRESH_SECOND)
     return [*({**given, **f} for f in fresh), dict(given)]
+
+
+def _ends(x: Exploration, faults: tuple[Effect, ...], seed: int, best: Hypothesis) -> bool:
+    """Whether a fault leaves nothing, asked once that takes little beside one effect more."""
+    return len(x.added(best)) >= thresholds.BEFORE_A_FAULT and a_fault_explains(best, faults, seed)
 
 
 def _replaces(problem: Problem, best: Hypothesis, joint: Hypothesis) -> bool:

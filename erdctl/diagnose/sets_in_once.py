@@ -73,6 +73,11 @@ class SetsInOnce:
         """All that have it, the one in which it sets in first."""
         return self.order[self.first :]
 
+    def in_order(self, recording: Recording) -> Recording:
+        """Its records in that order, in a time that goes on over them."""
+        ordered = recording.select(self.order)
+        return replace(ordered, t=running_time(ordered.t, ordered.starts))
+
     @property
     def stays(self) -> bool:
         """Whether it is in all records behind that, of which there are some."""

@@ -140,6 +140,11 @@ TELLS_A_GAIN = 1e-4
 # Origin: budget; a fault leaves most where it is.
 ONCE_RECORDS = 3
 
+# Effects that a search has found when it asks whether a fault that sets in once leaves nothing.
+# Decides: how soon a search ends that cannot name the fault, and that another one has to follow.
+# Origin: budget; the steps from there on take longer than all before (quarter_car, seed 75).
+BEFORE_A_FAULT = 3
+
 # Standard deviation of the gains of records, beyond their errors, that no rig is held to have.
 # Decides: whether a rest of which the levels take most is a misfit.
 # Origin: a load cell holds 1 % from one record to the next, and three times that is none of it.

@@ -10,8 +10,9 @@ from typing import NamedTuple
 
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.executor import Executor
+from erdctl.diagnose.on_all_samples import refit
 from erdctl.diagnose.problem import Problem
-from erdctl.diagnose.search import Selection, refit
+from erdctl.diagnose.search import Selection
 from erdctl.diagnose.unseen import Unseen, on_kept, on_unseen
 from erdctl.model.effect import Effect
 

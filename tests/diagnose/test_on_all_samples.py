@@ -10,8 +10,8 @@ from rig import campaign
 
 from erdctl.diagnose.executor import Executor
 from erdctl.diagnose.hypothesis import fit_hypothesis
+from erdctl.diagnose.on_all_samples import _on_all_samples
 from erdctl.diagnose.problem import prepare
-from erdctl.diagnose.search import _on_all_samples
 from erdctl.effects import get
 
 DELAY = 0.0175  # s

@@ -17,11 +17,12 @@ from erdctl.diagnose.hypothesis import Hypothesis
 from erdctl.diagnose.learning.learn import learn
 from erdctl.diagnose.learning.promising import learned_in
 from erdctl.diagnose.learning.unseen_corners import goes_beyond_what_was_seen
+from erdctl.diagnose.on_all_samples import on_all, refit
 from erdctl.diagnose.problem import Problem
 from erdctl.diagnose.record_effects import RecordEffects
 from erdctl.diagnose.residual.lack_of_fit import LackOfFit
 from erdctl.diagnose.residual.predictability import lack_of_fit_of
-from erdctl.diagnose.search import Selection, on_all, refit
+from erdctl.diagnose.search import Selection
 from erdctl.diagnose.unseen import Unseen, on_unseen
 from erdctl.estimate.covariance import Fit
 from erdctl.model.composed import Model
