@@ -47,7 +47,7 @@ def report() -> Iterator[None]:
 @pytest.mark.parametrize(
     "options",
     [
-        (),
+        pytest.param((), marks=pytest.mark.long),
         pytest.param(("--kind", "motion"), marks=pytest.mark.long),
         pytest.param(("--kind", "average"), marks=pytest.mark.long),
         # These simulate ten million rows as well.

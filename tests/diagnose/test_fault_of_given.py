@@ -81,6 +81,7 @@ def test_a_load_cell_that_is_off_is_not_ruled_out(halves: Any) -> None:
     assert "a gain of the rig, may look like it" in as_fault_text(found)
 
 
+@pytest.mark.long
 def test_it_is_written_with_its_share(halves: Any) -> None:
     given, _, damaged = halves("electrical_fault", 81, 0.6)
     found = answered(given, damaged)

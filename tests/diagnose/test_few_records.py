@@ -78,6 +78,7 @@ def test_one_force_by_two_names_has_both(tmp_path: Path) -> None:
     assert {finding.effect.name, *finding.equivalent} >= {"oil_leakage", "deformation_fault"}
 
 
+@pytest.mark.long
 def test_a_play_is_searched_for_in_close_steps(tmp_path: Path) -> None:
     """From gaps that are a factor of three apart the nearest end was that of another valley."""
     found = said(1132099, tmp_path, "backlash", "time_skew", "coulomb_friction")
@@ -167,6 +168,7 @@ def test_a_turn_on_a_sample_of_a_mended_velocity_is_no_misfit(tmp_path: Path) ->
     assert [f.effect.name for f in found.findings] == ["velocity_noise"]
 
 
+@pytest.mark.long
 def test_no_number_stands_on_a_lag_that_the_log_does_not_show(tmp_path: Path) -> None:
     """One sine at one duty, a lag of 0.13 s and a leak: k_nom was 4,883 +- 77 for 8,227 N/m."""
     found = parameters(said(1471040, tmp_path, "oil_leakage")).estimates

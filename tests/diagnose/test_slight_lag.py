@@ -50,6 +50,7 @@ def test_it_takes_the_place_of_nothing_else() -> None:
     assert freed(problem).held.keys() >= LAGS
 
 
+@pytest.mark.long
 def test_beside_an_effect_it_is_no_second_one() -> None:
     """Held at 0, the lag had the name of a second effect wherever a first one was hidden."""
     log = noisy(steady(), seed=3, rms=0.1)

@@ -57,6 +57,7 @@ def test_alike_springs_tell_it_from_no_zero_of_the_force() -> None:
     assert {finding.effect.name, *finding.equivalent} >= {"deflection_offset", "force_offset"}
 
 
+@pytest.mark.long
 def test_where_nothing_tells_a_zero_of_the_force_has_the_name() -> None:
     """It is the plainer one; the fit of either is the better one by chance."""
     clean = campaign(100.0, 8.0)

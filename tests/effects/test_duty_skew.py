@@ -66,6 +66,7 @@ def test_a_duty_that_is_logged_late_has_a_name(samples: int) -> None:
     assert found.fit.values["duty_skew.tau"] == pytest.approx(0.01 * samples, abs=1e-3)
 
 
+@pytest.mark.long
 def test_a_duty_that_switches_between_samples_is_said_to() -> None:
     """It is half a sample late in the mean, on a bench on which nothing is."""
     found = diagnose(

@@ -46,6 +46,7 @@ def test_beside_a_zero_of_the_channel() -> None:
     assert found.fit.values["force_offset.F_z"] == pytest.approx(-3.0, abs=0.1)
 
 
+@pytest.mark.long
 def test_at_one_duty_it_is_no_candidate() -> None:
     """A constant is a zero of the force there."""
     r = seen(0.0, zero=-3.0)

@@ -90,6 +90,7 @@ def test_campaign_and_noise_are_the_same_whatever_is_hidden() -> None:
             assert hidden == bare
 
 
+@pytest.mark.long
 def test_the_log_keeps_the_plan() -> None:
     """Nothing that fails later changes the campaign or the colour: same rows but for the force."""
     bare = log(draw(90, known=KNOWN, kind="null"))

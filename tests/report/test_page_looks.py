@@ -95,7 +95,7 @@ def test_every_formula_fits_a_telephone(browser: Any, tmp_path: Path) -> None:
     page.close()
 
 
-@pytest.mark.few(8)
+@pytest.mark.few(5)
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_a_telephone_never_scrolls_sideways(

@@ -94,6 +94,7 @@ def test_a_control_that_moves_stays_as_it_is(
         assert held_duty(control(np.random.default_rng(seed)), STARTS) is None
 
 
+@pytest.mark.long
 def test_logs_of_the_plant_have_it_where_it_was_put() -> None:
     known = known_before("deflection_offset")
     for seed in range(1760000, 1760004):
