@@ -21,7 +21,8 @@ CODES = (
     "force_clipped", "x_clipped", "force_frozen", "x_frozen", "force_spikes", "x_spikes",
     "force_burst", "samples_missing", "x_jumps", "velocity_noise", "velocity_lag", "velocity_gain",
     "velocity_offset", "duty_noise", "duty_inverted", "record_gain", "record_offset", "record_lag",
-    "record_noise", "record_duty", "record_twice", "record_velocity", "x_held", "force_held",
+    "record_noise", "record_duty", "record_twice", "record_velocity", "record_deflection",
+    "record_turned", "x_held", "force_held",
 )  # fmt: skip
 REFUSED = 3  # faults that one message tells
 VELOCITY_CODES = ("velocity_noise", "velocity_lag", "velocity_gain")

@@ -42,6 +42,12 @@ class Rows:
         weighted = self.columns.T * (self.smooth / max(int(np.count_nonzero(self.smooth)), 1))
         return weighted @ self.columns, weighted @ self.force
 
+    def square_left(self, theta: Array) -> float:
+        """Mean square that parameters (p,) leave of the force over the smooth samples [N^2]."""
+        AA, AF = self.normal
+        power = np.dot(self.force * self.smooth, self.force) / max(np.count_nonzero(self.smooth), 1)
+        return max(float(power - theta @ (2.0 * AF - AA @ theta)), 0.0)
+
 
 def first_of_each(found: Sequence[Piece]) -> list[Piece]:
     """One stretch of every record, all together of so many samples as the model needs."""

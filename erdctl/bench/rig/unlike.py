@@ -26,6 +26,7 @@ from erdctl.bench.rig.linear_model import (
 from erdctl.bench.rig.pieces import THIN, Piece, spread
 from erdctl.bench.rig.record_duty import mislabelled
 from erdctl.bench.rig.record_lag import late
+from erdctl.bench.rig.record_motion import misread
 from erdctl.bench.rig.trend import clearest
 from erdctl.core.quantiles import median, percentiles
 from erdctl.core.recording import Array
@@ -63,7 +64,8 @@ def check(found: Sequence[Piece]) -> list[RigFault]:
     least = AT_REST * max(spread(p.x) for p in found)
     moving = [p for p in found if spread(p.x) > least and p.record not in loud]
     rows = best_rows(first_of_each(moving)) if moving else []
-    kinds: list[Callable[[Sequence[Rows]], RigFault | None]] = [mislabelled, _gained, _zeroed, late]
+    kinds: tuple[Callable[[Sequence[Rows]], RigFault | None], ...]
+    kinds = (mislabelled, misread, _gained, _zeroed, late)
     for kind in kinds:
         # The clearest first: left in, it widens the scatter that the next is held against.
         for _ in range(max(1, len(rows) // 3)):
