@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -21,6 +21,7 @@ from erdctl.diagnose.fault_beside import a_fault_explains
 from erdctl.diagnose.hypothesis import fit_hypothesis, rank_starts
 from erdctl.diagnose.one_after_another import with_a_fault_once
 from erdctl.diagnose.problem import prepare
+from erdctl.diagnose.record_effects import Varying
 from erdctl.diagnose.search import Selection, search
 from erdctl.effects import get
 from erdctl.io.diagnosis import to_json
@@ -44,6 +45,14 @@ def car(tmp_path_factory: pytest.TempPathFactory) -> Any:
     return recorded
 
 
+def _told_to(sought: list[str], name: str, function: Callable[..., Any]) -> Callable[..., Any]:
+    def called(*given: Any) -> Any:
+        sought.append(name)
+        return function(*given)
+
+    return called
+
+
 def found(recording: Recording, *, once: bool) -> Selection:
     problem = prepare(recording)
     return search(problem, [FAULT, STEEP], 8, Executor([problem]), once=once)
@@ -54,21 +63,33 @@ def test_it_ends_where_a_fault_leaves_nothing(car: Any, monkeypatch: pytest.Monk
     some, none = (car(having).select([0, 1, 2]) for having in ((1,), ()))
     assert not found(some, once=True).ended  # what is found so soon takes less than to look
     monkeypatch.setattr(thresholds, "BEFORE_A_FAULT", 1)
+    sought = list[str]()
+    module = importlib.import_module("erdctl.diagnose.search")
+    for name in ("forward_step", "joint_tasks"):
+        monkeypatch.setattr(module, name, _told_to(sought, name, getattr(module, name)))
     ended = found(some, once=True)
     assert ended.ended
     assert ended.named == (STEEP,)
+    assert sought == ["forward_step"]
     assert not found(some, once=False).ended
     assert not found(none, once=True).ended
 
 
-@pytest.mark.parametrize("having", [(1, 3), ()])
-def test_a_fault_explains(having: tuple[int, ...], car: Any) -> None:
-    """Beside three effects that had bent like it, which are those of a search in these drives."""
-    problem = prepare(car(having))
-    effects = (STEEP, get("rise_decay_asymmetry"), get("time_skew"))
+BENT = ("preyield_viscosity", "rise_decay_asymmetry", "time_skew")  # of a search in these drives
+
+
+@pytest.mark.parametrize(
+    ("having", "names", "explains"),
+    [((1, 3), BENT, True), ((), BENT, False), ((1, 3), ("preyield_field_dependence",), False)],
+)
+def test_a_fault_explains(
+    having: tuple[int, ...], names: tuple[str, ...], explains: bool, car: Any
+) -> None:
+    """Where it is there, and leaves nothing beside the effects."""
+    problem, effects = prepare(car(having)), tuple(get(name) for name in names)
     start = {name: q.start for name, q in Model(effects).quantities.items()}
     best = fit_hypothesis(problem, effects, [start])
-    assert a_fault_explains(best, (FAULT,), 0) == bool(having)
+    assert a_fault_explains(best, (FAULT,), 0) == explains
 
 
 def test_nothing_else_changes_with_a_search_that_is_known(car: Any) -> None:
@@ -80,11 +101,22 @@ def test_nothing_else_changes_with_a_search_that_is_known(car: Any) -> None:
     assert to_json(again) == to_json(first)
 
 
-@pytest.mark.parametrize("ended", [False, True])
+def test_lags_are_not_sought_beside_what_has_ended(monkeypatch: pytest.MonkeyPatch) -> None:
+    module, asked = importlib.import_module("erdctl.diagnose.searched"), list[bool]()
+    monkeypatch.setattr(module, "to_be_searched_with_lags", lambda *a: asked.append(True))
+    for ended in (False, True):
+        result = SimpleNamespace(ended=ended)
+        monkeypatch.setattr(module, "search", lambda *a, result=result, **k: result)
+        module.searched(((),), [], 1, lambda p: None, 0, None, [], once=True, known=None)
+    assert asked == [True]
+
+
+@pytest.mark.parametrize(("ended", "apart"), [(False, ()), (True, ()), (False, ("strokes",))])
 def test_what_a_fault_does_not_say_is_sought_once(
-    car: Any, ended: bool, monkeypatch: pytest.MonkeyPatch
+    car: Any, ended: bool, apart: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The same search once more is not made, unless the first one had ended before its time."""
+    """The same search once more is not made, unless the first one had ended before its time, or
+    there are strokes to leave out now."""
     recording = car((1, 3)).select([0])
     first = diagnose(recording, [STEEP], once=False)
     searched = replace(first.searched, selection=replace(first.searched.selection, ended=ended))
@@ -99,20 +131,46 @@ def test_what_a_fault_does_not_say_is_sought_once(
     module = importlib.import_module("erdctl.diagnose.one_after_another")
     monkeypatch.setattr(module, "_named", lambda *a: None)
     monkeypatch.setattr(module, "_beside", lambda *a: None)
+    monkeypatch.setattr(module, "unlogged", lambda best: apart)
     with_a_fault_once(run, recording)
     assert [o.get("once", True) for o in asked] == [True, False, False]
-    assert asked[-1]["known"] is (None if ended else searched)
+    assert asked[-1]["known"] is (None if ended or apart else searched)
 
 
 def test_it_goes_on_after_all_where_no_fault_is_seen_on_all_samples(
     car: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(thresholds, "BEFORE_A_FAULT", 1)
-    module = importlib.import_module("erdctl.diagnose.diagnosis")
+    module, ended = importlib.import_module("erdctl.diagnose.diagnosis"), list[bool]()
+    sought = module.searched
+
+    def noted(*given: Any, **options: Any) -> Any:
+        found = sought(*given, **options)
+        ended.append(found[0].selection.ended)
+        return found
+
+    monkeypatch.setattr(module, "searched", noted)
     monkeypatch.setattr(module, "sets_in_once", lambda *a: None)
-    recording = car((1,)).select([0, 1])
+    recording = car((1,)).select([0, 1, 2])
     found = diagnose(recording, [FAULT, STEEP], limits=False, learning=False)
+    assert ended == [True, False]
     assert not found.searched.selection.ended
+
+
+def test_where_records_are_free_to_differ_no_fault_is_sought(
+    car: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    module, asked = importlib.import_module("erdctl.diagnose.diagnosis"), list[bool]()
+
+    def noted(*given: Any, once: bool, **options: Any) -> Any:
+        asked.append(once)
+        raise InterruptedError
+
+    monkeypatch.setattr(module, "searched", noted)
+    for free in (Varying(), Varying(gain=True)):
+        with pytest.raises(InterruptedError):
+            diagnose(car((1,)).select([0, 1, 2]), [FAULT], free=free)
+    assert asked == [True, False]
 
 
 def test_onsets_stay_while_starts_are_ranked(car: Any) -> None:
