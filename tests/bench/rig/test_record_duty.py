@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from by_hand import recording
 from places import FIXTURES
+from steady_sines import steady_sines
 
 from erdctl.bench.rig import look
 from erdctl.bench.rig.fault import RigFault
@@ -26,22 +26,14 @@ def sines(
 
     force : of velocity and duty, beside spring, viscous and yield force [N]
     """
-    random, t = np.random.default_rng(2), np.arange(800) / 200.0
-    parts = []
-    for k in range(len(LEVELS) * len(MOTIONS)):
-        level, (f, size) = LEVELS[k // 3], MOTIONS[k % 3]
-        x, v = (size * g(2 * np.pi * f * t) for g in (np.sin, np.cos))
-        v *= 2 * np.pi * f
-        u = np.full(len(t), level)
-        F = 170.0 * x + 50.0 * v + 20.0 * u**0.5 * np.sign(v) + force(v, u)
-        F *= 1.0 + spread * random.standard_normal()
-        parts.append((v, x, u, F + 0.2 * random.standard_normal(len(t))))
-    v, x, u, F = (np.concatenate(c) for c in zip(*parts, strict=True))
-    u[800 * AT : 800 * (AT + 1)] = duty
-    n = len(parts)
-    return recording(
-        v, x=x, duty=u, force=F, t=np.tile(t, n), starts=[800 * k for k in range(n + 1)]
-    )
+
+    def all_of(x: Array, v: Array, u: Array) -> Array:
+        return 170.0 * x + 50.0 * v + 20.0 * u**0.5 * np.sign(v) + force(v, u)
+
+    r = steady_sines(LEVELS, MOTIONS, all_of, noise=0.2, spread=spread)
+    logged = r.duty.copy()
+    logged[r.slices[AT]] = duty
+    return replace(r, duty=logged)
 
 
 def none(v: Array, duty: Array) -> Array:

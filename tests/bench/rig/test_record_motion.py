@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from by_hand import recording
 from measure_motion import CODES, with_gains
+from steady_sines import steady_sines
 
 from erdctl.bench.rig import look
 from erdctl.bench.rig.fault import RigFault
-from erdctl.core.recording import Recording
+from erdctl.core.recording import Array, Recording
 
 LEVELS, MOTIONS = (0.0, 0.1, 0.2), ((0.2, 0.03), (1.5, 0.01), (4.0, 0.004))  # [1]; [Hz], [m]
 AT = 4  # of the nine records the second of the second level
@@ -19,21 +19,13 @@ AT = 4  # of the nine records the second of the second level
 
 def sines() -> Recording:
     """Three levels by three motions, with other forces in release than in compression."""
-    random, t = np.random.default_rng(2), np.arange(800) / 200.0
-    parts = []
-    for k in range(len(LEVELS) * len(MOTIONS)):
-        level, (f, size) = LEVELS[k // 3], MOTIONS[k % 3]
-        x, v = (size * g(2 * np.pi * f * t) for g in (np.sin, np.cos))
-        v *= 2 * np.pi * f
-        u, up = np.full(len(t), level), v > 0
-        F = np.where(up, 170.0, 250.0) * x + np.where(up, 50.0, 30.0) * v
-        F += np.where(up, 20.0, -35.0) * u**0.5
-        parts.append((v, x, u, F + 0.05 * random.standard_normal(len(t))))
-    v, x, u, F = (np.concatenate(c) for c in zip(*parts, strict=True))
-    n = len(parts)
-    return recording(
-        v, x=x, duty=u, force=F, t=np.tile(t, n), starts=[800 * k for k in range(n + 1)]
-    )
+
+    def force(x: Array, v: Array, u: Array) -> Array:
+        up = v > 0
+        spring, damping = np.where(up, 170.0, 250.0) * x, np.where(up, 50.0, 30.0) * v
+        return np.asarray(spring + damping + np.where(up, 20.0, -35.0) * u**0.5)
+
+    return steady_sines(LEVELS, MOTIONS, force, noise=0.05)
 
 
 def said(r: Recording) -> list[RigFault]:
