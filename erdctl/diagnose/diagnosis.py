@@ -75,7 +75,7 @@ class Diagnosis:
         that leave more of the misfit than the part `taken` that they take
     undetected : what was not named, and the size from which these data would have shown it
     rig : what is wrong with the recording; if all of it is, nothing was searched
-    tried : how many effects were;  searched : what was found before any sample was kept from it
+    tried : how many effects were;  searched : what the search found, before it met all samples
     learned : what the data say of a rest that no effect explains; `fit`, `corrected` and all that
         is said of the best model are then of the one with these laws
     once : a fault that sets in once, from which no law is learned

@@ -10,7 +10,8 @@ from erdctl.bench.rig.fault import RigFault
 from erdctl.bench.rig.linear_model import Rows, of_others
 from erdctl.core.recording import Array
 
-TAKEN = 0.8  # of the square of the record's misfit
+LEAST = 0.01  # of the record's force, a misfit below which it is as the others are
+TAKEN = 0.8  # of the square of that misfit
 GAIN = 0.12  # least change of a gain
 SAME = 0.3  # of the change of the gain, by which the gains of terms may be off
 SPRING, DAMPING, REST = [1, 2], [3, 4], [0, 5, 6, 7]
@@ -30,15 +31,18 @@ def misread(rows: Sequence[Rows]) -> RigFault | None:
     """
     squares = [r.square_left(of_others(rows, i)) for i, r in enumerate(rows)]
     i = int(np.argmax(squares))
-    r, theta, most = rows[i], of_others(rows, i), float(np.sqrt((1.0 - TAKEN) * squares[i]))
+    r, theta, record = rows[i], of_others(rows, i), rows[i].piece.record
     A, F = r.columns[r.smooth], r.force[r.smooth]
-    record = r.piece.record
+    misfit = _rms(F - A @ theta)
+    if misfit < LEAST * _rms(F):
+        return None
+    most = float(np.sqrt(1.0 - TAKEN)) * misfit
     if _rms(F - A @ (theta[TURNED] * SIGN)) < most:
         return RigFault(
             "record_turned", record,
             "with x, xdot and force of the other sign it is as the other records are, as of a"
             " damper that was mounted the other way round",
-            'it is left out of fits; change the signs there, as by --map "x=-x" of its file',
+            "it is left out of fits; change all three signs there, and no one of them alone",
             blocks=True,
         )  # fmt: skip
     gain, left = _gain(A, F, theta)

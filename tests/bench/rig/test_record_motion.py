@@ -61,6 +61,20 @@ def test_what_a_gain_leaves_is_none() -> None:
     assert said(replace(r, force=force)) == []
 
 
+@pytest.mark.parametrize("apart", [0.0, 0.004])
+@pytest.mark.parametrize("noise", [0.0, 0.05])
+def test_a_damper_that_is_nearly_alike_both_ways_is_not_turned(apart: float, noise: float) -> None:
+    """Simulated, without noise: what rounding leaves said so of a third of all records."""
+
+    def force(x: Array, v: Array, u: Array) -> Array:
+        both = 170.0 * x + 50.0 * v + 20.0 * u**0.5 * np.sign(v)
+        return np.asarray(np.where(v > 0, 1.0, 1.0 + apart) * both)
+
+    r = steady_sines(LEVELS, MOTIONS, force, noise)
+    assert said(r) == []
+    assert said(with_gains(r, AT, -1.0, -1.0)) == []
+
+
 def test_two_of_them() -> None:
     r = with_gains(with_gains(sines(), AT, 3.0, 1.0), 6, 0.3, 1.0)
     assert {f.record for f in said(r)} == {AT, 6}
