@@ -21,7 +21,7 @@ from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.fault_beside import fault_beside
 from erdctl.diagnose.findings import earned, part_taken
 from erdctl.diagnose.hypothesis import Hypothesis
-from erdctl.diagnose.records_with_a_fault import is_no_scatter, telling
+from erdctl.diagnose.records_with_a_fault import is_no_law_of_duty, is_no_scatter, telling
 from erdctl.diagnose.residual.localisation import Region, said
 from erdctl.diagnose.residual.unlogged import unlogged
 from erdctl.diagnose.sets_in_once import Confirmed, SetsInOnce
@@ -107,7 +107,8 @@ def _named(
     left = parameters(again).estimates[fault.key(AMOUNT)].value
     named = replace(once, effect=fault, f=onset.f if left is None else left, confirmed=confirmed)
     named_in = named.set_in(found.problem.recording, ordered.t, at, onset)
-    return _no_scatter(named_in, once.order, best, found, again.lack_of_fit.records == 0.0)
+    explained = again.lack_of_fit.records == 0.0
+    return if_sure(named_in, once.order, best, found.problem.recording, explained)
 
 
 def _beside(found: Diagnosis, once: SetsInOnce, ordered: Recording) -> SetsInOnce | None:
@@ -126,17 +127,18 @@ def _beside(found: Diagnosis, once: SetsInOnce, ordered: Recording) -> SetsInOnc
     )
     named = replace(once, effect=fault.effect, f=fault.onset.f, confirmed=confirmed)
     named_in = named.set_in(found.problem.recording, ordered.t, fault.at, fault.onset)
-    return _no_scatter(named_in, once.order, fault.hypothesis, found, fault.explained)
+    recording = found.problem.recording
+    return if_sure(named_in, once.order, fault.hypothesis, recording, fault.explained)
 
 
-def _no_scatter(
+def if_sure(
     once: SetsInOnce | None,
     order: Sequence[int],
     best: Hypothesis,
-    found: Diagnosis,
+    recording: Recording,
     explained: bool,
 ) -> SetsInOnce | None:
-    """A fault, unless it is all along records that may be no more than some that scatter.
+    """A fault, unless it is all along records that may only scatter, or be of another duty.
 
     best : with the fault, of records in an order;  explained : whether none differ beyond it
     """
@@ -144,11 +146,12 @@ def _no_scatter(
         return None
     # Of a record that shows nothing of its force, one without a duty, nobody knows.
     told = [order[k] for k in telling(best, once.effect)]
-    recording = found.problem.recording
     of_those = once.of_those(told, recording.t[recording.starts[:-1]])
     of_those = replace(of_those, silent=frozenset({*order} - {*told}))
+    own = best, once.effect, once.f, range(once.first, len(order))
     sure = not of_those.whole or (
         explained
-        and is_no_scatter(best, once.effect, once.f, once.first, may_be_a_gain=once.may_be_a_gain)
+        and is_no_scatter(*own, may_be_a_gain=once.may_be_a_gain)
+        and is_no_law_of_duty(*own)
     )
     return of_those if sure else None

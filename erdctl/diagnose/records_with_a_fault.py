@@ -34,16 +34,16 @@ def apart(best: Hypothesis, fault: Effect) -> tuple[int, ...]:
 
 
 def is_no_scatter(
-    best: Hypothesis, fault: Effect, f: float, first: int, *, may_be_a_gain: bool
+    best: Hypothesis, fault: Effect, f: float, having: Sequence[int], *, may_be_a_gain: bool
 ) -> bool:
     """Whether what is left of some records is far below the others, held against how they scatter.
 
-    best : with the fault, from the beginning of its record number `first` on
-    f : what it leaves [1]
+    best : with the fault;  f : what it leaves [1]
+    having : the records that have it from their beginnings
     may_be_a_gain : whether it is like a gain of records: then of a rig that is off, however far,
         a cut of all these gains must hardly go as far
     """
-    scatter, records = _scatter(best, fault, np.arange(first, len(best.problem.recording.names)))
+    scatter, records = _scatter(best, fault, having)
     lost = 1.0 - f
     if may_be_a_gain and lost < by_chance(records) * scatter:
         return False
@@ -52,9 +52,35 @@ def is_no_scatter(
 
 def seems_no_scatter(best: Hypothesis, fault: Effect, f: float, having: Sequence[int]) -> bool:
     """The same before any fit has the fault, or what else is missing: of most cuts it is none."""
-    scatter, _ = _scatter(best, fault, np.asarray(having, dtype=np.intp))
+    scatter, _ = _scatter(best, fault, having)
     least = thresholds.LOST_OVER_SCATTER * thresholds.GAIN_HOLDS
     return 1.0 - f >= max(least, thresholds.SEEMS_LOST * scatter)
+
+
+def is_no_law_of_duty(best: Hypothesis, fault: Effect, f: float, having: Sequence[int]) -> bool:
+    """Whether some records lack a force that no law of the duty would take from them.
+
+    No yield force falls as the duty rises, and beyond that nobody knows its law: what is missing at
+    a duty that no other record has is one of these laws, or a fault, and nothing tells which. So
+    most of what fails must be below the yield force of other records at no more than that duty.
+    f : what the fault leaves [1];  having : the records that would have it
+    """
+    s, weight = best.problem.block.signals, best.problem.block.weight
+    failing = weight * _failing(best, fault, {**best.values, **fault.off}) ** 2
+    rows = np.isin(np.repeat(np.arange(len(s.starts) - 1), np.diff(s.starts)), having)
+    total = told = 0.0
+    levels = best.model.fields(s, best.values)
+    for level, way in zip(levels, (s.xdot > 0.0, s.xdot <= 0.0), strict=True):
+        own, others = rows & way, ~rows & way
+        order = np.argsort(s.duty[others], kind="stable")
+        next_to = np.searchsorted(
+            s.duty[others][order], thresholds.SAME_DUTY * s.duty[own], "right"
+        )
+        below = np.concatenate([[-np.inf], level[others][order]])[next_to]
+        # A law that does not fall may take half of what is missing, then.
+        total += float(failing[own].sum())
+        told += float(failing[own][below >= 0.5 * (1.0 + f) * level[own]].sum())
+    return told >= thresholds.TOLD_BESIDE * total
 
 
 def telling(best: Hypothesis, fault: Effect) -> tuple[int, ...]:
@@ -68,7 +94,7 @@ def telling(best: Hypothesis, fault: Effect) -> tuple[int, ...]:
     return tuple(np.flatnonzero(_tells(power)).tolist())
 
 
-def _scatter(best: Hypothesis, fault: Effect, having: Index) -> tuple[float, int]:
+def _scatter(best: Hypothesis, fault: Effect, having: Sequence[int]) -> tuple[float, int]:
     """Standard deviation of the gains of records about the two means, and how many tell of one."""
     G, p = _products(best, fault)
     told = _told(G, p)
