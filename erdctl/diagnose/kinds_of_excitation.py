@@ -79,8 +79,13 @@ def held_by_others(duties: Array, others: Sequence[Array]) -> bool:
 
 def motions(recording: Recording) -> int:
     """Number of kinds of motion, as `kinds_of_motion` joins records to kinds."""
+    return int(motion_of_records(recording).max())
+
+
+def motion_of_records(recording: Recording) -> Index:
+    """(r,) kind of each record's motion, from 1, however many there are."""
     at = excitation(recording)[:, :2]
-    return 1 if len(at) < 2 else int(_joined(at).max())
+    return _joined(at) if len(at) > 1 else np.ones(len(at), dtype=np.intp)
 
 
 def _joined(at: Array) -> Index:

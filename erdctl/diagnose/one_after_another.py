@@ -21,7 +21,7 @@ from erdctl.diagnose.diagnosis import Diagnosis, Verdict
 from erdctl.diagnose.fault_beside import fault_beside
 from erdctl.diagnose.findings import earned, part_taken
 from erdctl.diagnose.hypothesis import Hypothesis
-from erdctl.diagnose.records_with_a_fault import is_no_law_of_duty, is_no_scatter, telling
+from erdctl.diagnose.records_with_a_fault import is_no_law, is_no_scatter, telling
 from erdctl.diagnose.residual.localisation import Region, said
 from erdctl.diagnose.residual.unlogged import unlogged
 from erdctl.diagnose.sets_in_once import Confirmed, SetsInOnce
@@ -150,8 +150,6 @@ def if_sure(
     of_those = replace(of_those, silent=frozenset({*order} - {*told}))
     own = best, once.effect, once.f, range(once.first, len(order))
     sure = not of_those.whole or (
-        explained
-        and is_no_scatter(*own, may_be_a_gain=once.may_be_a_gain)
-        and is_no_law_of_duty(*own)
+        explained and is_no_scatter(*own, may_be_a_gain=once.may_be_a_gain) and is_no_law(*own)
     )
     return of_those if sure else None

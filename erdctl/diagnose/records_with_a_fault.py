@@ -15,9 +15,11 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from erdctl.core.recording import Array, Index
+from erdctl.bench.strokes import steady, strokes
+from erdctl.core.recording import Array, Index, Recording
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis, slopes
+from erdctl.diagnose.kinds_of_excitation import motion_of_records
 from erdctl.model.effect import Effect
 from erdctl.model.slots import Values
 
@@ -57,30 +59,86 @@ def seems_no_scatter(best: Hypothesis, fault: Effect, f: float, having: Sequence
     return 1.0 - f >= max(least, thresholds.SEEMS_LOST * scatter)
 
 
-def is_no_law_of_duty(best: Hypothesis, fault: Effect, f: float, having: Sequence[int]) -> bool:
-    """Whether some records lack a force that no law of the duty would take from them.
+def is_no_law(best: Hypothesis, fault: Effect, f: float, having: Sequence[int]) -> bool:
+    """Whether no law of what drives a damper would take a force from some records alone.
 
-    No yield force falls as the duty rises, and beyond that nobody knows its law: what is missing at
-    a duty that no other record has is one of these laws, or a fault, and nothing tells which. So
-    most of what fails must be below the yield force of other records at no more than that duty.
     f : what the fault leaves [1];  having : the records that would have it
     """
-    s, weight = best.problem.block.signals, best.problem.block.weight
-    failing = weight * _failing(best, fault, {**best.values, **fault.off}) ** 2
+    s = best.problem.block.signals
     rows = np.isin(np.repeat(np.arange(len(s.starts) - 1), np.diff(s.starts)), having)
-    total = told = 0.0
-    levels = best.model.fields(s, best.values)
-    for level, way in zip(levels, (s.xdot > 0.0, s.xdot <= 0.0), strict=True):
-        own, others = rows & way, ~rows & way
-        order = np.argsort(s.duty[others], kind="stable")
-        next_to = np.searchsorted(
-            s.duty[others][order], thresholds.SAME_DUTY * s.duty[own], "right"
-        )
-        below = np.concatenate([[-np.inf], level[others][order]])[next_to]
-        # A law that does not fall may take half of what is missing, then.
-        total += float(failing[own].sum())
-        told += float(failing[own][below >= 0.5 * (1.0 + f) * level[own]].sum())
-    return told >= thresholds.TOLD_BESIDE * total
+    return _is_no_law_of_duty(best, fault, f, rows) and _is_no_law_of_motion(best, fault, having)
+
+
+def _is_no_law_of_duty(
+    best: Hypothesis, fault: Effect, f: float, rows: npt.NDArray[np.bool_]
+) -> bool:
+    """Whether forces are below those at the same duty or a lower one, in samples (n,) of records.
+
+    Neither force of the fluid falls as the duty rises, and beyond that nobody knows its law: what
+    is missing at a duty that no other record has is one of these laws, or a fault, and nothing
+    tells which. A law that does not fall may take half of it, then.
+    """
+    s, weight = best.problem.block.signals, best.problem.block.weight
+    values = {**best.values, **fault.off}
+    parts, fields = best.model.prepare(s, values).parts(values), best.model.fields(s, values)
+    level = {"yield": np.where(s.xdot > 0.0, *fields), "viscous": np.ones(len(rows))}
+    whole = told = np.zeros(len(rows))
+    for group in fault.sets_in:
+        power = weight * parts[group] ** 2
+        whole = whole + power
+        if group in level:
+            up = s.xdot > 0.0
+            falls = sum(_falls(level[group], s.duty, rows, way, f) for way in (up, ~up))
+            told = told + power * falls
+        else:
+            told = told + power
+    return any(
+        told[side].sum() >= thresholds.TOLD_BESIDE * whole[side].sum() for side in (rows, ~rows)
+    )
+
+
+def _falls(
+    level: Array, duty: Array, rows: npt.NDArray[np.bool_], way: npt.NDArray[np.bool_], f: float
+) -> npt.NDArray[np.bool_]:
+    """(n,) whether some samples, with a part of their level, are below others at no more duty.
+
+    rows : (n,) of those that have a part f of it;  way : (n,) of those that are compared
+    True for both: for one below the next others, and for one of these above the next below.
+    """
+    own, others = np.flatnonzero(rows & way), np.flatnonzero(~rows & way)
+    own, others = (k[np.argsort(duty[k], kind="stable")] for k in (own, others))
+    most, same = 0.5 * (1.0 + f) * level[own], thresholds.SAME_DUTY * duty[own]
+    before = np.concatenate([[-np.inf], level[others]])
+    behind = np.concatenate([most, [np.inf]])
+    out = np.zeros(len(rows), dtype=bool)
+    out[own] = before[np.searchsorted(duty[others], same, "right")] >= most
+    out[others] = level[others] >= behind[np.searchsorted(same, duty[others])]
+    return out
+
+
+def _is_no_law_of_motion(best: Hypothesis, fault: Effect, having: Sequence[int]) -> bool:
+    """Whether some records lack a force that others have whose motion is of the same kind.
+
+    What all steady records of one stroke and frequency lack, and no others, is a fault that came
+    and went with them, or a law that rests on these. A motion that wanders goes where others go.
+    """
+    power, recording = _power(best, fault), best.problem.recording
+    kinds = np.where(_steady(recording), motion_of_records(recording), 0)
+    rows = np.isin(np.arange(len(power)), having)
+    own, others = (np.bincount(kinds, power * side, kinds.max() + 1) for side in (rows, ~rows))
+    alike = np.minimum(own, others)[1:].sum()
+    wanders = min(own[0], others.sum()) + min(others[0], own.sum())
+    least = thresholds.TOLD_BESIDE * min(own.sum(), others.sum())
+    return bool(alike + wanders >= least)
+
+
+def _steady(recording: Recording) -> npt.NDArray[np.bool_]:
+    """(r,) whether most of a record's strokes are halves of cycles that close."""
+    found = strokes(recording)
+    count = len(recording.names)
+    whole = np.bincount(found.record, minlength=count)
+    closed = np.bincount(found.record, steady(recording, found), minlength=count)
+    return np.asarray(closed >= thresholds.STEADY * np.maximum(whole, 1))
 
 
 def telling(best: Hypothesis, fault: Effect) -> tuple[int, ...]:
@@ -88,10 +146,14 @@ def telling(best: Hypothesis, fault: Effect) -> tuple[int, ...]:
 
     best : with the fault
     """
+    return tuple(np.flatnonzero(_tells(_power(best, fault))).tolist())
+
+
+def _power(best: Hypothesis, fault: Effect) -> Array:
+    """(r,) squares of what a fault takes a part of, if it takes none, weighted [N^2]."""
     block = best.problem.block
     force = _failing(best, fault, {**best.values, **fault.off})
-    power = np.add.reduceat(block.weight * force**2, block.signals.starts[:-1])
-    return tuple(np.flatnonzero(_tells(power)).tolist())
+    return np.asarray(np.add.reduceat(block.weight * force**2, block.signals.starts[:-1]))
 
 
 def _scatter(best: Hypothesis, fault: Effect, having: Sequence[int]) -> tuple[float, int]:

@@ -17,7 +17,7 @@ import numpy as np
 from erdctl.core.recording import Array, Index, Recording, running_time
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
-from erdctl.diagnose.records_with_a_fault import apart, is_no_law_of_duty, seems_no_scatter
+from erdctl.diagnose.records_with_a_fault import apart, is_no_law, seems_no_scatter
 from erdctl.estimate.onset_profile import OF_A_STEP, ROUNDED, Onset, Profile
 from erdctl.estimate.onsets import profile
 from erdctl.model.checked import GROUPS
@@ -212,7 +212,7 @@ def sets_in_once(
     if seen.taken < thresholds.SEEMS_ONCE * misfit or seen.ratio < thresholds.ONCE_RATIO:
         return None
     whole = best, once.effect, once.f, once.records
-    if once.whole and not (seems_no_scatter(*whole) and is_no_law_of_duty(*whole)):
+    if once.whole and not (seems_no_scatter(*whole) and is_no_law(*whole)):
         return None
     return once
 

@@ -113,11 +113,12 @@ LOST_OVER_SCATTER, GAIN_HOLDS = 9.0, 0.01
 # (1.7, mr_sine), and five cars of which some drives have a fault (3.4 to 35, seeds 430 to 436).
 SEEMS_LOST = 2.0
 
-# Duty over another that is held to be the same; and the part of the square of what a fault takes of
-# some records that is at a duty of others, or above one with as much force.
-# Decides: whether it is a fault, where it could be a law of the duty.
-# Origin: a yield force that grows like the duty has a twentieth more there; most of it.
-SAME_DUTY, TOLD_BESIDE = 1.05, 0.5
+# Duty over another that is held to be the same; part of a record's strokes that are halves of
+# closed cycles where its motion is steady; and the part of the square of what a fault takes of some
+# records that is at a duty of others, or above one with as much force, and under a motion of these.
+# Decides: whether it is a fault, where it could be a law of the duty or of the motion.
+# Origin: a yield force that grows like the duty has a twentieth more there; most of them.
+SAME_DUTY, STEADY, TOLD_BESIDE = 1.05, 0.8, 0.5
 
 # Of the square by which given parameters are worse than fitted ones, the part that a fault takes.
 # Decides: whether it is said to be what has happened to the damper of those parameters.
