@@ -32,7 +32,7 @@ def refit(
     kept = key_of(found.best.effects) - ({idle.name} if idle else set())
     known = found.base, found.best, *found.without.values(), *found.simpler
     again = {key_of(h.effects): h for h in known}
-    whole = len(found.best.residual) == len(problem.block.force)  # all samples were searched
+    whole = found.base.problem.recording is problem.recording  # all samples were searched
     if whole and found.best.record_effects is None:  # which settle by and by
         explored = Explored(again.values())
     else:

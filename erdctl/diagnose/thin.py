@@ -34,9 +34,11 @@ def thinned(problem: Problem, most: int) -> Problem:
     record = np.repeat(np.arange(len(s.starts) - 1), np.diff(s.starts))
     row = np.arange(len(s)) - s.starts[record]
     apart = -(-len(s) // (most // 2))
-    even = row % np.array([min(apart, _apart(s, r)) for r in range(len(s.starts) - 1)])[record] == 0
+    every = np.array([min(apart, _apart(s, r)) for r in range(len(s.starts) - 1)])[record]
+    even = row % every == 0
     whole, left = _stretches(problem, record, most // 2)
     fine = max(1, int(thresholds.FINE_STEP / s.typical_step))
+    left &= every > fine  # a motion that is fast is as dense everywhere
     at = _at_duty_steps(s, record)
     at[_turns(problem, record)] = True  # a channel that averages has each of them for long
     rows = np.flatnonzero(even | (whole & (row % fine == 0)) | at)
@@ -70,14 +72,29 @@ def _stretches(problem: Problem, record: Index, most: int) -> tuple[Mask, Mask]:
     share = min(1.0, most / max(size, 1.0))
     whole, left = np.zeros((2, len(s)), dtype=np.bool_)
     for e in events:
-        count = int(np.ceil(share * e.shape[1]))
+        run = _runs(e[0], before + after, max(1, round(thresholds.RUN / step)))
+        runs = int(run[-1]) + 1 if len(run) else 0
+        count = int(np.ceil(share * runs))
         # One of each of so many equal groups: even cover, but in step with no periodic test.
-        kept = np.zeros(e.shape[1], dtype=np.bool_)
-        kept[((np.arange(count) + rng.random(count)) * e.shape[1] / max(count, 1)).astype(int)] = 1
-        kept |= share == 1.0
+        kept = np.zeros(runs, dtype=np.bool_)
+        kept[((np.arange(count) + rng.random(count)) * runs / max(count, 1)).astype(int)] = 1
+        kept = kept[run] | (share == 1.0)
         whole |= marked(e[:, kept])
         left |= marked(e[:, ~kept])
     return whole, left
+
+
+def _runs(at: Index, reach: int, most: int) -> Index:
+    """(k,) number of the run of each of some samples (k,), in order: within reach of the next, and
+    all within so many.
+
+    What is kept whole of one must not lie in what is left of the next, as where a wheel hops.
+    """
+    begins = np.ones(len(at), dtype=np.bool_)
+    begins[1:] = np.diff(at) > reach
+    part = (at - np.maximum.accumulate(np.where(begins, at, 0))) // most
+    begins[1:] |= part[1:] != part[:-1]
+    return np.cumsum(begins) - 1
 
 
 def _turns(problem: Problem, record: Index) -> Index:

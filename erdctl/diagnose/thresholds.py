@@ -305,9 +305,10 @@ SEARCH_SAMPLES = 12_000
 NEARLY_AS_MUCH, SIMPLER = 0.8, 2
 
 # Of the thinned log: the longest step [s] next to a turn of the motion or a step of the duty, and
-# the time [s] before and after them in which it counts.
-# Origin: time constants of springs and yield forces, 5 to 50 ms.
-FINE_STEP, BEFORE, AFTER = 0.005, 0.01, 0.05
+# the time [s] before and after them in which it counts; and that of several whose times overlap,
+# of which all are kept or none.
+# Origin: time constants of springs and yield forces, 5 to 50 ms, and ten times as long.
+FINE_STEP, BEFORE, AFTER, RUN = 0.005, 0.01, 0.05, 0.5
 
 # Part of the samples beyond which steps of the duty are no events; part of the motion's energy that
 # the samples between follow, and how many of them a cycle.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from by_hand import recording
 from numba import njit
 
 from erdctl.core.recording import Array, Recording
@@ -89,6 +90,53 @@ def test_next_to_turns_with_weight_no_step_is_long() -> None:
     assert near.any()
     assert s.step[np.flatnonzero(near) - 1].max() < 1.5 * thresholds.FINE_STEP
     assert s.step.max() > 2 * thresholds.FINE_STEP  # and elsewhere they are
+
+
+def hopping(seconds: float, hop: float) -> Problem:
+    """Four drives over bumps at 200 Hz, of a wheel that hops at 31 to 34 Hz.
+
+    hop : speed of that, over that of the body's motion at 1 Hz
+    """
+    t = np.arange(round(200 * seconds)) / 200.0
+    parts = []
+    for k in range(4):
+        body, wheel = 2 * np.pi * (1.0 + 0.13 * k), 2 * np.pi * (31.0 + k)
+        x = 0.06 * (np.sin(body * t) / body + hop * np.sin(wheel * t + k) / wheel)
+        parts.append((x, 0.06 * (np.cos(body * t) + hop * np.cos(wheel * t + k))))
+    x, v = (np.concatenate(c) for c in zip(*parts, strict=True))
+    force = 200 * x + 60 * v + 10.0 * np.tanh(v / 3e-3)
+    starts = np.arange(5) * len(t)
+    return prepare(recording(v, x=x, duty=0.1, force=force, t=np.tile(t, 4), starts=starts))
+
+
+def test_where_the_motion_turns_all_the_time_nothing_is_left_out() -> None:
+    """All of it was next to a turn that was not kept, and the search had not one sample."""
+    whole = hopping(20.0, 2.0)
+    few = thinned(whole, MOST)
+    assert np.array_equal(few.block.weight, whole.block.weight)
+
+
+def test_of_turns_that_follow_at_once_all_are_kept_or_none() -> None:
+    """One that was not kept took the time behind it from all others: 2,601 samples had weight."""
+    few = thinned(hopping(20.0, 0.3), MOST)
+    assert len(few.recording) < 1.2 * MOST
+    assert np.count_nonzero(few.block.weight) > 0.75 * len(few.recording)
+
+
+def test_of_turns_that_follow_at_once_for_long_a_part_is_kept() -> None:
+    """A wheel that hops for 5 s behind 15 s of a slow motion, which has most of the energy."""
+    t = np.arange(4000) / 200.0
+    slow, fast = 2 * np.pi * t, 2 * np.pi * 31.0 * t
+    v = np.where(t < 15.0, 0.06 * np.cos(slow), 0.02 * np.cos(fast))
+    x = np.where(t < 15.0, np.sin(slow), np.sin(fast) / 93.0) * 0.06 / (2 * np.pi)
+    x, v = (np.tile(c, 4) for c in (x, v))
+    force = 200 * x + 60 * v + 10.0 * np.tanh(v / 3e-3)
+    starts = np.arange(5) * len(t)
+    whole = recording(v, x=x, duty=0.1, force=force, t=np.tile(t, 4), starts=starts)
+    few = thinned(prepare(whole), MOST)
+    assert len(few.recording) < 1.2 * MOST
+    hops = few.block.weight * (few.recording.t > 15.0)
+    assert np.all(np.add.reduceat(hops, few.recording.starts[:-1]) > 100.0)
 
 
 def _clock(r: Recording) -> Array:
