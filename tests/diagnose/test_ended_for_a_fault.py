@@ -80,7 +80,11 @@ BENT = ("preyield_viscosity", "rise_decay_asymmetry", "time_skew")  # of a searc
 
 @pytest.mark.parametrize(
     ("having", "names", "explains"),
-    [((1, 3), BENT, True), ((), BENT, False), ((1, 3), ("preyield_field_dependence",), False)],
+    [
+        pytest.param((1, 3), BENT, True, marks=pytest.mark.long),
+        ((), BENT, False),
+        pytest.param((1, 3), ("preyield_field_dependence",), False, marks=pytest.mark.long),
+    ],
 )
 def test_a_fault_explains(
     having: tuple[int, ...], names: tuple[str, ...], explains: bool, car: Any
@@ -137,6 +141,7 @@ def test_what_a_fault_does_not_say_is_sought_once(
     assert asked[-1]["known"] is (None if ended or apart else searched)
 
 
+@pytest.mark.long
 def test_it_goes_on_after_all_where_no_fault_is_seen_on_all_samples(
     car: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -208,7 +208,8 @@ def test_a_record_that_shows_nothing_of_a_force_is_none_of_a_fault(recordings: A
     assert 4 not in apart(best, get("electrical_fault"))
 
 
-@pytest.mark.parametrize("seed", [41, pytest.param(43, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("seed", [41, 43])
 def test_a_fault_in_the_end_of_one_record_is_not_called_noise(seed: int, recordings: Any) -> None:
     """It takes a few per cent of the square: all that looks for any misfit sees nothing."""
     recording = recordings("electrical_fault", (NEVER, NEVER, 6.4, NEVER, NEVER), seed, left=0.7)
