@@ -118,6 +118,7 @@ def test_friction_damper_with_backlash(inches: str, reached: float) -> None:
     assert corrected < reached
 
 
+@pytest.mark.long
 def test_ahead_of_an_expert_and_of_black_boxes() -> None:
     """On the stroke that was left out; `tests/prove/measure_real_dampers.py` has other splits."""
     text = "tension1.5amplitude"

@@ -36,7 +36,7 @@ def test_opens_by_itself_and_at_once(window: Callable[..., Opened], made: Made, 
     assert 0 < min(ready) < 1e3 * SECONDS
 
 
-@pytest.mark.few(6)
+@pytest.mark.few(4)
 @pytest.mark.parametrize("size", [(1280, 800), (360, 780)], ids=["desk", "narrow"])
 @pytest.mark.parametrize("name", NAMES)
 def test_the_first_screen_answers(
