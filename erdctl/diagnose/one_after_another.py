@@ -138,7 +138,7 @@ def if_sure(
     recording: Recording,
     explained: bool,
 ) -> SetsInOnce | None:
-    """A fault, unless it is all along records that may only scatter, or be of another duty.
+    """A fault, unless it is all along records that may only scatter, or be driven otherwise.
 
     best : with the fault, of records in an order;  explained : whether none differ beyond it
     """

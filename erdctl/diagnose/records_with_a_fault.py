@@ -81,13 +81,13 @@ def _is_no_law_of_duty(
     s, weight = best.problem.block.signals, best.problem.block.weight
     values = {**best.values, **fault.off}
     parts, fields = best.model.prepare(s, values).parts(values), best.model.fields(s, values)
-    level = {"yield": np.where(s.xdot > 0.0, *fields), "viscous": np.ones(len(rows))}
+    up = s.compressing
+    level = {"yield": np.where(up, *fields), "viscous": np.ones(len(rows))}
     whole = told = np.zeros(len(rows))
     for group in fault.sets_in:
         power = weight * parts[group] ** 2
         whole = whole + power
         if group in level:
-            up = s.xdot > 0.0
             falls = sum(_falls(level[group], s.duty, rows, way, f) for way in (up, ~up))
             told = told + power * falls
         else:

@@ -131,7 +131,7 @@ def test_where_most_records_have_it_the_others_tell() -> None:
 
 
 def test_what_all_records_of_one_motion_lack_is_no_fault() -> None:
-    """Of the records at 1.5 Hz it was said, and of all at no duty, of which none told otherwise."""
+    """It was seen in those at 1.5 Hz, and in all at no duty, of which none told otherwise."""
     r = campaign(POWER, [*TWO, (1.5, 0.01)])
     assert r.force is not None
     of_third = np.repeat(np.arange(15) % 3 == 2, np.diff(r.starts))
