@@ -17,7 +17,7 @@ import numpy as np
 from erdctl.core.recording import Array, Index, Recording, running_time
 from erdctl.diagnose import thresholds
 from erdctl.diagnose.hypothesis import Hypothesis
-from erdctl.diagnose.records_with_a_fault import apart, is_no_law, seems_no_scatter
+from erdctl.diagnose.records_with_a_fault import apart, is_no_law, seems_no_scatter, telling
 from erdctl.estimate.onset_profile import OF_A_STEP, ROUNDED, Onset, Profile
 from erdctl.estimate.onsets import profile
 from erdctl.model.checked import GROUPS
@@ -208,6 +208,9 @@ def sets_in_once(
     if found is None:
         return None
     seen, once = found
+    recording = best.problem.recording
+    # A record that shows nothing of it takes as much with it as without: rounding would tell.
+    once = once.of_those(telling(best, once.effect), recording.t[recording.starts[:-1]])
     misfit = misfit_rms**2 * float(best.problem.block.weight.sum())
     if seen.taken < thresholds.SEEMS_ONCE * misfit or seen.ratio < thresholds.ONCE_RATIO:
         return None
