@@ -43,6 +43,7 @@ def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@pytest.mark.few(20)
 @pytest.mark.parametrize("effect", CATALOGUE, ids=lambda e: e.name)
 def test_simulate_validate_and_mimic(
     effect: Effect, log: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]

@@ -70,7 +70,7 @@ def test_a_sequence_and_its_manifest(tmp_path: Path, monkeypatch: pytest.MonkeyP
     "words",
     [
         ["validate", TABLE_2, LOG],
-        ["diagnose", LOG, *FEW, "-o", "d.json"],
+        pytest.param(["diagnose", LOG, *FEW, "-o", "d.json"], marks=pytest.mark.long),
         ["mimic", TABLE_2, SCHEDULE, "--fault", "oil=0.5", "-o", "p.csv"],
     ],
     ids=lambda words: words[0],

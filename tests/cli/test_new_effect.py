@@ -61,6 +61,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.few(40)
 @pytest.mark.parametrize(
     "form", [None, *(pytest.param(f, marks=pytest.mark.untraced) for f in FORMS)]
 )

@@ -79,6 +79,7 @@ def test_accept_knows_its_codes(tmp_path: Path) -> None:
     assert "force_sign" in result.stderr
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", ["force reversed", "one record late", "duty inverted"])
 def test_diagnose_names_no_physics_for_it(name: str, tmp_path: Path) -> None:
     log, out = spoiled(name, tmp_path, 8_000), tmp_path / "d.json"

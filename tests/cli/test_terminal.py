@@ -93,6 +93,7 @@ def completed(words: str) -> set[str]:
     return set(run.stdout.split())
 
 
+@pytest.mark.few(8)
 @pytest.mark.parametrize(
     ("words", "expected"),
     [

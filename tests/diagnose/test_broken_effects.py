@@ -109,7 +109,7 @@ def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
 CASES = [(h, j) for h in BROKEN for j in ("1", "2") if not (j == "1" and "process" in h)]
 
 
-@pytest.mark.few(6)
+@pytest.mark.few(4)
 @pytest.mark.parametrize(("how", "jobs"), CASES)
 def test_it_ends_with_its_file_and_a_reason(how: str, jobs: str, log: Path, tmp_path: Path) -> None:
     text, expected = BROKEN[how]

@@ -30,6 +30,7 @@ def diagnosed(r: Recording) -> Diagnosis:
     return diagnose(r, [get(name) for name in CANDIDATES], limits=False)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("error", ["force clipped", "x clipped"])
 def test_it_is_never_adequate(error: str) -> None:
     """At 8 % of the samples the force is what the amplifier gives, or the stroke what it shows."""
@@ -49,5 +50,6 @@ def test_it_is_never_adequate(error: str) -> None:
     assert told["compression.c_vis"].stderr is not None
 
 
+@pytest.mark.long
 def test_the_same_log_unclipped_is() -> None:
     assert diagnosed(sound()).verdict is Verdict.ADEQUATE

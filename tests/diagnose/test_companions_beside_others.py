@@ -1,9 +1,4 @@
-"""Effects that come together, beside those that were found: neither gains alone there.
-
-`mr_sine` without its fast motion: an average, a sign law of the speed and travel until the yield
-force is back are found. What is viscous and what yields follow a power of the speed each; either of
-them alone leaves as much as before, both leave half of it.
-"""
+"""Effects that come together, beside those that were found: neither gains alone there."""
 
 from __future__ import annotations
 
@@ -11,11 +6,8 @@ from pathlib import Path
 
 import literature_dampers
 import pytest
-from peers import error, of_model
-from places import SHARED
-from rig import campaign, noisy, real
+from rig import campaign, noisy
 
-from erdctl.core.blocks import thinned
 from erdctl.diagnose.companion_effects import companion_sets, joint_tasks
 from erdctl.diagnose.diagnosis import diagnose
 from erdctl.diagnose.executor import executor
@@ -55,22 +47,6 @@ def test_no_more_together_than_a_model_may_have() -> None:
     names = [{e.name for e in t.effects} for t in tasks]
     assert names.count(TOGETHER) == 1
     assert {"shear_thinning", "preyield_viscosity", "mount_compliance"} in names
-
-
-@pytest.mark.real_data
-def test_they_are_found_together_and_hold_on_another_motion() -> None:
-    log = read_logs([str(real("mr_sine.parquet", SHARED))], need_force=True, report=str).recording
-    fast = ["5mm_3Hz" in name for name in log.names]
-    fitted, other = (
-        log.select([i for i, held in enumerate(fast) if held is out]) for out in (False, True)
-    )
-    candidates = [
-        get(n) for n in CANDIDATES[:5]
-    ]  # with all of them the same, in four times as long
-    found = diagnose(thinned(fitted, 6_000), candidates, limits=False, learning=False)
-    assert {f.effect.name for f in found.findings} >= TOGETHER
-    assert error(other, of_model(found.selection.base, other)) > 0.07
-    assert error(other, of_model(found.selection.best, other)) < 0.025
 
 
 @pytest.mark.long

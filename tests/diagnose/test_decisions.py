@@ -57,6 +57,7 @@ def test_a_stop_that_one_record_of_seven_reaches() -> None:
     assert found.findings[0].gain.t_stretches < 3.5
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("line", [50.0, 60.0])
 def test_hum_is_a_line_of_the_force_channel(line: float) -> None:
     r = noisy(campaign(), seed=3, rms=NOISE)

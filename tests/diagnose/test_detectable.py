@@ -93,6 +93,7 @@ def test_every_effect_that_was_not_named_is_told(healthy: Diagnosis) -> None:
     assert "holds nothing" not in text
 
 
+@pytest.mark.long
 def test_more_noise_hides_more() -> None:
     quiet, loud = (
         diagnose(noisy(campaign(100.0, 8.0), seed=5, rms=rms), [get("coulomb_friction")])
@@ -118,6 +119,7 @@ def test_what_the_model_takes_up_is_never_shown() -> None:
     assert entry["parameters"] == {}
 
 
+@pytest.mark.long
 def test_two_springs_cannot_act_together() -> None:
     r = noisy(campaign(100.0, 8.0), seed=3)
     block = prepare(r).block

@@ -43,6 +43,7 @@ def rubbing() -> Diagnosis:
     return diagnose(plus(r, 2.0 * np.sign(r.xdot)), few())
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("correlation", [0.0, 0.95])
 def test_nothing_missing_is_adequate(correlation: float) -> None:
     found = diagnose(noisy(campaign(), seed=9, correlation=correlation), few(), limits=False)

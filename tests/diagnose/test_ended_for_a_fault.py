@@ -58,6 +58,7 @@ def found(recording: Recording, *, once: bool) -> Selection:
     return search(problem, [FAULT, STEEP], 8, Executor([problem]), once=once)
 
 
+@pytest.mark.long
 def test_it_ends_where_a_fault_leaves_nothing(car: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """It went on to eight effects, none of them there, for minutes before the fault was sought."""
     some, none = (car(having).select([0, 1, 2]) for having in ((1,), ()))
@@ -96,6 +97,7 @@ def test_a_fault_explains(
     assert a_fault_explains(best, (FAULT,), 0) == explains
 
 
+@pytest.mark.long
 def test_nothing_else_changes_with_a_search_that_is_known(car: Any) -> None:
     recording = car((1, 3)).select([0])
     candidates = [STEEP]

@@ -43,6 +43,7 @@ def test_what_faint_effects_can_stand_in_for_still_goes_first() -> None:
     assert again[0].gain.gain < again[1].gain.gain
 
 
+@pytest.mark.long
 def test_what_takes_its_part_next_to_turns_goes_after_what_is_strong_elsewhere() -> None:
     """A velocity that is a little noisy has the wrong sign there: twice the yield force at once."""
     found = rubbing_and_turbulent()

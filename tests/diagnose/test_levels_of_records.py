@@ -77,6 +77,7 @@ def test_what_only_tells_records_apart_is_not_said_to_be_noise_alone(scatter: fl
     assert "in the order of the records" not in words
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("change", [0.08, -0.06])
 def test_a_force_that_drifts_over_the_records_is_said_to(change: float) -> None:
     """Of 24 records whose force rises by 8 % from the first to the last 0.2 N were "predicted from

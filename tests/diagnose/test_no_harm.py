@@ -118,6 +118,7 @@ def test_a_richer_form_must_earn_its_name(problem: Problem) -> None:
     assert not is_preferred(problem, rich, simple)
 
 
+@pytest.mark.long
 def test_an_effect_of_which_nothing_is_left_between_samples_is_no_finding(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

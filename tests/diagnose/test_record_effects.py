@@ -52,6 +52,7 @@ def true_gains(case: plant.Case) -> np.ndarray:
     return gains / gains.mean()
 
 
+@pytest.mark.long
 def test_scatter_is_a_mismatch_unless_it_is_carried() -> None:
     """What the option is for: without it the scatter is a misfit that no effect explains."""
     assert diagnosed(None, Varying()).verdict is Verdict.UNEXPLAINED

@@ -59,7 +59,7 @@ def sought(recording: Recording) -> SetsInOnce | None:
     return sets_in_once(best, FAULTS, lack_of_fit_of(best).misfit_rms)
 
 
-@pytest.mark.few(2)
+@pytest.mark.few(1)
 @pytest.mark.parametrize("kind", quarter_car.FAULTS)
 @pytest.mark.parametrize("onsets", [STAYS, ONCE], ids=["stays", "once"])
 def test_record_and_time(kind: str, onsets: tuple[float, ...], recordings: Any) -> None:
@@ -70,6 +70,7 @@ def test_record_and_time(kind: str, onsets: tuple[float, ...], recordings: Any) 
     assert found.f == pytest.approx(0.6, abs=0.05)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(("seed", "left"), [(63, 0.66), (82, 0.64)])
 def test_the_time_and_the_kind_are_chosen_together(seed: int, left: float, recordings: Any) -> None:
     """In the time of all records another kind takes less than it takes of one record alone."""
@@ -166,6 +167,7 @@ def test_it_is_said_with_all_that_a_second_search_finds(
     assert ("--where record=r1" in text) == (onsets is ONCE)
 
 
+@pytest.mark.long
 def test_a_fault_all_along_is_said_with_its_records(recordings: Any) -> None:
     """In any of them; the damper may have been mended in between."""
     recording = recordings("oil_leakage", (NEVER, 0.0, NEVER, 0.0, NEVER), 75)
@@ -347,6 +349,7 @@ def test_where_it_stays_the_first_that_tells_of_it_has_it_from_its_beginning() -
     assert found.of_those((0, 2), begins) is found
 
 
+@pytest.mark.long
 def test_what_stays_of_a_fault_takes_no_name_from_what_acts_everywhere(recordings: Any) -> None:
     """A record with 0.7 of its force left more than a drift of the zero took, so that nothing was
     named (a log of the plant, seed 1660010, a gain of 0.7 in record 5 of nine)."""

@@ -16,7 +16,7 @@ from erdctl.diagnose.wording import remaining_text
 from erdctl.effects import get
 
 
-@pytest.mark.parametrize("ripple", [0.0, 0.3])
+@pytest.mark.parametrize("ripple", [pytest.param(0.0, marks=pytest.mark.long), 0.3])
 def test_a_small_rest_that_motion_predicts_is_not_called_noise(ripple: float) -> None:
     """Of LuGre's damper 4.1 N were left beside a noise of 4.7 N, and all of it was said to be noise
     "as far as these data tell"."""
@@ -33,6 +33,7 @@ def test_a_small_rest_that_motion_predicts_is_not_called_noise(ripple: float) ->
     assert ("that motion and duty still predict" in said) == (ripple > 0.0)
 
 
+@pytest.mark.long
 def test_that_xdot_was_derived_is_said_of_what_is_not_explained() -> None:
     """What its window rounds was "explained by none" of triangles with corners of 2 ms."""
     r = campaign()

@@ -17,11 +17,14 @@ from doc_files import place
 from places import FIXTURES, SHARED
 
 # What a shortened command leaves out: a search over the whole catalogue takes half a minute, and
-# what it finds is tested in tests/diagnose. The logs of the tutorial are searched in full.
+# what it finds is tested in tests/diagnose. Of the logs of the tutorial two are searched in full.
 FEW_EFFECTS = " --effects coulomb_friction,time_skew"
 # And what is hidden there, or a law would be learned in its place.
-HIDDEN = {"worn_joint": " --effects coulomb_friction,backlash"}
-IN_FULL = ("late_amplifier", "stuck_separator")
+HIDDEN = {
+    "worn_joint": " --effects coulomb_friction,backlash",
+    "stuck_separator_2": " --effects stuck_separator,gas_preload,coulomb_friction",
+}
+IN_FULL = ("late_amplifier", "stuck_separator.")
 ULPS = 3  # by how many units of its last digit a printed number may differ
 PART = 0.003  # or by which part of itself
 

@@ -122,6 +122,7 @@ def test_diagnose(found: erdctl.interface.diagnose.Diagnosed, tmp_path: Path) ->
     assert json.loads((tmp_path / "diagnosis.json").read_text()) == expected
 
 
+@pytest.mark.long
 def test_diagnose_given_parameters_with_free_records(tmp_path: Path) -> None:
     log, late = str(tmp_path / "log.parquet"), pd.read_parquet(LATE)
     late[late["record"].str.startswith("sine")].iloc[::4].to_parquet(log, index=False)

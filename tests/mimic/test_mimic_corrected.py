@@ -73,6 +73,7 @@ def plan(*chosen: Effect, fault: str = "oil=0.5", amplifier: Amplifier | None = 
     return mimic(parameters(*chosen), drive(), faults, amplifier or Amplifier())
 
 
+@pytest.mark.few(20)
 @every
 def test_never_worse_than_the_plain_sequence(effect: Effect) -> None:
     found = plan(effect)

@@ -143,6 +143,7 @@ def test_what_a_sparse_campaign_cannot_show_is_not_what_it_hides() -> None:
     assert case.level >= 0.9
 
 
+@pytest.mark.long
 def test_a_crowd_with_another_law_from_a_file_of_its_own_after_one() -> None:
     """The power law of the yield took the parameters of the last such law for its own."""
     names = ["power_law_yield", "gas_thermal_drift", "coulomb_friction"]

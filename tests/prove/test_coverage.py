@@ -75,6 +75,7 @@ def test_a_bias_of_the_step_is_gone(effect: str) -> None:
     assert np.median(off) < 2.0
 
 
+@pytest.mark.long
 def test_a_play_is_not_told_by_the_noise_of_samples_next_to_contact() -> None:
     """These had intervals that did not hold it, as narrow as 0.06 % of it."""
     dampers = {9305: ["white"], 9313: ["white", "growing"], 9344: ["white"], 9352: ["white"]}

@@ -84,6 +84,7 @@ def check_kept(proof: Proof, kept: Path, lines: list[str]) -> None:
         assert found["verdict"] == result.verdict
 
 
+@pytest.mark.long
 def test_a_case_from_seed_to_scoreboard(tmp_path: Path) -> None:
     """In processes, by the whole catalogue."""
     kept, out = tmp_path / "kept", tmp_path / "proof.json"

@@ -89,6 +89,7 @@ def test_the_first_screen_names_what_was_hidden(
     assert where[:10] in found.locator("#answer-where").inner_text()
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", HEALTHY)
 def test_a_healthy_damper_is_said_to_be(looked: Callable[..., Opened], name: str) -> None:
     found = looked(name).page

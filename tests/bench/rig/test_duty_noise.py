@@ -110,6 +110,7 @@ def test_logs_of_the_plant_have_it_where_it_was_put() -> None:
         assert np.mean(off > 2e-3) < 0.01
 
 
+@pytest.mark.long
 def test_fits_take_the_levels() -> None:
     """beta was 0.318 for 0.239, 80 standard errors off: noise at no control was a field."""
     sound = noisy(campaign(), 1)

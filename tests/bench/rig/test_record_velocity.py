@@ -61,6 +61,7 @@ def test_its_lag(good: Recording, late: int) -> None:
     assert "16" in fault.text  # ms, at 500 Hz
 
 
+@pytest.mark.long
 def test_a_record_that_hardly_moves_has_none(tmp_path: Path) -> None:
     """A velocity that is noise for the most part goes with no deflection."""
     table = quarter_car.log(102, 100, velocity=3e-3, seconds=6.0)

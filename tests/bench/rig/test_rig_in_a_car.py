@@ -20,7 +20,7 @@ def rig(table: pd.DataFrame, folder: Path) -> Rig:
     return look(read.recording)
 
 
-@pytest.mark.few(3)
+@pytest.mark.few(2)
 @pytest.mark.parametrize("measured", [True, False])
 @pytest.mark.parametrize("rate", [100, 200, 500, 1000])
 def test_a_sound_log_has_no_fault(rate: int, measured: bool, tmp_path: Path) -> None:

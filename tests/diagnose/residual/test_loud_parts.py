@@ -40,6 +40,7 @@ def found(r: Recording, added: Array) -> Verdict:
     return diagnose(log, [get("quadratic_damping")], limits=False, learning=False).verdict
 
 
+@pytest.mark.long
 def test_a_misfit_in_one_record_of_eight_is_one() -> None:
     """Eight times the noise, a swing that no motion has: no regression learns it elsewhere."""
     r = campaign(8)

@@ -52,6 +52,7 @@ def rms(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2)))
 
 
+@pytest.mark.long
 def test_the_misfit_is_that_between_records_and_the_noise_that_within() -> None:
     r = swept()
     log = scattered(r, 0.06)

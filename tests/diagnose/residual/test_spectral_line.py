@@ -40,6 +40,7 @@ def aliased(frequency: float, rate: float) -> float:
 PAIRS = [(r, m) for r in RATES for m in (50.0, 60.0, 100.0) if aliased(m, r) > BEYOND]
 
 
+@pytest.mark.few(10)
 @pytest.mark.parametrize(("rate", "mains"), PAIRS)
 def test_at_every_rate(rate: float, mains: float) -> None:
     """Sampled at twice its frequency it is the last of the spectrum, where none was found."""

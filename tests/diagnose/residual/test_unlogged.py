@@ -105,6 +105,7 @@ def test_neither_is_a_law_of_the_speed_that_the_model_lacks() -> None:
     assert unlogged(fitted(log(3, quadratic=400.0))) == ()
 
 
+@pytest.mark.long
 def test_what_they_have_is_left_out_and_said() -> None:
     made = log(4, between=(4.25, 7.25), part=0.3, quadratic=400.0)
     found = diagnose(made, FEW, limits=False)

@@ -61,6 +61,7 @@ def moment() -> Signals:
     return record(random_motion(), 0, 5)
 
 
+@pytest.mark.few(50)
 @pytest.mark.parametrize("seed", range(MODELS))
 @pytest.mark.parametrize(("options", "near"), [((), 1e-9), ((FLOAT,), 1e-5)], ids=["", "float"])
 def test_it_equals_python(seed: int, options: tuple[str, ...], near: float) -> None:
@@ -246,6 +247,7 @@ TOGETHER = {
 }
 
 
+@pytest.mark.few(14)
 @pytest.mark.parametrize("names", TOGETHER.values(), ids=TOGETHER)
 @pytest.mark.parametrize("T_d", [None, 0.0])
 @pytest.mark.parametrize(("options", "near"), [((), 1e-9), ((FLOAT,), 1e-5)], ids=["", "float"])

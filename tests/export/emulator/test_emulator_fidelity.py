@@ -97,6 +97,7 @@ def test_schedule_within_limits(emulator: Compiled, amplifier: Amplifier) -> Non
     assert f.online < f.static
 
 
+@pytest.mark.few(9)
 @pytest.mark.parametrize("step", [0.001, 0.002, 0.005])
 @pytest.mark.parametrize("switched", [False, True])
 @pytest.mark.parametrize("fault", ["oil=0.5@2", "electrical=0.8@2", "deformation=0.7@2"])
