@@ -139,6 +139,7 @@ def test_an_effect_at_its_least_is_not_seen_by_the_way_it_is_simulated(healthy: 
     assert spring.size > 1e3 * amount_of(spring.effect).low
 
 
+@pytest.mark.long
 def test_forecast_of_a_drive_without_force() -> None:
     drive = replace(campaign(100.0, 8.0), force=None)
     with pytest.raises(UsageProblem, match="--params FILE and --noise N"):

@@ -60,7 +60,7 @@ def test_scatter_is_a_mismatch_unless_it_is_carried() -> None:
     assert diagnosed(None, Varying(gain=True, offset=True)).verdict is Verdict.ADEQUATE
 
 
-@pytest.mark.parametrize("effect", [None, EFFECT])
+@pytest.mark.parametrize("effect", [None, pytest.param(EFFECT, marks=pytest.mark.long)])
 def test_gains_come_out_within_their_errors(effect: str | None) -> None:
     found = diagnosed(effect, GAINS).record_effects
     assert found is not None

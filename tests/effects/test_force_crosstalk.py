@@ -29,6 +29,7 @@ def named(r: Recording) -> tuple[Diagnosis, set[str]]:
     return found, {f.effect.name for f in found.findings}
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("full", [4.0, -2.0])
 def test_it_has_a_name(full: float) -> None:
     """An audit's log of 1.75 N at full duty was said to cavitate, 2 mm of void and all."""

@@ -71,8 +71,7 @@ APART = {  # both directions, which differ
 }  # fmt: skip
 
 
-@pytest.mark.few(1)
-@pytest.mark.parametrize("s_m", [0.0, 2e-5])
+@pytest.mark.parametrize("s_m", [0.0, pytest.param(2e-5, marks=pytest.mark.long)])
 def test_a_step_of_the_control_acts_on_what_is_stretched(s_m: float) -> None:
     """F_y = F_ER z, as in Spencer's and in Dahl's damper, where the control multiplies z. The
     force was to build up over x_d again after each step of the control: up to 14 N of 22 N off,

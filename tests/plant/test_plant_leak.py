@@ -48,6 +48,7 @@ def guessed(features: np.ndarray, labels: np.ndarray, neighbours: int = 15) -> f
     return right / (len(features) - half)
 
 
+@pytest.mark.long
 def test_a_guess_from_the_shape_alone_is_a_guess(plans: list[CasePlan]) -> None:
     features = np.array([shape(p) for p in plans])
     for labels in (
