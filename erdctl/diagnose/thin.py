@@ -4,7 +4,9 @@ What an effect does to the force it does mostly after the motion turns or the co
 tens of milliseconds: a spring stretches, a play runs out, the yield force rises. Every k-th sample
 of a long log would leave none there, and one effect would look like another. So such stretches are
 kept at the full rate, if there are many a part of them, and between them every k-th sample, as far
-apart as the motion allows. Time runs on: states with a long memory see all of it.
+apart as the motion allows. A motion that is fast all along, as where a wheel hops, allows hardly
+any: of such records whole stretches are followed, each with the time before it in which a damper
+forgets, and of the rest a few samples. Time runs on: states with a long memory go through it all.
 """
 
 from __future__ import annotations
@@ -24,9 +26,10 @@ Mask = npt.NDArray[np.bool_]
 
 
 def thinned(problem: Problem, most: int) -> Problem:
-    """The problem with about `most` of its samples, more where the motion is fast.
+    """The problem with about `most` of its samples, twice as many where the motion is fast.
 
-    Samples in a stretch after a turn or a step that is not kept whole stay without weight.
+    Samples in a stretch after a turn or a step that is not kept whole stay without weight, and so
+    does what lies between stretches of a fast motion.
     """
     s = problem.block.signals
     if len(s) <= most:
@@ -36,12 +39,24 @@ def thinned(problem: Problem, most: int) -> Problem:
     apart = -(-len(s) // (most // 2))
     every = np.array([min(apart, _apart(s, r)) for r in range(len(s.starts) - 1)])[record]
     even = row % every == 0
-    whole, left = _stretches(problem, record, most // 2)
     fine = max(1, int(thresholds.FINE_STEP / s.typical_step))
-    left &= every > fine  # a motion that is fast is as dense everywhere
     at = _at_duty_steps(s, record)
     at[_turns(problem, record)] = True  # a channel that averages has each of them for long
-    rows = np.flatnonzero(even | (whole & (row % fine == 0)) | at)
+
+    def dense(most: int) -> tuple[Mask, Mask]:
+        """What is taken where so many samples may be next to turns and steps, and what is left."""
+        whole, left = _stretches(problem, record, most)
+        left &= every > fine  # a motion that is fast is as dense everywhere
+        return even | (whole & (row % fine == 0)) | at, left
+
+    taken, left = dense(most // 2)
+    if np.count_nonzero(taken) > thresholds.TOO_MANY * most:
+        taken, _ = dense(2 * len(s))  # all turns, and all steps
+        followed, beside = _followed(problem, record, _share(np.bincount(record, taken), most))
+        coarse = _even(len(s) // apart, len(s), np.random.default_rng(0)) | (row == 0)
+        taken = (taken & (followed | beside)) | coarse
+        left = ~followed
+    rows = np.flatnonzero(taken)
     starts = np.searchsorted(rows, s.starts)
     weight = np.where(left, 0.0, problem.block.weight)[rows]
     recording = problem.recording.take(rows, starts, problem.recording.names)
@@ -75,13 +90,52 @@ def _stretches(problem: Problem, record: Index, most: int) -> tuple[Mask, Mask]:
         run = _runs(e[0], before + after, max(1, round(thresholds.RUN / step)))
         runs = int(run[-1]) + 1 if len(run) else 0
         count = int(np.ceil(share * runs))
-        # One of each of so many equal groups: even cover, but in step with no periodic test.
-        kept = np.zeros(runs, dtype=np.bool_)
-        kept[((np.arange(count) + rng.random(count)) * runs / max(count, 1)).astype(int)] = 1
-        kept = kept[run] | (share == 1.0)
+        kept = _even(count, runs, rng)[run] | (share == 1.0)
         whole |= marked(e[:, kept])
         left |= marked(e[:, ~kept])
     return whole, left
+
+
+def _followed(problem: Problem, record: Index, share: Array) -> tuple[Mask, Mask]:
+    """(n,) what lies in a stretch that is followed, a share (r,) of each record, and next to one.
+
+    What acts there may have begun before, and a channel that averages goes beyond.
+    Some of each group that has weight: without it could not be left out.
+    """
+    s, rng = problem.block.signals, np.random.default_rng(0)
+    first = np.flatnonzero(np.diff(problem.stretch, prepend=-1))
+    told = np.bincount(problem.stretch, problem.block.weight) > 0.0
+    kept = np.zeros(len(first), dtype=np.bool_)
+    for group in range(problem.count):
+        own = np.flatnonzero(told & (problem.group[first] == group))
+        if len(own):
+            count = max(1, round(float(share[record[first[own]]].sum())))
+            kept[own[_even(count, len(own), rng)]] = True
+    begun, ended = first[kept], np.append(first[1:], len(s))[kept] - 1
+    lead, on = (int(np.ceil(t / s.typical_step)) for t in (thresholds.FORGOTTEN, thresholds.AFTER))
+    return kept[problem.stretch], _marked(s, record, begun - lead, ended + on, begun)
+
+
+def _share(counts: Index, most: int) -> Array:
+    """(r,) part of each record of some samples (r,) that makes `most` in all: as many of each, or
+    all where there are fewer.
+
+    Check: of 8, 2 and 20 samples 14 are 0.75, 1.0 and 0.3 of them: 6, 2 and 6.
+    >>> _share(np.array([8, 2, 20]), 14).tolist()
+    [0.75, 1.0, 0.3]
+    """
+    fewest = np.sort(counts)
+    left = most - np.concatenate([[0.0], np.cumsum(fewest[:-1])])
+    each = left / np.arange(len(counts), 0, -1)  # if all before have what they have
+    cut = each[np.argmax(fewest >= each)]
+    return np.asarray(np.minimum(1.0, cut / np.maximum(counts, 1.0)))
+
+
+def _even(count: int, of: int, rng: np.random.Generator) -> Mask:
+    """(of,) one of each of so many equal groups: even cover, but in step with no periodic test."""
+    kept = np.zeros(of, dtype=np.bool_)
+    kept[((np.arange(count) + rng.random(count)) * of / max(count, 1)).astype(int)] = True
+    return kept
 
 
 def _runs(at: Index, reach: int, most: int) -> Index:
