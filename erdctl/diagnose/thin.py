@@ -26,7 +26,7 @@ Mask = npt.NDArray[np.bool_]
 
 
 def thinned(problem: Problem, most: int) -> Problem:
-    """The problem with about `most` of its samples, twice as many where the motion is fast.
+    """The problem with about `most` of its samples, up to four times as many of a fast motion.
 
     Samples in a stretch after a turn or a step that is not kept whole stay without weight, and so
     does what lies between stretches of a fast motion.
@@ -52,7 +52,8 @@ def thinned(problem: Problem, most: int) -> Problem:
     taken, left = dense(most // 2)
     if np.count_nonzero(taken) > thresholds.TOO_MANY * most:
         taken, _ = dense(2 * len(s))  # all turns, and all steps
-        followed, beside = _followed(problem, record, _share(np.bincount(record, taken), most))
+        share = _share(np.bincount(record, taken), round(thresholds.IN_STRETCHES * most))
+        followed, beside = _followed(problem, record, share)
         coarse = _even(len(s) // apart, len(s), np.random.default_rng(0)) | (row == 0)
         taken = (taken & (followed | beside)) | coarse
         left = ~followed

@@ -305,10 +305,10 @@ SEARCH_SAMPLES = 12_000
 NEARLY_AS_MUCH, SIMPLER = 0.8, 2
 
 # Of it: how many times as many samples a fast motion may have before stretches of it are left out,
-# and the time [s] before each of the others in which a damper forgets.
+# how many the others have, and the time [s] before each of these in which a damper forgets.
 # Decides: from which size on an effect is found in a long log of a fast motion.
 # Origin: budget; time constants of springs and yield forces, 5 to 50 ms, and four times as long.
-TOO_MANY, FORGOTTEN = 2.0, 0.2
+TOO_MANY, IN_STRETCHES, FORGOTTEN = 4.0, 2.0, 0.2
 
 # Of the thinned log: the longest step [s] next to a turn of the motion or a step of the duty, and
 # the time [s] before and after them in which it counts; and that of several whose times overlap,

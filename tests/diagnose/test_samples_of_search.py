@@ -114,7 +114,7 @@ def hopping(seconds: float, hop: float) -> Problem:
 def test_where_the_motion_turns_all_the_time_nothing_is_left_out() -> None:
     """All of it was next to a turn that was not kept, and the search had not one sample."""
     whole = hopping(20.0, 2.0)
-    few = thinned(whole, 9_000)
+    few = thinned(whole, MOST)
     assert np.array_equal(few.block.weight, whole.block.weight)
 
 
@@ -180,8 +180,8 @@ def test_of_a_motion_that_is_fast_for_long_whole_stretches_are_followed() -> Non
     few = thinned(whole, MOST)
     s, has_weight = few.block.signals, few.block.weight > 0
     assert len(whole.recording) == 48_000
-    assert len(few.recording) < 2.2 * MOST
-    assert 0.75 * MOST < np.count_nonzero(has_weight) < 1.35 * MOST
+    assert len(few.recording) < 3.5 * MOST
+    assert 1.7 * MOST < np.count_nonzero(has_weight) < 2.3 * MOST
     assert np.all(thinned(whole, 1_000).weight_of > 0.0)  # nothing left out in turn is empty
     own = np.unique(few.stretch[has_weight])
     assert np.array_equal(np.bincount(few.stretch)[own], np.bincount(few.stretch[has_weight])[own])
@@ -198,7 +198,7 @@ def test_of_a_stretch_that_is_followed_all_turns_are() -> None:
     x, v = (np.tile(c, 4) for c in (np.sin(speed * t) * 0.06 / speed, 0.06 * np.cos(speed * t)))
     force = 200 * x + 60 * v + 10.0 * np.tanh(v / 3e-3)
     log = recording(v, x=x, duty=0.1, force=force, t=np.tile(t, 4), starts=np.arange(5) * len(t))
-    few = thinned(prepare(log), MOST)
+    few = thinned(prepare(log), MOST // 2)
     s, has_weight = few.block.signals, few.block.weight > 0
     near = has_weight & (s.since_reversal < 0.8 * thresholds.AFTER)
     near[s.starts[:-1]] = False
