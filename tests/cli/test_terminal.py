@@ -46,6 +46,7 @@ def test_a_dumb_terminal_and_a_pipe_get_the_same_plain_text() -> None:
     assert "█" not in dumb
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize(
     ("words", "stages"),
     [

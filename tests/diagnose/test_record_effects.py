@@ -78,6 +78,7 @@ def test_an_effect_keeps_its_name() -> None:
     assert [f.effect.name for f in found.findings] == [EFFECT]
 
 
+@pytest.mark.long
 def test_the_document_tells_shared_from_per_record() -> None:
     found = diagnosed(EFFECT, Varying(gain=True, offset=True))
     document = to_json(found)

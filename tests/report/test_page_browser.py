@@ -19,7 +19,7 @@ SECONDS = 2.0  # within which a page must be there
 READY = "performance.getEntriesByType('navigation')[0].loadEventEnd"
 
 
-@pytest.mark.few(3)
+@pytest.mark.few(2)
 @pytest.mark.parametrize("name", NAMES)
 def test_opens_by_itself_and_at_once(window: Callable[..., Opened], made: Made, name: str) -> None:
     found = window(name)
@@ -36,7 +36,7 @@ def test_opens_by_itself_and_at_once(window: Callable[..., Opened], made: Made, 
     assert 0 < min(ready) < 1e3 * SECONDS
 
 
-@pytest.mark.few(4)
+@pytest.mark.few(2)
 @pytest.mark.parametrize("size", [(1280, 800), (360, 780)], ids=["desk", "narrow"])
 @pytest.mark.parametrize("name", NAMES)
 def test_the_first_screen_answers(

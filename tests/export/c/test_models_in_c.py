@@ -148,6 +148,7 @@ def hostile(seed: int, n: int = 1500) -> np.ndarray:
     return rows
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize("seed", range(0, MODELS, 10))
 @both
 def test_sanitizers_find_nothing_whatever_comes_in(seed: int, options: tuple[str, ...]) -> None:

@@ -96,6 +96,7 @@ HIDING = ("cavitation", "backlash", "mount_compliance", "fluid_compressibility",
           "yield_hysteresis", "preyield_viscosity", "preyield_elasticity")  # fmt: skip
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("name", HIDING)
 def test_to_know_an_effect_that_hides_the_yield_force_is_no_worse(
     name: str, tmp_path: Path
