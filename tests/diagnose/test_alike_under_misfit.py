@@ -23,7 +23,6 @@ def found(ripple: float) -> Diagnosis:
     return diagnose(log, [get(n) for n in PAIR], limits=False, learning=False)
 
 
-@pytest.mark.few(1)
 @pytest.mark.parametrize(("ripple", "alike"), [(0.0, ()), (3.0, ("gas_preload",))])
 def test_a_richer_form_settles_nothing_where_more_than_it_says_is_left(
     ripple: float, alike: tuple[str, ...]

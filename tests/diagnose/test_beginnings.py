@@ -32,7 +32,6 @@ def test_a_drag_that_is_gone_within_the_first_moments_is_said() -> None:
     assert float(found[1]) > 2.0 * float(found[2])
 
 
-@pytest.mark.long
 def test_a_record_that_begins_as_it_goes_on_says_nothing_of_it() -> None:
     r = campaign()
     assert r.force is not None

@@ -50,6 +50,5 @@ def test_it_is_never_adequate(error: str) -> None:
     assert told["compression.c_vis"].stderr is not None
 
 
-@pytest.mark.long
 def test_the_same_log_unclipped_is() -> None:
     assert diagnosed(sound()).verdict is Verdict.ADEQUATE

@@ -70,7 +70,6 @@ def test_hum_is_a_line_of_the_force_channel(line: float) -> None:
     assert found.lack_of_fit.hum.share == pytest.approx(2.6**2 / (1 + 2.6**2), abs=0.05)
 
 
-@pytest.mark.long
 def test_no_hum_no_word() -> None:
     found = diagnose(
         noisy(campaign(), seed=8, correlation=0.9), few("coulomb_friction"), limits=False

@@ -16,7 +16,7 @@ from erdctl.diagnose.wording import remaining_text
 from erdctl.effects import get
 
 
-@pytest.mark.parametrize("ripple", [pytest.param(0.0, marks=pytest.mark.long), 0.3])
+@pytest.mark.parametrize("ripple", [0.0, 0.3])
 def test_a_small_rest_that_motion_predicts_is_not_called_noise(ripple: float) -> None:
     """Of LuGre's damper 4.1 N were left beside a noise of 4.7 N, and all of it was said to be noise
     "as far as these data tell"."""

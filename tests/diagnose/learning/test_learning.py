@@ -94,7 +94,6 @@ def test_what_it_writes_is_simulated_and_right_where_it_was_not_fitted(warmed: D
     assert errors[1] < 0.1 * errors[0]
 
 
-@pytest.mark.long
 def test_where_nothing_is_left_nothing_is_learned() -> None:
     r = noisy(campaign(100.0, 8.0), seed=32)
     assert found(r).learned is None

@@ -61,7 +61,6 @@ def test_what_happens_once_is_a_misfit() -> None:
     assert found(r, burst) is Verdict.ADEQUATE
 
 
-@pytest.mark.long
 def test_noise_of_one_record_is_noise() -> None:
     r = campaign(8)
     t = r.t[r.slices[AT]]
