@@ -98,6 +98,7 @@ class Injection:
         self.lever = (
             1.0 if best.record_effects is None else best.record_effects.along(signals.starts)[0]
         )
+        self.steps = -1  # below what is as large as the residual; then where the last one was seen
 
     def least(self, effect: Effect) -> Detectable:
         """The smallest size that would have been seen: in the middle one of some shapes."""
@@ -203,9 +204,9 @@ class Injection:
                 self.seen(best.cross_validated + sign * times * alone, more) for sign in (1.0, -1.0)
             )
 
-        guess = _rms(best.cross_validated, weight) / max(_rms(alone, weight), 1e-300)
-        times = thresholds.SIZE_SURE * _least(seen, guess)
-        return _Added(times, _rms(added, weight), size)
+        alike = _rms(best.cross_validated, weight) / max(_rms(alone, weight), 1e-300)
+        least, self.steps = _least(seen, alike, self.steps)
+        return _Added(thresholds.SIZE_SURE * least, _rms(added, weight), size)
 
     def seen(self, without: Array, more: Hypothesis) -> bool:
         """Whether the search would take a hypothesis for better than one with such a residual."""
@@ -228,22 +229,28 @@ class _Added:
     beyond: float
 
 
-def _least(seen: Callable[[float], bool], guess: float) -> float:
-    """The smallest factor that is seen, from a guess on; infinite if none is."""
-    step = log(thresholds.SIZE_STEP)
-    low = high = log(guess) - step
-    while not seen(exp(high)):
-        low, high = high, high + step
-        if high > log(guess) + thresholds.SIZE_STEPS * step:
-            return inf
-    while low == high or seen(exp(low)):
-        low, high = low - step, low
-        if low < log(guess) - thresholds.SIZE_STEPS * step:
-            return 0.0
-    while high - low > thresholds.SIZE_CLOSE / 2:
+def _least(seen: Callable[[float], bool], guess: float, first: int) -> tuple[float, int]:
+    """The smallest factor that is seen, infinite if none is; and how many steps from a guess.
+
+    first : steps from the guess at which the search begins; what it finds does not depend on it
+    """
+    base, most, k = thresholds.SIZE_STEP, thresholds.SIZE_STEPS, first
+    if seen(guess * base**k):
+        while seen(guess * base ** (k - 1)):
+            k -= 1
+            if k <= -most:
+                return 0.0, first
+    else:
+        k += 1
+        while not seen(guess * base**k):
+            k += 1
+            if k > most:
+                return inf, first
+    low, high = k - 1.0, float(k)
+    while (high - low) * log(base) > thresholds.SIZE_CLOSE / 2:
         middle = 0.5 * (low + high)
-        low, high = (low, middle) if seen(exp(middle)) else (middle, high)
-    return exp(high)
+        low, high = (low, middle) if seen(guess * base**middle) else (middle, high)
+    return guess * base**high, k
 
 
 def _following(here: tuple[float, float], last: tuple[float, float] | None) -> float:

@@ -74,12 +74,12 @@ class Profile:
         apart = np.diff(self.t, prepend=-np.inf) > ROUNDED * self.step
         between = self.t[apart]
         self.edges = 0.5 * (between[1:] + between[:-1])
-        # Sums of all samples from some of them on, so that one onset costs what lies in its ramp.
+        # Sums up to some samples and from them on: an onset costs what lies near it.
         self.marks = np.unique(np.linspace(0, len(self.t), BLOCKS + 1).astype(np.intp))
-        self.after = np.zeros((len(self.marks), len(self.X), len(self.X)))
-        for k in range(len(self.marks) - 2, -1, -1):
-            part = self.X[:, self.marks[k] : self.marks[k + 1]]
-            self.after[k] = self.after[k + 1] + part @ part.T
+        blocks = np.array([self._moments(a, b) for a, b in pairwise(self.marks.tolist())])
+        none = np.zeros((1, *blocks.shape[1:]))
+        self.before = np.cumsum(np.concatenate([none, blocks]), axis=0)
+        self.after = np.cumsum(np.concatenate([none, blocks[::-1]])[:, 0], axis=0)[::-1]
         self.total = self.after[0, : self.q, : self.q]
         scale = np.sqrt(np.maximum(np.diag(self.total), 0.0))[:-1]
         self.scale = np.where(scale == 0.0, 1.0, scale)
@@ -108,6 +108,11 @@ class Profile:
         alike = noise.innovation * float(spread.sum())
         there = float(spread @ noise.innovations(left, self.starts) ** 2)
         return more * norm / max(alike, there, 1e-300)
+
+    def _moments(self, a: int, b: int) -> Array:
+        """(3, 2 p + 2, 2 p + 2) sums of products of all rows times 1, t and t^2, from a to b."""
+        part, tau = self.X[:, a:b], self.t[a:b] - self.middle
+        return np.array([(part * tau**power) @ part.T for power in range(3)])
 
     def left(self, at: Onset) -> Array:
         """(n,) weighted residual that an onset leaves, all other parameters moved by dp."""
@@ -236,23 +241,18 @@ class Profile:
 
     def _over(self, edges: Array, i: Index, j: Index, sizes: Array) -> Onset:
         """The best of onsets at edges i with ramps that end at edges j."""
-        q, p = self.q, len(self.X)
-        at = np.searchsorted(self.t, edges)
-        moments = np.zeros((3, len(edges) + 1, p, p))
-        for k, (a, b) in enumerate(zip([0, *at], [*at, len(self.t)], strict=True)):
-            part, tau = self.X[:, a:b], self.t[a:b] - self.middle
-            for power in range(3):
-                moments[power, k] = (part * tau**power) @ part.T
-        # (3, edges + 1): before the first edge, before the second, ..., of all.
-        sums = np.cumsum(moments, axis=1)
+        q, at = self.q, np.searchsorted(self.t, edges)
+        mark = np.searchsorted(self.marks, at, side="right") - 1
+        upto = zip(self.marks[mark].tolist(), at.tolist(), strict=True)
+        sums = self.before[mark] + np.array([self._moments(a, b) for a, b in upto])
         t_0, t_r = edges[i] - self.middle, edges[j] - edges[i]
-        ramp = [sums[power, j] - sums[power, i] for power in range(3)]
-        rest = sums[0, -1] - sums[0, j]
         u, v = t_0[:, None, None], np.where(t_r > 0.0, t_r, 1.0)[:, None, None]
-        first = (ramp[1] - u * ramp[0]) / v + rest
-        second = (ramp[2] - 2.0 * u * ramp[1] + u * u * ramp[0]) / v**2 + rest
-        TA, AA = first[:, :q, q:], second[:, q:, q:]
-        TA = TA + np.swapaxes(TA, 1, 2)
+        ta, aa = sums[:, :2, :q, q:], sums[:, :, q:, q:]
+        in_ta, in_aa = ta[j] - ta[i], aa[j] - aa[i]
+        TA = (in_ta[:, 1] - u * in_ta[:, 0]) / v + self.after[0, :q, q:] - ta[j, 0]
+        AA = (in_aa[:, 2] - 2.0 * u * in_aa[:, 1] + u * u * in_aa[:, 0]) / v**2
+        AA += self.after[0, q:, q:] - aa[j, 0]
+        TA += np.swapaxes(TA, 1, 2).copy()
         size, least = self._over_sizes(TA, AA, sizes)
         k = int(np.argmin(least))
         return Onset(1.0 - float(size[k]), float(edges[i[k]]), float(t_r[k]), float(least[k]))

@@ -24,7 +24,7 @@ FEW = ("coulomb_friction", "preyield_viscosity", "time_skew", "mount_compliance"
 
 def rubbing() -> Recording:
     """Without control steps, so that there are parameters that cannot be identified."""
-    r = campaign(100.0, 6.0)
+    r = campaign(50.0, 6.0)
     r = noisy(r.select([i for i, n in enumerate(r.names) if "Hz" in n]), seed=4)
     assert r.force is not None
     return replace(r, force=r.force + 2.0 * np.sign(r.xdot))

@@ -34,6 +34,7 @@ from places import FIXTURES, ROOT, SHARED
 from typer.testing import CliRunner
 
 from erdctl.cli.app import COMMANDS, build
+from erdctl.effects import catalogue
 
 SHELL = re.compile(r"[|<>$;&*]|--install-completion")  # a shell's work
 APP = build()
@@ -56,10 +57,10 @@ def parse(command: str) -> None:
 
 
 def is_long(command: str) -> bool:
-    """`prove`, a cluster, and a search of the whole catalogue in a real recording, whose names and
-    errors tests/diagnose/test_real_data.py holds."""
-    searched = command.startswith("erdctl diagnose ../shared")
-    return command.startswith("erdctl prove") or "--cluster" in command or searched
+    """`prove`, a cluster, a build of an FMU, which tests/export runs, and a search of the whole
+    catalogue in a real recording, whose names and errors tests/diagnose/test_real_data.py holds."""
+    begins = command.startswith(("erdctl prove", "erdctl diagnose ../shared"))
+    return begins or "--cluster" in command or command.endswith(".fmu")
 
 
 def check(command: str, work: Path) -> str:
@@ -128,11 +129,19 @@ def test_readme_and_proof(block: Block, tmp_path: Path) -> None:
         assert missing_lines(block.output, output) == []
 
 
+@pytest.mark.long
+def test_the_tutorial_in_full(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each log searched for the whole catalogue: none of these effects explains what is learned."""
+    monkeypatch.setattr("doc_snippets.IN_FULL", ("",))
+    test_the_tutorial(tmp_path)
+
+
 def test_the_tutorial(tmp_path: Path) -> None:
     """In one go, as a reader does; later steps use what earlier ones wrote."""
     work = workplace(tmp_path)
     found = blocks(TUTORIAL)
     assert len(found) >= 6
+    assert f"none of the {len(catalogue())} effects tried" in TUTORIAL.read_text()
     variables = ""
     for block in found:
         skip_unless_at_hand(block)
@@ -178,5 +187,6 @@ def test_numbers_are_compared_to_their_last_digits() -> None:
     assert not alike("all 0.0072", "all 0.0092")
     assert not alike("records 24", "records 25")
     assert not alike("all 0.0072", "one 0.0072")
+    assert alike("none of the 42 effects tried, 3 s", "none of the 2 effects tried, 3 s")
     assert missing_lines("a 1.0\nb 2.0", "x\na 1.0\ny\nb 2.1\n") == []
     assert missing_lines("a 1.0\nb 2.0", "b 2.0\na 1.0\n") == ["b 2.0"]

@@ -18,7 +18,7 @@ import pytest
 import text_files
 from fuzz_harness import Finding, Trial, Worker, attempt, run, table, trials
 
-SHORT, LONG = 120, 10_000
+SHORT, LONG = 80, 10_000
 SEED = 20_260
 Outcome = tuple[dict[str, fuzz_harness.Row], list[Finding]]
 
