@@ -10,7 +10,14 @@ from rig import TRUTH, campaign, noisy
 
 from erdctl.core.errors import UsageProblem
 from erdctl.core.recording import Array, Recording
-from erdctl.diagnose.detectable import ABSORBED, TAKEN, Detectable, Injection, amount_of
+from erdctl.diagnose.detectable import (
+    ABSORBED,
+    TAKEN,
+    Detectable,
+    Injection,
+    _least,
+    amount_of,
+)
 from erdctl.diagnose.diagnosis import Diagnosis, diagnose
 from erdctl.diagnose.forecast import forecast
 from erdctl.diagnose.problem import prepare
@@ -157,3 +164,18 @@ def test_forecast_of_a_drive_without_force() -> None:
         assert d.beyond is not None
         assert measured is not None
         assert abs(np.log(d.beyond / measured)) < np.log(2.0), d.effect.name
+
+
+@pytest.mark.parametrize("least", [0.013, 0.9, 1.0, 1.1, 700.0])
+def test_the_least_size_does_not_depend_on_where_it_is_sought_from(least: float) -> None:
+    found = [_least(lambda size: size >= least, 1.0, first) for first in (-9, -1, 0, 4, 10)]
+    assert len(set(found)) == 1
+    size, steps = found[0]
+    assert least <= size < 1.06 * least
+    assert 2.0 ** (steps - 1) < least <= 2.0**steps
+
+
+@pytest.mark.parametrize("first", [-9, -1, 10])
+def test_what_is_never_seen_and_what_always_is(first: int) -> None:
+    assert _least(lambda size: False, 1.0, first) == (np.inf, first)
+    assert _least(lambda size: True, 1.0, first) == (0.0, first)
