@@ -74,12 +74,10 @@ class Profile:
         apart = np.diff(self.t, prepend=-np.inf) > ROUNDED * self.step
         between = self.t[apart]
         self.edges = 0.5 * (between[1:] + between[:-1])
-        # Sums up to some samples and from them on: an onset costs what lies near it.
+        # Sums of all samples from some of them on, so that one onset costs what lies in its ramp.
         self.marks = np.unique(np.linspace(0, len(self.t), BLOCKS + 1).astype(np.intp))
-        blocks = np.array([self._moments(a, b) for a, b in pairwise(self.marks.tolist())])
-        none = np.zeros((1, *blocks.shape[1:]))
-        self.before = np.cumsum(np.concatenate([none, blocks]), axis=0)
-        self.after = np.cumsum(np.concatenate([none, blocks[::-1]])[:, 0], axis=0)[::-1]
+        before = self._up_to_marks(powers=1)[:, 0]
+        self.after = before[-1] - before
         self.total = self.after[0, : self.q, : self.q]
         scale = np.sqrt(np.maximum(np.diag(self.total), 0.0))[:-1]
         self.scale = np.where(scale == 0.0, 1.0, scale)
@@ -89,7 +87,8 @@ class Profile:
         """The onset that leaves least; a ramp only where it is significantly better than a step."""
         if len(self.edges) == 0 or self.square <= 0.0:
             return Onset(1.0, float(self.t[0]), 0.0, self.square)
-        ramp, step = self._search(ramps=True), self._search(ramps=False)
+        before = self._up_to_marks(powers=3)  # as large as the rows: not kept
+        ramp, step = self._search(before, ramps=True), self._search(before, ramps=False)
         return ramp if self.ratio(step, ramp) > A_RAMP else step
 
     def ratio(self, other: Onset, best: Onset) -> float:
@@ -109,17 +108,21 @@ class Profile:
         there = float(spread @ noise.innovations(left, self.starts) ** 2)
         return more * norm / max(alike, there, 1e-300)
 
-    def _moments(self, a: int, b: int) -> Array:
-        """(3, 2 p + 2, 2 p + 2) sums of products of all rows times 1, t and t^2, from a to b."""
+    def _up_to_marks(self, powers: int) -> Array:
+        """(marks, powers, 2 p + 2, 2 p + 2) `_moments` of all samples before each mark."""
+        first, blocks = self._moments(0, 0, powers), pairwise(self.marks.tolist())
+        return np.cumsum([first, *(self._moments(a, b, powers) for a, b in blocks)], axis=0)
+
+    def _moments(self, a: int, b: int, powers: int) -> Array:
+        """Sums of products of all rows times 1, t and t^2, or the first of these, from a to b."""
         part, tau = self.X[:, a:b], self.t[a:b] - self.middle
-        return np.array([(part * tau**power) @ part.T for power in range(3)])
+        return np.array([(part * tau**power) @ part.T for power in range(powers)])
 
     def left(self, at: Onset) -> Array:
         """(n,) weighted residual that an onset leaves, all other parameters moved by dp."""
         d = 1.0 - at.f
         TA, AA = self._sums(at.t_0, at.t_r)
-        move = self._moves(self.total - d * (TA + TA.T) + d * d * AA)
-        along = np.append(-move, 1.0)
+        along = np.append(-self._moves(self.total - d * (TA + TA.T) + d * d * AA), 1.0)
         w = d * onset_weight(self.t, at.t_0, at.t_r, self.step)
         out = np.empty(len(self.t))
         out[self.order] = along @ self.X[: self.q] - w * (along @ self.X[self.q :])
@@ -212,12 +215,11 @@ class Profile:
         sizes, least = self._over_sizes((TA + TA.T)[None], AA[None], tried)
         return Onset(1.0 - float(sizes[0]), t_0, t_r, float(least[0]))
 
-    def _search(self, *, ramps: bool) -> Onset:
+    def _search(self, before: Array, *, ramps: bool) -> Onset:
         """The best of ever finer grids."""
         edges = _spread(self.edges, EDGES)
         i, j = _pairs(len(edges), RAMPS if ramps else (0,))
-        sizes = np.array(LOSSES)
-        best = self._over(edges, i, j, sizes)
+        best = self._over(before, edges, i, j, np.array(LOSSES))
         width = float(edges[min(1, len(edges) - 1)] - edges[0]) if len(edges) > 1 else 0.0
         width = max(width, float(np.diff(edges).max(initial=0.0)))
         # A ramp of the first grid is known to the next one that was tried.
@@ -233,18 +235,18 @@ class Profile:
             i, j = _pairs(len(edges), range(len(edges)) if ramps else (0,))
             f = 1.0 - best.f
             sizes = np.unique(np.clip(f * np.array([0.7, 0.85, 1.0, 1.15, 1.4]), 1e-3, 1.0))
-            best = min(best, self._over(edges, i, j, sizes), key=lambda o: o.square)
+            best = min(best, self._over(before, edges, i, j, sizes), key=lambda o: o.square)
             if len(window) <= (len(ends)) * FINER:
                 break
             width, wide = 3.0 * width / FINER, 3.0 * wide / FINER
         return best
 
-    def _over(self, edges: Array, i: Index, j: Index, sizes: Array) -> Onset:
+    def _over(self, before: Array, edges: Array, i: Index, j: Index, sizes: Array) -> Onset:
         """The best of onsets at edges i with ramps that end at edges j."""
         q, at = self.q, np.searchsorted(self.t, edges)
         mark = np.searchsorted(self.marks, at, side="right") - 1
         upto = zip(self.marks[mark].tolist(), at.tolist(), strict=True)
-        sums = self.before[mark] + np.array([self._moments(a, b) for a, b in upto])
+        sums = before[mark] + np.array([self._moments(a, b, 3) for a, b in upto])
         t_0, t_r = edges[i] - self.middle, edges[j] - edges[i]
         u, v = t_0[:, None, None], np.where(t_r > 0.0, t_r, 1.0)[:, None, None]
         ta, aa = sums[:, :2, :q, q:], sums[:, :, q:, q:]
@@ -278,9 +280,7 @@ class Profile:
         N, right = self._normal(G)
         whole = G[:, -1, -1]
         least: Array = whole - np.sum(np.linalg.solve(N, right) * right, axis=(1, 2))
-        return np.where(
-            least >= 0.0, least, whole
-        )  # a square below 0 is rounding, and says nothing
+        return np.where(least >= 0.0, least, whole)  # one below 0 is rounding, and says nothing
 
     def _moves(self, G: Array) -> Array:
         """(p,) dp of one Gram matrix."""

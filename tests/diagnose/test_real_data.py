@@ -33,7 +33,7 @@ pytestmark = pytest.mark.real_data
 NAMES = tuple(e.name for e in catalogue())
 MOST, FEW = 20_000, 6_000  # samples of a log for a diagnosis; the prediction is of all samples
 EFFECTS = 3  # at most; the five of the command predict better still, and take twice as long
-# Others that a dry friction damper might have, beside the two that it has; the catalogue by hand.
+# The two that it has, and others that a dry friction damper might have; the catalogue by hand.
 SOME = (
     "backlash", "mount_compliance", "coulomb_friction", "presliding_friction", "force_smoothing",
     "preyield_viscosity", "quadratic_damping",
