@@ -10,7 +10,7 @@ from functools import partial
 
 from erdctl.bench.excitation import Survey
 from erdctl.bench.identifiability import untestable
-from erdctl.bench.rig import Rig, look
+from erdctl.bench.rig import Rig, RigFault, look
 from erdctl.core.cluster import Cluster
 from erdctl.core.progress import Progress, part_of
 from erdctl.core.recording import Recording
@@ -28,6 +28,7 @@ from erdctl.diagnose.learning.stage import Learned, learned
 from erdctl.diagnose.on_all_samples import on_all, refit
 from erdctl.diagnose.problem import Problem, check_enough, prepare, with_given
 from erdctl.diagnose.record_effects import NONE_VARY, RecordEffects, Varying
+from erdctl.diagnose.residual.ceiling import ceilings
 from erdctl.diagnose.residual.lack_of_fit import LackOfFit
 from erdctl.diagnose.residual.localisation import Region
 from erdctl.diagnose.residual.places import places
@@ -130,6 +131,7 @@ def diagnose(
     cluster: Cluster | None = None,
     progress: Progress = lambda stage, what: None,
     apart: tuple[Unlogged, ...] = (),
+    cut: tuple[RigFault, ...] = (),
     known: Searched | None = None,
 ) -> Diagnosis:
     """Diagnose a recording with a measured force against a catalogue of effects.
@@ -142,15 +144,15 @@ def diagnose(
         that, but for those that stand in for a law
     once : look for a fault that sets in once in all of the log
     jobs, cluster : processes here, or a cluster, that try hypotheses; the results are the same
-    apart : strokes to leave out, as a first diagnosis has found them
+    apart, cut : strokes, and ends of a range, to leave out, as a first diagnosis has found them
     known : the search of one that differed by nothing before it
     """
     again = partial(
         diagnose, recording, candidates, most=most, seed=seed, given=given, free=free,
         accepted=accepted, limits=limits, learning=learning, once=once, jobs=jobs,
-        cluster=cluster, progress=progress,
+        cluster=cluster, progress=progress, cut=cut,
     )  # fmt: skip
-    rig = look(recording).accept(accepted)
+    rig = look(recording).accept(accepted).beside(cut)
     recording = without(rig.usable(), apart)
     problem = prepare(recording, free)
     check_enough(problem)
@@ -207,6 +209,8 @@ def diagnose(
                 unseen = on_unseen(unfitted, base, base)
                 lack_of_fit = lack_of_fit_of(selection.best, seed)
                 fit, record_effects = fit_errors(problem, selection.best, progress, jobs)
+        if ends := ceilings(rig, problem, (selection.base, selection.best), lack_of_fit):
+            return again(apart=apart, cut=ends)
         if not (apart or rig.blocking) and (told := unlogged(selection.best, stays=not fault)):
             return again(apart=told)
         left, more = matters(problem, selection, lack_of_fit), None
@@ -220,8 +224,7 @@ def diagnose(
         untold = cannot_tell_several(recording, selection.named)
     if not left and not selection.named and rig.cut:
         untold = "a channel that stops at a limit"
-    named = selection.best
-    noise = lack_of_fit.noise_rms
+    named, noise = selection.best, lack_of_fit.noise_rms
     if left or rig.blocking or untold or apart:
         verdict = Verdict.UNEXPLAINED
     else:

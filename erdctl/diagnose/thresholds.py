@@ -788,6 +788,23 @@ UNLOGGED_EDGE = 1.5
 # Origin: half way between a force of one direction alone, 0, and a zero, 1, or a little less.
 UNLOGGED_ZERO = 0.4
 
+# Of a force that stays about a level where the model goes on: what it gains over the model, over
+# the square of the noise and as a part of all misfit; part of the samples at most; visits; the
+# largest scatter about it, over the noise; the largest part of what is viscous, and of the rest,
+# that may show in it, with twice its error; how nearly the two may be one.
+# Decides: whether the range of the force channel ends there.
+# Origin: of 80 drawn dampers (seeds 2031000 to 2031079) the clipped one has gains of 1,700 and
+# more, 10 % of the misfit, parts below 0.07, and a scatter below that of the noise; of the others
+# none has both parts below 0.62 with a gain above 50 and so little scatter, of which half is the
+# limit. The others lie between the two, or are judgement.
+CEILING_GAIN, CEILING_SHARE, CEILING_PART, CEILING_VISITS = 200.0, 0.05, 0.5, 6
+CEILING_NOISE, CEILING_SLOPE, CEILING_COND = 1.25, 0.3, 1e6
+
+# Distance below the level [noise] within which a sample is at it where so many follow each other.
+# Decides: what is left out of fits there.
+# Origin: nearly all of what noise makes of the level; three samples as for a limit of the recorder.
+CEILING_NEAR, CEILING_RUN = 3.0, 3
+
 # Of them that the words tell; all are in the document.
 # Origin: what a reader takes in.
 UNLOGGED_SAID = 4

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -72,6 +72,10 @@ class Rig:
             raise UsageProblem(f"no rig check '{unknown[0]}'; there are {', '.join(CODES)}")
         kept = tuple(f for f in self.faults if f.code not in codes)
         return replace(self, faults=kept, accepted=tuple(sorted(codes)))
+
+    def beside(self, faults: Iterable[RigFault]) -> Rig:
+        """With what a model has shown of the rig."""
+        return replace(self, faults=(*self.faults, *faults))
 
     @property
     def blocking(self) -> tuple[RigFault, ...]:
