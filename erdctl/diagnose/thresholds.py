@@ -795,10 +795,10 @@ UNLOGGED_ZERO = 0.4
 # Decides: whether the range of the force channel ends there.
 # Origin: of 80 drawn dampers (seeds 2031000 to 2031079) the clipped one has gains of 1,700 and
 # more, 10 % of the misfit, parts below 0.07, and a scatter below that of the noise; of the others
-# none has both parts below 0.62 with a gain above 50 and so little scatter, of which half is the
-# limit. The others lie between the two, or are judgement.
+# with a gain above 200 and as little scatter the least part is 0.42 (2031066, 1 % of the misfit),
+# and the limit of it is half way between. The other limits lie between the two, or are judgement.
 CEILING_GAIN, CEILING_SHARE, CEILING_PART, CEILING_VISITS = 200.0, 0.05, 0.5, 6
-CEILING_NOISE, CEILING_SLOPE, CEILING_COND = 1.25, 0.3, 1e6
+CEILING_NOISE, CEILING_SLOPE, CEILING_COND = 1.25, 0.25, 1e6
 
 # Distance below the level [noise] within which a sample is at it where so many follow each other.
 # Decides: what is left out of fits there.

@@ -21,9 +21,8 @@ def stopped(above: float, below: float = 0.0, beside: float = 0.0) -> list[Recor
     assert clean.force is not None
     force = clean.force + beside * np.sign(clean.xdot)
     low, high = np.quantile(force, [below, 1.0 - above])
-    return tuple(
-        noisy(replace(clean, force=f), seed=3, rms=0.4) for f in (force, np.clip(force, low, high))
-    )  # type: ignore[return-value]
+    forces = force, np.clip(force, low, high)
+    return [noisy(replace(clean, force=f), seed=3, rms=0.4) for f in forces]
 
 
 def found(r: Recording, accepted: tuple[str, ...] = ()) -> Diagnosis:

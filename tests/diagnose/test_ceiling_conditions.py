@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,13 +21,14 @@ STEPS = np.repeat(RANDOM.uniform(2.0, 6.0, 200), 40)  # N, of the control
 def side(xdot: Array, rest: Array, force: Array) -> _Side:
     """The upper side of a log whose model is the damper's."""
     model = C * xdot + rest
-    problem = SimpleNamespace(
+    problem: Any = SimpleNamespace(
         recording=SimpleNamespace(xdot=xdot),
         block=SimpleNamespace(force=force, weight=np.ones(len(force))),
     )
     values = {"compression.c_vis": C, "release.c_vis": C}
-    left = SimpleNamespace(noise_rms=NOISE, misfit_rms=0.1)
-    return _Side(problem, SimpleNamespace(values=values), model, left, 1.0)  # type: ignore[arg-type]
+    fitted: Any = SimpleNamespace(values=values)
+    left: Any = SimpleNamespace(noise_rms=NOISE, misfit_rms=0.1)
+    return _Side(problem, fitted, model, left, 1.0)
 
 
 def told(xdot: Array, rest: Array, force: Array) -> bool:

@@ -106,7 +106,7 @@ def test_magnetorheological_damper(text: str, plain: float) -> None:
     found = diagnosis("mr_sine.parquet", text)
     names = named(found)
     assert "force_smoothing" in names
-    alike = (fits for fits in found.selection.look_alikes.values())
+    alike = found.selection.look_alikes.values()
     held = [found.selection.best, *(h for fits in alike for _, h in fits)]
     window = next(h.values["force_smoothing.w"] for h in held if "force_smoothing.w" in h.values)
     assert window == pytest.approx(0.1, rel=0.2)
